@@ -113,11 +113,11 @@ def test_six_cams_stand_beside_each_other_between_the_side_plates(settings: dict
     ]
     assert len(spans) == len(made.cams) == 6
     ends = [(float(z), float(z) + made.params.cam_thickness) for z, _ in sorted(spans, key=lambda one: one[0])]
-    inner = case_width(made.params, 6) / 2 - made.params.side_plate
+    inner = case_width(made.params) / 2 - made.params.side_plate
     assert ends[0][0] >= -inner + made.params.cam_gap - 1e-12
     assert ends[-1][1] <= inner - made.params.cam_gap + 1e-12
     assert all(end <= begin for (_, end), (begin, _) in itertools.pairwise(ends))
-    assert made.width >= case_width(made.params, 6) - 1e-12
+    assert made.width >= case_width(made.params) - 1e-12
 
 
 def test_the_head_weighs_what_its_solids_and_the_catalogue_say() -> None:

@@ -1,7 +1,7 @@
 """What carries the tools in a head's case: their carriages, the plate that guides them, screws, rods and springs.
 
-Behind the face is the carriage of opener and side grippers, behind the plate across the case, the partition, that of the
-centre gripper; the sley's block slides on an upright rod. The side grippers turn in their carriage: each ends in a
+Behind the face is the carriage of opener and side grippers, behind the plate across the case, the partition, that of
+the centre gripper; the sley's block slides on an upright rod. The side grippers turn in their carriage: each ends in a
 square bar that is twisted where the carriage goes on from the opened warps, in a nut on the partition.
 """
 
@@ -193,7 +193,7 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     begin = weaver.shape.partition - NUT
     rod = _made("centre-rod", "rod of the centre gripper's carriage", bar(ROD, front - begin))
     yield _at(rod, 1j * (height + ABOVE_CENTRE), begin)
-    yield lugs(weaver, CENTRE_GRASP, front, (-LUG, 1.6 * LUG))
+    yield lugs(weaver, CENTRE_GRASP, front, (-LUG, 1.5 * LUG))
     yield from jaw_springs(weaver, CENTRE_GRASP)
 
 
@@ -230,16 +230,18 @@ def _partition(weaver: Weaver) -> Occurrence:
     """The plate across the case, with the ways of all that passes; lower at the right, where the handler's shaft is."""
     shape, at, by = weaver.shape, pivot(weaver), weaver.grippers
     track = opener_track(weaver)
-    inner = stack_width(weaver.params, len(weaver.cams)) / 2
+    inner = stack_width(weaver.params) / 2
     top = (shape.body + shape.size).imag - sheet(weaver)
     low = shape.levers[track].pin.imag + DRAWBAR + 5 * mm
     split, bottom = at.real - HANDLER_SHAFT, min(at.imag, low) - HANDLER_SHAFT
     sley = shape.levers[SLEY]
     over = sley.pivot.imag + abs(sley.pivot.real - shape.partition) * sley.lift / 2 / sley.arm + 2 * HALF
     beside = station(weaver, SLEY) + weaver.params.cam_thickness / 2 + 0.5 * mm
+    left = [complex(-inner, top), complex(-inner, over), complex(beside, over)]
     corners = [
-        *(complex(split, bottom), complex(inner, bottom), complex(inner, top), complex(-inner, top)),
-        *(complex(-inner, over), complex(beside, over), complex(beside, low), complex(split, low)),
+        *(complex(split, bottom), complex(inner, bottom), complex(inner, top)),
+        *(left if over < top - SUPPORT else [complex(beside, top)]),
+        *(complex(beside, low), complex(split, low)),
     ]
     ways = [*(_around(rod, ROD / 2, round_=True) for rod in _rods(weaver)), _around(at, HANDLER_SHAFT / 2, round_=True)]
     if not weaver.params.with_arms:
@@ -287,7 +289,7 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
 def _sley_rod(weaver: Weaver) -> Iterator[Occurrence]:
     """The rod of the sley's block, from its support on the left side plate to the upper plate, and its spring."""
     tool, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), station(weaver, SLEY)
-    inner = stack_width(weaver.params, len(weaver.cams)) / 2
+    inner = stack_width(weaver.params) / 2
     depth = (tool.corner + tool.size).real + SLEY_BLOCK / 2
     foot = tool.corner.imag - longest(weaver, SLEY)
     top = (weaver.shape.body + weaver.shape.size).imag - sheet(weaver)

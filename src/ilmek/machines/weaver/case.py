@@ -44,15 +44,15 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     thick = sheet(weaver)
     if thick <= 0:
         return
-    shape, number = weaver.shape, len(weaver.cams)
+    shape = weaver.shape
     low, high = shape.body, shape.body + shape.size
     face = _made(FACE, "face of the head with the tools' guides", _face(weaver), thick)
     yield Occurrence(face, (placement(z=low.real),))
-    flat = box(stack_width(weaver.params, number), thick, shape.size.real - thick)
+    flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
     heights = low.imag + thick / 2, high.imag - thick / 2
     across = _made(CROSS_PLATE, "plate across the head", flat, thick)
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
-    wide = case_width(weaver.params, number)
+    wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
     inner = rectangle(wide - 2 * wall, RAIL_AXIS - 2 * wall)
     tube = Prism(Profile(rectangle(wide, RAIL_AXIS), (inner,)), shape.front - high.real)
@@ -95,7 +95,7 @@ def _face(weaver: Weaver) -> Prism:
     guides = apart((*_guides(weaver.tool_bodies), shaft))
     low = complex(min(guide.low.real for guide in guides), min(guide.low.imag for guide in guides))
     high = complex(max(guide.high.real for guide in guides), max(guide.high.imag for guide in guides))
-    half = case_width(params, len(weaver.cams)) / 2
+    half = case_width(params) / 2
     side = max(half, EDGE - low.real, EDGE + high.real)
     bottom = min(shape.body.imag, low.imag - EDGE)
     top = max((shape.body + shape.size).imag, high.imag + EDGE)

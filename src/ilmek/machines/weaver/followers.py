@@ -38,7 +38,7 @@ LEVER_PIN = part_id("lever-pin")
 """Ids of the parts."""
 
 PIN_SHARE, CHEEK_SHARE = 0.4, 0.4
-"""Pin over roller; a fork's cheek over the gap of the cams; assumed by this project, the stress of the fork is checked."""
+"""Pin over roller; a fork's cheek over the gap of the cams; assumed by this project, the fork's stress is checked."""
 
 LEAST_CHEEK = 0.1 * mm
 """Of a fork whose cams have no gap beside them [m]."""
@@ -131,7 +131,7 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
 def guide(weaver: Weaver) -> Occurrence:
     """A plate between the side plates with a slot for each follower."""
     params, half = weaver.params, follower_half(weaver)
-    wide, shape = stack_width(params, len(weaver.cams)), weaver.shape
+    wide, shape = stack_width(params), weaver.shape
     middles = sorted(station(weaver, cam.name) for cam in weaver.cams)
     ends = [(middle - params.cam_thickness / 2, middle + params.cam_thickness / 2) for middle in middles]
     if params.cam_gap < WEB:  # no wall is left between two slots: one window
@@ -159,7 +159,7 @@ def _pin_height(weaver: Weaver, cam: LoadedPlateCam) -> float:
 
 
 def _fork(weaver: Weaver, cam: LoadedPlateCam) -> Part:
-    """Bar and two cheeks about the roller's axis, and what moves the lever, the jaws or the handler at its upper end."""
+    """Bar and two cheeks about the roller's axis; at its upper end what moves the lever, the jaws or the handler."""
     fork, pin = _sizes(weaver)
     radius, thick = weaver.params.roller_radius, cam.thickness
     half, near = follower_half(weaver), radius + PLAY

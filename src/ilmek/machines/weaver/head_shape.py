@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.levers import AXLE, SOLID, Lever, least_arm
+from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, Lever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
@@ -219,7 +219,7 @@ def head_shape(
     largest, radius = max(cam.radius for cam in cams), max(cam.cam.roller_radius for cam in cams)
     line = max(face + CASE + largest, reaching.partition + PARTITION + SOLID)
     cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
-    arm = max(RACK + AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
+    arm = max(RACK + LEVER_AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
     levers = {cam.name: lever for cam in cams if (lever := _lever(reaching, cam, line, arm)) is not None}
     lowest = min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID
     guide = largest + 2 * radius + PLAY + LAP

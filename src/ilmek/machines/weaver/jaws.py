@@ -20,6 +20,7 @@ from ilmek.arrays import FloatArray, RealField
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP
 from ilmek.machines.weaver.opener import STEEL
+from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
 from ilmek.machines.weaver.stations import station
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, part_id, wire_of
@@ -30,7 +31,6 @@ from ilmek.part.shapes import Prism, Turned, bar
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
@@ -168,14 +168,14 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     axle = Part(part_id(f"{name}-axle"), title, "pin or bush", _mm(right - left), bar(AXLE, right - left), STEEL)
     yield Occurrence(axle, (placement(z=-right),))
     hole = (circle(0j, AXLE / 2),)
-    level = Prism(Profile(_tapered(arm, EYE, 0.8 * ROLLER / 2, -1 + 0j), hole), ARM)
+    level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), hole), ARM)
     title = f"roller's arm of the {name} jaws"
     roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", _mm(arm), level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
     for number, rod in enumerate(by.grippers):
         long = rod.imag - HUB / 2 - TIP - by.axle.imag
-        shape = Prism(Profile(_tapered(long, EYE, TIP, 1j), hole), ARM)
+        shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
         part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", _mm(long), shape, STEEL)
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
@@ -193,15 +193,6 @@ _ROLLER_PART = Part(
 
 def _roller() -> Part:
     return _ROLLER_PART
-
-
-def _tapered(length: float, eye: float, tip: float, direction: complex) -> Contour:
-    """The hull of a circle about the origin and of one at a length in a direction [m]."""
-    lean = math.asin(min(max((eye - tip) / length, -1.0), 1.0))
-    wide = math.pi / 2 - lean
-    ends = np.exp(1j * np.linspace(-wide, wide, 13))
-    root = np.exp(1j * np.linspace(wide, 2 * math.pi - wide, 19))
-    return polygon(direction * np.concatenate([length + tip * ends, eye * root]))
 
 
 def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:

@@ -8,7 +8,7 @@ from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.followers import lever_pin
 from ilmek.machines.weaver.head_shape import DRAWBAR
-from ilmek.machines.weaver.levers import AXLE, HALF, OVER, PIN, Lever
+from ilmek.machines.weaver.levers import HALF, LEVER_AXLE, OVER, PIN, Lever
 from ilmek.machines.weaver.stations import cheek, lever_thickness, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import stack_width
@@ -58,7 +58,7 @@ def _section(lever: Lever) -> Profile:
     (near, far), (inner, outer) = lever.slot(lever.arm), lever.slot(lever.ratio * lever.arm)
     outline = strip(np.array([tool * outer, 0j, complex(far)]), HALF)
     slots = _slot(near, far, 1 + 0j), _slot(inner, outer, tool)
-    return Profile(outline, (circle(0j, AXLE / 2), *slots))
+    return Profile(outline, (circle(0j, LEVER_AXLE / 2), *slots))
 
 
 def _slot(near: float, far: float, direction: complex) -> Contour:
@@ -71,20 +71,22 @@ def lever_stress(weaver: Weaver, cam: LoadedPlateCam) -> float:
     sigma = F a / W,  W = t (w³ - d³) / 6 w     t thickness, w width, d axle
     """
     lever, wide = weaver.shape.levers[cam.name], 2 * HALF
-    section = lever_thickness(weaver) * (wide**3 - AXLE**3) / (6 * wide)
+    section = lever_thickness(weaver) * (wide**3 - LEVER_AXLE**3) / (6 * wide)
     return cam.contact_max * lever.arm / section
 
 
 def axles(weaver: Weaver) -> Iterator[Occurrence]:
     """The bell cranks' axle from side plate to side plate, and that of the sley's lever on the left one alone."""
-    inner = stack_width(weaver.params, len(weaver.cams)) / 2
+    inner = stack_width(weaver.params) / 2
     levers = {lever.straight: (track, lever) for track, lever in weaver.shape.levers.items()}
     for straight, (track, lever) in levers.items():
         long = inner + (station(weaver, track) + lever_thickness(weaver) / 2 if straight else inner)
         name, title = (
             ("sley-axle", "axle of the sley's lever") if straight else ("crank-axle", "axle of the bell cranks")
         )
-        part = Part(part_id(name), title, "pin or bush", f"round {_mm(AXLE)}, {_mm(long)}", bar(AXLE, long), STEEL)
+        part = Part(
+            part_id(name), title, "pin or bush", f"round {_mm(LEVER_AXLE)}, {_mm(long)}", bar(LEVER_AXLE, long), STEEL
+        )
         yield Occurrence(part, (placement(-inner, lever.pivot.imag, lever.pivot.real).after(ALONG_WIDTH),))
 
 

@@ -5,6 +5,7 @@ plate to side plate: gap and cam in turn, in the order of the stations, and a ga
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,14 +15,12 @@ from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.selector import selector_of
-from ilmek.machines.weaver.stations import sheet, station
+from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.machines.weaver.widths import case_width
+from ilmek.machines.weaver.widths import BELT, case_width
 from ilmek.part import catalogue
 from ilmek.part.part import Part
-from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Prism, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
@@ -34,8 +33,8 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-SPACER_WALL = 5 * mm
-"""Wall of the rings between the cams [m]; assumed by this project."""
+SPACER_WALL, LEAST_SPACER = 5 * mm, 0.01 * mm
+"""Wall of the rings between the cams, and the length below which none is made [m]; assumed by this project."""
 
 
 def cam_id(track: str) -> str:
@@ -71,7 +70,7 @@ def _deep_groove() -> Iterator[RollingBearing]:
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What stands in the case about the cam shaft: the side plates with its bearings."""
-    params, shape, wide = weaver.params, weaver.shape, case_width(weaver.params, len(weaver.cams))
+    params, shape, wide = weaver.params, weaver.shape, case_width(weaver.params)
     row, plate, flat = bearing_of(weaver), params.side_plate, sheet(weaver)
     if plate > 0:
         middle = shape.body + (shape.size + flat) / 2 - shape.axis
@@ -95,25 +94,34 @@ def _into_gap(weaver: Weaver) -> float:
 
 
 def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """What turns: the shaft, a cam for each track, and a spacer in each gap."""
-    params, wide = weaver.params, case_width(weaver.params, len(weaver.cams))
+    """What turns: the shaft, a cam for each track, and spacers between cams, pulley and bearings."""
+    params, wide = weaver.params, case_width(weaver.params)
     shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
     yield Occurrence(shaft, (placement(z=-wide / 2),))
-    begins = {cam.name: -station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams}
-    for cam in weaver.cams:
-        yield Occurrence(_cam(weaver, cam), (placement(z=begins[cam.name]),))
-    gap, within, low, high = params.cam_gap, _into_gap(weaver), min(begins.values()), max(begins.values())
-    if gap > 0:
-        outer = params.shaft + 2 * SPACER_WALL
+    begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
+    for cam, z in zip(weaver.cams, begins, strict=True):
+        yield Occurrence(_cam(weaver, cam), (placement(z=z),))
+    end = wide / 2 - params.side_plate - _into_gap(weaver)
+    pulley = -belt_station(weaver) - BELT
+    places = [
+        (-end, -end),
+        (pulley, pulley + BELT),
+        *((z, z + params.cam_thickness) for z in sorted(begins)),
+        (end, end),
+    ]
+    yield from _spacers(params.shaft + 2 * SPACER_WALL, places)
 
-        def spacer(name: str, title: str, length: float) -> Part:
-            ring = tube(outer, SPACER_WALL, length)
-            return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
 
-        between = tuple(placement(z=z - gap) for z in begins.values() if z > low)
-        yield Occurrence(spacer("spacer", "spacer of the cams", gap), between)
-        ends = placement(z=high + params.cam_thickness), placement(z=low - gap + within)
-        yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
+def _spacers(outer: float, places: list[tuple[float, float]]) -> Iterator[Occurrence]:
+    """Rings between neighbours along the shaft, a part for each length."""
+    gaps: dict[float, list[float]] = {}
+    for (_, begin), (end, _) in pairwise(places):
+        if end - begin > LEAST_SPACER:
+            gaps.setdefault(round(end - begin, 9), []).append(begin)
+    for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
+        ring, size = tube(outer, SPACER_WALL, length), f"{_round(outer)}, {_mm(length)}"
+        part = Part(part_id(f"spacer-{number}"), "spacer of the cam shaft", "pin or bush", size, ring, STEEL)
+        yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 
 def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
@@ -137,33 +145,6 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         marks=zero_mark(float(np.abs(surface[-1]))),
         notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
     )
-
-
-def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """The motor of the cam shaft with its reducer, upright below the case; that place is assumed by this project."""
-    servo, drive, shape = weaver.drive.servo, weaver.drive, weaver.shape
-    middle, low = shape.axis, shape.body.imag
-    motor = servo.motor if servo else None
-    if servo is not None:
-        geared = catalogue.reducer(part_id("reducer"), "reducer of a head", servo.reducer.ratio, motor)
-        low -= catalogue.length_of(geared)
-        yield Occurrence(geared, (_upright(low, middle.real),))
-    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
-    yield Occurrence(part, (_upright(low, middle.real),))
-    chosen, under = selector_of(weaver.params, weaver.magazine), shape.magazine + shape.magazine_size.real / 2
-    flange = shape.rail + RAIL_AXIS / 2 + chosen.length
-    colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
-    beside = chosen.face / 2
-    two = weaver.magazine.tiers > 1
-    for number, (name, title) in enumerate(colours[: 2 if two else 1]):
-        part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
-        x = (2 * number - 1) * beside if two else 0.0
-        yield Occurrence(part, (placement(x).after(_upright(flange, under.real)),))
-
-
-def _upright(height: float, front: float) -> Placement:
-    """At a height and a distance to the front [m] in the middle of the head, z up."""
-    return placement(0.0, height, front).after(UPRIGHT)
 
 
 def _mm(length: float) -> str:

@@ -68,7 +68,7 @@ class CamResults:
     cam_stack_width = computed(
         "mm",
         "width of the cams on their shaft",
-        lambda it: stack_width(it.params, len(it.cams)),
+        lambda it: stack_width(it.params),
         least=0.0,
     )
 

@@ -1,14 +1,14 @@
 """The return springs of a head: at the tools, so that they take the play out of all that is between tool and cam.
 
 A follower's spring of the rate k and the preload P is at its tool, which moves i times as far, one of n springs of
-k / n i² and P / n i: the same force on the follower by virtual work. Each is the lightest of its rate that is safe at its
-solid length (`elements.springs`), led by a rod. It is shown at its shortest, on the seat that stands.
+k / n i² and P / n i: the same force on the follower by virtual work. Each is the lightest of its rate that is safe at
+its solid length (`elements.springs`), led by a rod. It is shown at its shortest, on the seat that stands.
 """
 
 from functools import lru_cache
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
-from ilmek.elements.springs import WIRES, CompressionSpring, choose_spring
+from ilmek.elements.springs import CompressionSpring, choose_spring
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import SPRING
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
@@ -83,7 +83,7 @@ def spring_of(weaver: Weaver, track: str) -> CompressionSpring | None:
 
 
 def longest(weaver: Weaver, track: str) -> float:
-    """Length of a track's spring while its follower is lowest [m]; where there is none, its travel and as much again."""
+    """Length of a track's spring while its follower is lowest [m]; where there is none, twice its travel."""
     cam, spring = weaver.cam(track), spring_of(weaver, track)
     return 2 * stroke_at(cam) if spring is None else spring.free_length - stroke_at(cam)
 
@@ -114,7 +114,7 @@ def spring_part(weaver: Weaver, track: str) -> Part | None:
     )
 
 
-def stress_share(weaver: Weaver, track: str) -> tuple[float, float] | None:
+def stress_of(weaver: Weaver, track: str) -> tuple[float, float] | None:
     """Stress of a track's spring at its solid length and the allowed one [Pa]; None: there is none."""
     spring = spring_of(weaver, track)
-    return None if spring is None else (spring.solid_stress, WIRES[spring.wire].allowed(spring.wire_diameter))
+    return None if spring is None else (spring.solid_stress, spring.allowed)

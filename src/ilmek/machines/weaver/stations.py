@@ -15,10 +15,11 @@ from ilmek.machines.weaver.motions import (
     SIDE_MOTION,
     SLEY,
 )
-from ilmek.machines.weaver.widths import stack_width
+from ilmek.machines.weaver.widths import BELT, stack_width
 from ilmek.units import mm
 
-ORDER = (SLEY, SIDE_GRASP, SIDE_MOTION, OPENER, CENTRE_MOTION, CENTRE_GRASP, HANDLER)
+ORDER = ((SLEY,), (SIDE_GRASP,), (SIDE_MOTION, OPENER), (CENTRE_MOTION,), (CENTRE_GRASP,), (HANDLER,))
+"""Tracks whose cams may be in each station."""
 
 HALF_SHARE = 0.75
 """Half the depth of a follower over its roller's radius; assumed by this project."""
@@ -29,10 +30,13 @@ FREE = 0.05 * mm
 
 def station(weaver: Weaver, track: str) -> float:
     """The middle of a track's cam along the row [m], 0 in the middle of the head."""
-    params, number = weaver.params, len(weaver.cams)
-    rank = sorted((cam.name for cam in weaver.cams), key=ORDER.index).index(track)
-    left = -stack_width(params, number) / 2
-    return left + (rank + 1) * params.cam_gap + (rank + 0.5) * params.cam_thickness
+    params, rank = weaver.params, next(rank for rank, tracks in enumerate(ORDER) if track in tracks)
+    return -stack_width(params) / 2 + (rank + 1) * params.cam_gap + (rank + 0.5) * params.cam_thickness
+
+
+def belt_station(weaver: Weaver) -> float:
+    """Where the belt begins along the row [m], at the right of the last cam."""
+    return stack_width(weaver.params) / 2 - weaver.params.cam_gap - BELT
 
 
 def lever_thickness(weaver: Weaver) -> float:

@@ -204,8 +204,8 @@ class ToolBodies:
     @property
     def sley_arm(self) -> float:
         """From the middle of the pair to the outer side of the sley's arm, on the weaver's left [m]."""
-        params, number = self.params, 3 if self.params.with_arms else 6
-        cam = stack_width(params, number) / 2 - 2 * params.cam_gap - params.cam_thickness  # the next one beside its own
+        params = self.params
+        cam = stack_width(params) / 2 - 2 * params.cam_gap - params.cam_thickness  # the next one beside its own
         return max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY, cam + params.clearance) + SLEY_ARM
 
     @property

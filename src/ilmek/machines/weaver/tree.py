@@ -13,12 +13,13 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.drive_parts import cam_drive, colour_motors, shaft_pulley
 from ilmek.machines.weaver.followers import follower_bodies, guide
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import jaw_bodies
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
 from ilmek.machines.weaver.magazine_parts import magazine_parts
-from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts
+from ilmek.machines.weaver.parts import cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.turning import turning_bodies
 from ilmek.part import catalogue
@@ -64,7 +65,7 @@ def head_tree(weaver: Weaver) -> Tree:
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
         for stands in case_parts(weaver)
     )
-    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver), *drive_parts(weaver))
+    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver))
     upright, carried = placement(about=(0.0, 0.0, 1.0), angle=turn / 4), carried_parts(weaver)
     tools = (
         replace(body, occurrences=(*body.occurrences, *carried.get(body.id, ())))
@@ -72,8 +73,18 @@ def head_tree(weaver: Weaver) -> Tree:
     )
     return Tree(
         (
-            RigidBody(HEAD, (*case, *stands), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))),
-            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about.after(upright),)),
+            RigidBody(
+                HEAD,
+                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver)),
+                joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)),
+            ),
+            RigidBody(
+                CAM_SHAFT,
+                (*shaft_parts(weaver), shaft_pulley(weaver)),
+                HEAD,
+                Joint(JointKind.PIN),
+                (about.after(upright),),
+            ),
             *follower_bodies(weaver, HEAD),
             *lever_bodies(weaver, HEAD),
             *tools,
