@@ -232,7 +232,7 @@ def _partition(weaver: Weaver) -> Occurrence:
     track = opener_track(weaver)
     inner = stack_width(weaver.params) / 2
     top = (shape.body + shape.size).imag - sheet(weaver)
-    low = shape.levers[track].pin.imag + DRAWBAR + 5 * mm
+    low = shape.levers[track].pin.imag + DRAWBAR + 7 * mm
     split, bottom = at.real - HANDLER_SHAFT, min(at.imag, low) - HANDLER_SHAFT
     sley = shape.levers[SLEY]
     over = sley.pivot.imag + abs(sley.pivot.real - shape.partition) * sley.lift / 2 / sley.arm + 2 * HALF

@@ -31,8 +31,8 @@ GUIDE, PLAY, LAP = 10 * mm, 1 * mm, 4 * mm
 project."""
 
 SHEET, BAR, PARTITION, APART = 8 * mm, 6 * mm, 6 * mm, 1 * mm
-"""Thickness of the face at most, of the carriages' cross bars, of the plate that guides their rods, and the room between
-them [m]; assumed by this project."""
+"""Thickness of the face at most, of the carriages' cross bars, of the plate that guides their rods, and the room
+between them [m]; assumed by this project."""
 
 COLLARS = 23 * mm
 """Room before a carriage for what moves the jaws of its grippers [m]; assumed by this project."""

@@ -34,8 +34,8 @@ from ilmek.records import record
 from ilmek.units import format_quantity, mm
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
-"""Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half the
-width of their tips [m]; assumed by this project, as all sizes here."""
+"""Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
+the width of their tips [m]; assumed by this project, as all sizes here."""
 
 EYE, LUG = 3 * mm, 2.5 * mm
 """Radius of a rocker's eye on its axle, and thickness of the lugs that hold the axle [m]."""
@@ -116,7 +116,7 @@ def rail_of(weaver: Weaver, track: str) -> Rail:
 
 
 def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Occurrence:
-    """Plates on a carriage's front that hold its rocker's axle; front: of the carriage, sides: their right faces [m]."""
+    """Plates on a carriage's front that hold its rocker's axle, by the x of their right faces [m]."""
     axle = rocker(weaver, track).axle
     deep = front - axle.real
     corners = np.array([-EYE - 1j * EYE, deep - 1j * EYE, deep + 1j * EYE, -EYE + 1j * EYE])

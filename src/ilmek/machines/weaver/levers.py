@@ -20,7 +20,7 @@ from ilmek.units import deg, mm
 SWING = 33 * deg
 """Greatest angle of a bell crank from the middle of its stroke; assumed by this project, as all sizes here."""
 
-LEAST_ARM, HALF, PIN, LEVER_AXLE = 12 * mm, 6 * mm, 5 * mm, 8 * mm
+LEAST_ARM, HALF, PIN, LEVER_AXLE = 12 * mm, 7 * mm, 5 * mm, 8 * mm
 """Least arm of a lever, half its width, diameters of its pins and of its axle [m]."""
 
 OVER, SOLID = 6 * mm, 12 * mm
