@@ -14,9 +14,11 @@ from manifold3d import Manifold, Mesh
 
 from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams
 from ilmek.machines.weaver.case import BRACKET, FACE
+from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.parts import cam_id
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
-from ilmek.machines.weaver.tree import HEAD, head_tree
+from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree
 from ilmek.part.contacts import groups
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tree import RigidBody
@@ -78,6 +80,24 @@ def test_no_tool_is_through_another_or_through_the_face(number: int) -> None:
             assert (posed[first] ^ posed[other]).volume() < VOLUME, (first, other, math.degrees(ANGLES[step]))
         for name in names:
             assert (posed[name] ^ face).volume() < VOLUME, (name, math.degrees(ANGLES[step]))
+
+
+@pytest.mark.parametrize("number", range(len(HEADS)))
+def test_each_roller_rides_on_its_cam_over_the_turn(number: int) -> None:
+    """By the outline of the plate, turned, and the axis of the roller, lifted: a radius apart within 0.03 mm."""
+    made = _head(number)
+    tree = head_tree(made)
+    (shaft,) = tree.body(CAM_SHAFT).positions
+    plates = {one.part.id: one.part.shape for one in tree.body(CAM_SHAFT).occurrences}
+    for cam in made.cams:
+        (at,) = tree.body(follower_id(cam.name)).positions
+        axis = shaft.inverse.points(at.origin)
+        outline = plates[cam_id(cam.name)].section.outline.points  # type: ignore[union-attr]
+        points = np.interp(np.arange(0, len(outline), 0.05), np.arange(len(outline) + 1), [*outline, outline[0]])
+        lift = np.interp(ANGLES, cam.angle, cam.motion.s) - cam.motion.s[0]
+        centre = complex(axis[0], axis[1]) * (1 + lift / abs(complex(axis[0], axis[1]))) * np.exp(-1j * ANGLES)
+        gap = np.abs(points - centre[:, None]).min(axis=1) - made.params.roller_radius
+        assert np.abs(gap).max() < 0.03 * mm, cam.name
 
 
 @pytest.mark.parametrize("number", range(len(HEADS)))

@@ -10,8 +10,8 @@ follower is
 The load is what the tool's work takes, i times the force on the tool (virtual work), positive against the lift.
 
 The contact force is N = F / cos(mu), the torque F s'. The spring is the weakest one whose force doubles over the lift
-and that keeps the follower on the cam up to 1.2 times the speed; a groove requires none. Prime circle and forces are
-maxima over samples every 1/8 degree and on both sides of every joint of the motion.
+and that presses the follower on the cam with a force, up to 1.2 times the speed; a groove requires none. Prime circle
+and forces are maxima over samples every 1/8 degree and on both sides of every joint of the motion.
 
 The torque of the shaft is the sum of F s' of all cams. At constant speed its mean over a turn is the torque of brakes
 and loads. Friction is not included.          [derived from the equation of motion of the follower and virtual power]
@@ -180,7 +180,7 @@ def loaded_plate_cam(
     load = np.zeros(angle.shape) if task.load is None else task.load(angle)
     weight = 1 + motion.s / lift
     preload = _preload(task, np.minimum(need, 0.0) * FASTER**2 + load, weight)  # at every speed from 0 on
-    force = need + load + (preload * weight + task.contact_force if task.closure == "spring" else 0.0)
+    force = need + load + preload * weight
     contact = np.abs(force) / np.cos(trace.pressure_angle)
     width = task.thickness
     pressure = line_contact(contact / width, 1 / task.roller_radius + trace.surface_curvature, MODULUS).pressure
@@ -203,7 +203,7 @@ def loaded_plate_cam(
         force=force,
         contact=contact,
         pressure=pressure,
-        lift_off=_lift_off(task, need / speed**2, preload * weight + task.contact_force + load),
+        lift_off=_lift_off(task, need / speed**2, preload * weight + load),
         area=area,
         inertia=polar * width * STEEL.density,
         thickness=width,
@@ -232,8 +232,8 @@ def _convex_radius(trace: CamTrace) -> float:
 
 
 def _preload(task: PlateCamTask, need: FloatArray, weight: FloatArray) -> float:
-    """Preload of the spring whose force doubles over the lift [N]: sup -need / (1 + s / lift); 0 for a groove."""
-    return max(0.0, float(np.max(-need / weight))) if task.closure == "spring" else 0.0
+    """Preload of the spring whose force doubles over the lift [N]: sup (c - need) / (1 + s / lift); 0 for a groove."""
+    return max(0.0, float(np.max((task.contact_force - need) / weight))) if task.closure == "spring" else 0.0
 
 
 def _lift_off(task: PlateCamTask, need: FloatArray, hold: FloatArray) -> float:
@@ -280,18 +280,23 @@ class CamShaftDrive:
 
 
 def drive_for(
-    cams: Sequence[LoadedPlateCam], speed: float, besides: Callable[[FloatArray], FloatArray] | None = None
+    cams: Sequence[LoadedPlateCam],
+    speed: float,
+    besides: Callable[[FloatArray], FloatArray] | None = None,
+    belt: float = 1.0,
 ) -> CamShaftDrive:
     """The drive of a cam shaft with these cams at a speed [rad/s].
 
     besides  torque on the shaft [N m] of what is no cam, at its angles [rad]; default: none
+    belt     ratio of a belt between reducer and shaft; default: the reducer is on it
     """
     angle = np.arange(DRIVE_SAMPLES) * (turn / DRIVE_SAMPLES)
     torque = torque_at(cams, angle)
     if besides is not None:
         torque = torque + besides(angle)
     most, inertia = float(np.max(np.abs(torque))), sum(cam.inertia for cam in cams)
-    cycle = LoadCycle(np.full(DRIVE_SAMPLES, speed), np.zeros(DRIVE_SAMPLES), torque, inertia)
+    turning, still = np.full(DRIVE_SAMPLES, belt * speed), np.zeros(DRIVE_SAMPLES)
+    cycle = LoadCycle(turning, still, torque / belt, inertia / belt**2)
     return CamShaftDrive(
         torque_max=most,
         torque_rms=math.sqrt(float(np.mean(torque**2))),

@@ -169,7 +169,7 @@ def _tool(tool: HeadTool, knot: Cyclogram) -> MovingBody:
     track = knot.track(tool.track)
 
     def displacement(angle: FloatArray) -> ComplexArray:
-        return np.asarray(tool.direction * np.minimum(sample(track, np.mod(angle, turn)).position, tool.limit))
+        return np.asarray(tool.direction * sample(track, np.mod(angle, turn)).position)
 
     return MovingBody(tool.name, (moving(_at_rest(tool), displacement),))
 

@@ -11,7 +11,6 @@ from ilmek.cams.loaded_plate_cam import LoadedPlateCam, PlateCamTask, loaded_pla
 from ilmek.cams.programme import CamProgramme, CamSegment, dwell
 from ilmek.machines.weaver.forces import HeadForces, load_on
 from ilmek.machines.weaver.motions import HANDLER, SLEY
-from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.tool_parts import ToolBodies
 from ilmek.timing.track import Track
 from ilmek.units import turn
@@ -73,13 +72,3 @@ def programme_of(track: Track, ratio: float) -> CamProgramme:
 
 def _still(span: float) -> list[CamSegment]:
     return [dwell(span)] if span > _FIT else []
-
-
-def stack_width(params: WeaverParams, number: int) -> float:
-    """Width of a number of cams on their shaft, with their gaps, between the side plates [m]."""
-    return number * params.cam_thickness + (number + 1) * params.cam_gap
-
-
-def case_width(params: WeaverParams, number: int) -> float:
-    """Width of the case about a number of cams, over the side plates [m]."""
-    return stack_width(params, number) + 2 * params.side_plate

@@ -11,11 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS
-from ilmek.machines.weaver.cams import case_width, stack_width
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import CASE, LOWER_PLATE, RAIL_AXIS, SLEY_HEIGHT, SLEY_TOOL, UPPER_PLATE
+from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, SLEY_HEIGHT, SLEY_TOOL, UPPER_PLATE
 from ilmek.machines.weaver.motions import CENTRE_ARM
-from ilmek.machines.weaver.tool_parts import SLEY_ARM, ToolBodies, part_id
+from ilmek.machines.weaver.stations import sheet
+from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT, SLEY_ARM, ToolBodies, part_id
+from ilmek.machines.weaver.turning import pivot
+from ilmek.machines.weaver.widths import case_width, stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -37,25 +39,20 @@ BRACKET_WALL = 5 * mm
 """Wall of the bracket [m]; assumed by this project."""
 
 
-def sheet(weaver: Weaver) -> float:
-    """Thickness of face and plates across [m]: that of the side plates, where the cams leave so much room; 0: none."""
-    return min(weaver.params.side_plate, 0.8 * CASE)
-
-
 def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """Face, plates across and bracket of a head that has side plates."""
     thick = sheet(weaver)
     if thick <= 0:
         return
-    shape, number = weaver.shape, len(weaver.cams)
+    shape = weaver.shape
     low, high = shape.body, shape.body + shape.size
     face = _made(FACE, "face of the head with the tools' guides", _face(weaver), thick)
     yield Occurrence(face, (placement(z=low.real),))
-    flat = box(stack_width(weaver.params, number), thick, shape.size.real - thick)
+    flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
     heights = low.imag + thick / 2, high.imag - thick / 2
     across = _made(CROSS_PLATE, "plate across the head", flat, thick)
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
-    wide = case_width(weaver.params, number)
+    wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
     inner = rectangle(wide - 2 * wall, RAIL_AXIS - 2 * wall)
     tube = Prism(Profile(rectangle(wide, RAIL_AXIS), (inner,)), shape.front - high.real)
@@ -63,23 +60,23 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
 
 
-class _Guide(NamedTuple):
-    """A guide in the face, seen along the tools: its lower left and upper right corner [m]; round: a bore."""
+class Guide(NamedTuple):
+    """A guide in a plate, seen along the tools: its lower left and upper right corner [m]; round: a bore."""
 
     low: complex
     high: complex
     round: bool = False
 
-    def meets(self, other: "_Guide") -> bool:
+    def meets(self, other: "Guide") -> bool:
         """Whether less than a web is between this guide and another."""
         apart = max(self.low.real - other.high.real, other.low.real - self.high.real)
         above = max(self.low.imag - other.high.imag, other.low.imag - self.high.imag)
         return max(apart, above) < WEB
 
-    def with_other(self, other: "_Guide") -> "_Guide":
+    def with_other(self, other: "Guide") -> "Guide":
         """One window in place of two guides."""
         low = complex(min(self.low.real, other.low.real), min(self.low.imag, other.low.imag))
-        return _Guide(low, complex(max(self.high.real, other.high.real), max(self.high.imag, other.high.imag)))
+        return Guide(low, complex(max(self.high.real, other.high.real), max(self.high.imag, other.high.imag)))
 
     @property
     def contour(self) -> Contour:
@@ -93,10 +90,12 @@ class _Guide(NamedTuple):
 def _face(weaver: Weaver) -> Prism:
     """A plate over the case, wider where the opener or the sley needs it."""
     params, shape = weaver.params, weaver.shape
-    guides = _apart(tuple(_guides(weaver.tool_bodies)))
+    axle = pivot(weaver)
+    shaft = Guide(axle - complex(1, 1) * HANDLER_SHAFT / 2, axle + complex(1, 1) * HANDLER_SHAFT / 2, round=True)
+    guides = apart((*_guides(weaver.tool_bodies), shaft))
     low = complex(min(guide.low.real for guide in guides), min(guide.low.imag for guide in guides))
     high = complex(max(guide.high.real for guide in guides), max(guide.high.imag for guide in guides))
-    half = case_width(params, len(weaver.cams)) / 2
+    half = case_width(params) / 2
     side = max(half, EDGE - low.real, EDGE + high.real)
     bottom = min(shape.body.imag, low.imag - EDGE)
     top = max((shape.body + shape.size).imag, high.imag + EDGE)
@@ -104,30 +103,30 @@ def _face(weaver: Weaver) -> Prism:
     return Prism(Profile(polygon(outline), tuple(guide.contour for guide in guides)), sheet(weaver))
 
 
-def _guides(by: ToolBodies) -> Iterator[_Guide]:
+def _guides(by: ToolBodies) -> Iterator[Guide]:
     """Bores and slots, each of a tool's own section."""
     params, grippers, half = by.params, by.grippers, by.opener_half
     for name in (LOWER_PLATE, UPPER_PLATE):
         plate = by.tools.tool(name)
-        yield _Guide(complex(-half, plate.corner.imag), complex(half, (plate.corner + plate.size).imag))
+        yield Guide(complex(-half, plate.corner.imag), complex(half, (plate.corner + plate.size).imag))
     sley = by.tools.tool(SLEY_TOOL).corner.imag
     low, high = sley - params.sley_stroke, sley + SLEY_HEIGHT
-    yield _Guide(complex(-by.sley_arm, low), complex(SLEY_ARM - by.sley_arm, high))
+    yield Guide(complex(-by.sley_arm, low), complex(SLEY_ARM - by.sley_arm, high))
     if params.with_arms:
         arm = by.tools.tool(CENTRE_ARM)
-        yield _Guide(complex(-grippers.axis, arm.corner.imag), complex(grippers.axis, (arm.corner + arm.size).imag))
+        yield Guide(complex(-grippers.axis, arm.corner.imag), complex(grippers.axis, (arm.corner + arm.size).imag))
         return
     finger = complex(1, 1) * grippers.finger / 2
     for hand in (-1, 1):
         rod = complex(hand * grippers.axis, by.tied + hand * grippers.lift / 2)
-        yield _Guide(rod - finger, rod + finger, round=True)
+        yield Guide(rod - finger, rod + finger, round=True)
     centre = 1j * (by.tied + grippers.height)
-    yield _Guide(centre - finger, centre + finger)
+    yield Guide(centre - finger, centre + finger)
 
 
-def _apart(guides: Sequence[_Guide]) -> tuple[_Guide, ...]:
+def apart(guides: Sequence[Guide]) -> tuple[Guide, ...]:
     """The guides, those without a web between them as one window, which guides nothing."""
-    kept: list[_Guide] = []
+    kept: list[Guide] = []
     for guide in guides:
         window = guide
         while (other := next((each for each in kept if each.meets(window)), None)) is not None:

@@ -4,11 +4,16 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
+from ilmek.elements.belts import MESHING
+from ilmek.elements.duty import MARGIN
 from ilmek.loom.production import HAND_KNOT
-from ilmek.machines.weaver.cams import case_width
+from ilmek.machines.weaver.cam_belt import PROFILE, PULL
 from ilmek.machines.weaver.design import Weaver, head_relations
+from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
+from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
 from ilmek.machines.weaver.forces import cutting_energy
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_id, lever_stress
 from ilmek.machines.weaver.limits import HeadLimits
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
@@ -20,7 +25,8 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
-from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates, lever_id
+from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
+from ilmek.machines.weaver.return_springs import spring_id, stress_of
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.machines.weaver.tool_parts import (
     CENTRE_GRIPPER,
@@ -30,6 +36,7 @@ from ilmek.machines.weaver.tool_parts import (
     SIDE_GRIPPER,
     SLEY_BAR,
 )
+from ilmek.machines.weaver.widths import case_width
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import Relation, check_all
 
@@ -238,13 +245,76 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure=larger,
             parts=(cam_id(widest.name),),
         ),
+        _fork_check(weaver),
+        _lever_check(weaver),
+        *_spring_checks(weaver),
         _closure_check(weaver),
     )
 
 
+def _fork_check(weaver: Weaver) -> Check:
+    """The most loaded fork of a follower bears its roller's force."""
+    worst = max(weaver.cams, key=lambda cam: cam.contact_max)
+    return at_most(
+        f"stress of the follower, {worst.name}",
+        fork_stress(weaver, worst),
+        FORK_STRESS,
+        "MPa",
+        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        cure="set a larger weaver.cam_gap, or lighter tools",
+        parts=(follower_id(worst.name),),
+    )
+
+
+def _lever_check(weaver: Weaver) -> Check:
+    """The most loaded lever bears its cam's force at its axle."""
+    worst = max(weaver.shape.levers, key=lambda track: lever_stress(weaver, weaver.cam(track)))
+    return at_most(
+        f"stress of the lever, {worst}",
+        lever_stress(weaver, weaver.cam(worst)),
+        LEVER_STRESS,
+        "MPa",
+        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        cure="set a larger weaver.cam_thickness, or a lower tension of the warps",
+        parts=(lever_id(worst),),
+    )
+
+
+def _spring_checks(weaver: Weaver) -> tuple[Check, ...]:
+    """A return spring for each cam, and the stress of the one that uses the most of what its wire allows."""
+    if weaver.params.closure != "spring":
+        return ()
+    stresses = {cam.name: stress for cam in weaver.cams if (stress := stress_of(weaver, cam.name)) is not None}
+    none = [cam.name for cam in weaver.cams if cam.name not in stresses]
+    wound = must(
+        "return springs",
+        not none,
+        f"EN 13906-1, in the room of the head{': none for ' + ', '.join(none) if none else ''}",
+        cure="set a smaller weaver.contact_force, a larger weaver.pinion, or weaver.closure=groove",
+        parts=tuple(spring_id(track) if track in stresses else follower_id(track) for track in (none or stresses)),
+    )
+    if not stresses:
+        return (wound,)
+    worst = max(stresses, key=lambda track: stresses[track][0] / stresses[track][1])
+    value, limit = stresses[worst]
+    source = "EN 13906-1, at its solid length; EN 10270-1"
+    cure = "set a smaller weaver.contact_force"
+    return wound, at_most(
+        f"stress of the return spring, {worst}", value, limit, "MPa", source, cure=cure, parts=(spring_id(worst),)
+    )
+
+
+def _belt_check(weaver: Weaver) -> Check:
+    """The belt of the cam shaft bears the torque."""
+    cure = "set lighter tools, a longer knot_cycle, or a lower tension"
+    pull = MARGIN * weaver.belt.pull
+    source = f"{PROFILE.name}, {MESHING} teeth in mesh, margin {MARGIN:g}"
+    return at_most("pull of the cam shaft's belt", pull, PULL, "N", source, cure=cure, parts=(CAM_BELT_PART,))
+
+
 def _case_check(weaver: Weaver) -> Check:
     """The case within the head's width."""
-    wide, parts = case_width(weaver.params, len(weaver.cams)), (*case_plates(weaver), SHAFT)
+    wide, parts = case_width(weaver.params), (*case_plates(weaver), SHAFT)
     cure = "leave head_width to the design, or set thinner cams"
     return at_most("cams beside each other", wide, weaver.width, "mm", "head_width", cure=cure, parts=parts)
 
@@ -283,6 +353,7 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             cure="set lighter tools, a longer knot_cycle, or a lower tension",
             parts=(MOTOR, SHAFT),
         ),
+        _belt_check(weaver),
         must(
             "bearings of the cam shaft",
             bearing_of(weaver) is not None,
@@ -299,8 +370,8 @@ def rounded(value: float, digits: int) -> float:
 
 
 def _moved(track: str) -> tuple[str, ...]:
-    """Ids of the parts that a track moves."""
-    return (*_MOVED[track], lever_id(track))
+    """Ids of the parts that a track moves, and of its follower."""
+    return (*_MOVED[track], follower_id(track))
 
 
 _MOVED: Mapping[str, tuple[str, ...]] = {
@@ -312,4 +383,4 @@ _MOVED: Mapping[str, tuple[str, ...]] = {
     SLEY: (SLEY_BAR,),
     OPENER: (OPENER_PLATE,),
 }
-"""Parts that a track moves, beside its lever."""
+"""Parts that a track moves, beside its follower."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
-from ilmek.machines.weaver.cams import cams_for, case_width
+from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
+from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces, cutter_torque
@@ -21,6 +22,7 @@ from ilmek.machines.weaver.opener import TEETH, Opener, opener_for
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import ToolBodies
+from ilmek.machines.weaver.widths import case_width
 from ilmek.records import computed, record, result
 from ilmek.timing.cyclogram import Cyclogram, Relation
 from ilmek.timing.s_curve import move_time, travel_time
@@ -51,7 +53,7 @@ class Weaver:
 
     cyclogram  at its cycle                   peaks   by track, in order of the cyclogram
     grippers   in plan view                   tied    the knot that their motions tie, proved; none where arms tie
-    cams       one for each track             drive   of the cam shaft
+    cams       one for each track             drive   of the cam shaft, belt: from its reducer
     opener     of the warps                   magazine  of the tubes
     shape      in the side view           tool_bodies  the tools as bodies
     needs      width of what is in the head [m], by name
@@ -71,6 +73,7 @@ class Weaver:
     colour_change: float = result("s", "mean time to bring another tube in line", name="colour_change_time")
     cams: tuple[LoadedPlateCam, ...]
     drive: CamShaftDrive
+    belt: CamBelt
     opener: Opener
     magazine: Magazine
     shape: HeadShape
@@ -115,6 +118,10 @@ class Weaver:
     def colour_change_longest(self) -> float:
         return self.magazine.longest_time
 
+    def cam(self, track: str) -> LoadedPlateCam:
+        """The cam of a track. Raises KeyError where it has none."""
+        return {cam.name: cam for cam in self.cams}[track]
+
     @property
     def tools(self) -> tuple[Track, ...]:
         """The tracks of its own tools; the cyclogram has those of arms besides."""
@@ -139,8 +146,15 @@ def design(params: WeaverParams) -> Weaver:
     reaching = head_tools(params, grippers, drawn)
     tools = ToolBodies(params, grippers, opener, reaching, radius)
     window, cams = carriage_window(cycle), cams_for(HeadForces(params, cycle, opener, radius), tools)
+
+    def cutter(angle: FloatArray) -> FloatArray:
+        return cutter_torque(params, cycle, angle)
+
+    angle = cams[0].angle
+    most = float(np.abs(torque_at(cams, angle) + cutter(angle)).max())
+    belt = cam_belt(most, max(cam.radius for cam in cams))
     rest = {
-        "cams": case_width(params, len(cams)),
+        "cams": case_width(params),
         "warps pushed aside": min(opener.crowd, params.opener.crowd_limit),
     }
     if params.with_arms:
@@ -161,7 +175,8 @@ def design(params: WeaverParams) -> Weaver:
         travel=travel_time(params.cloth.knot_pitch, window, params.carriage),
         colour_change=magazine.mean_time,
         cams=cams,
-        drive=drive_for(cams, cycle.speed, lambda angle: cutter_torque(params, cycle, angle)),
+        drive=drive_for(cams, cycle.speed, cutter, belt.ratio),
+        belt=belt,
         opener=opener,
         magazine=magazine,
         shape=head_shape(reaching, cams, magazine, selector_of(params, magazine)),

@@ -5,10 +5,11 @@ Tools reach out of the body to the warps. Their boxes contain the rods at every 
 machine states are assumed by this project.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.weaver.grippers import Grippers
+from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, Lever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
@@ -25,11 +26,34 @@ RAIL_AXIS = 40 * mm
 AXLE = 5 * mm
 """From the flange of the colours' motor to the tubes' carrier [m]; assumed by this project."""
 
-APART = 0.5 * mm
-"""From the tools' ends to the levers behind them [m]."""
+GUIDE, PLAY, LAP = 10 * mm, 1 * mm, 4 * mm
+"""Thickness of the followers' guide, from a roller to its fork's bar, and lap of its cheeks on that; assumed by this
+project."""
 
-SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 12 * mm
-"""Of the sley along the warps, and of its arm within the case [m]."""
+SHEET, BAR, PARTITION, APART = 8 * mm, 6 * mm, 6 * mm, 1 * mm
+"""Thickness of the face at most, of the carriages' cross bars, of the plate that guides their rods, and the room
+between them [m]; assumed by this project."""
+
+COLLARS = 23 * mm
+"""Room before a carriage for what moves the jaws of its grippers [m]; assumed by this project."""
+
+SPRING = 36 * mm
+"""Room of the centre gripper's spring while it is shortest [m]; assumed by this project."""
+
+DRAWBAR, UNDER = 5 * mm, 11 * mm
+"""Half the height of a carriage's drawbar, and from the opener down to its middle [m]; assumed by this project."""
+
+SLEY_BLOCK, SLEY_PIN = 12 * mm, 14 * mm
+"""Depth of the sley's block, and from it to the pin of its lever [m]; assumed by this project."""
+
+SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 14 * mm
+"""Of the sley along the warps, and of its arm behind the face's front [m]."""
+
+BELL_CRANKS = (SIDE_MOTION, OPENER, CENTRE_MOTION)
+"""Tracks whose levers are bell cranks, on one axle."""
+
+RACK = 5.6 * mm
+"""Room for the rack and its pinion between the followers and that axle [m]; assumed by this project."""
 
 LOWER_PLATE, UPPER_PLATE, SLEY_TOOL = "lower plate of the opener", "opener", "sley"
 
@@ -39,7 +63,7 @@ class HeadTool:
     """A tool of a head as a box that a track of the knot's cyclogram moves.
 
     corner     its lower corner next to the warps at position 0 of the track [m]       size  depth + i height [m]
-    direction  of its motion for each metre of the track         limit     the largest position that moves it [m]
+    direction  of its motion for each metre of the track
     """
 
     name: str
@@ -47,7 +71,6 @@ class HeadTool:
     corner: complex
     size: complex
     direction: complex
-    limit: float = float("inf")
 
 
 @record
@@ -55,7 +78,9 @@ class HeadShape:
     """A head while it knots.
 
     body   its lower corner next to the warps [m]     size   depth + i height of the body [m]
-    bay    depth behind its face for the tools' ends, before levers and cams [m]
+    axis   of the cam shaft [m]                       guide  from it up to the guide of the followers [m]
+    levers    between followers and tools, by track
+    carriage  front of the side grippers' carriage at rest, partition: of the plate behind it [m from the warps]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
     rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
@@ -63,17 +88,16 @@ class HeadShape:
 
     body: complex
     size: complex
-    bay: float
+    axis: complex
+    guide: float
+    levers: Mapping[str, Lever]
+    carriage: float
+    partition: float
     tools: tuple[HeadTool, ...]
     reach: float
     rail: float
     magazine: complex
     magazine_size: complex
-
-    @property
-    def axis(self) -> complex:
-        """The axis of the cam shaft [m]."""
-        return self.body + self.bay + (self.size - self.bay) / 2
 
     @property
     def front(self) -> float:
@@ -88,16 +112,27 @@ class HeadShape:
 
 @record
 class HeadTools:
-    """The tools that reach to the warps, the case's face behind them, and the most that they are pulled back [m]."""
+    """The tools that reach to the warps.
+
+    face  front of the case behind them      carriage  front of their carriage at rest, back: the most that it is
+    pulled back [m]      stroke  of the centre gripper [m]
+    """
 
     tools: tuple[HeadTool, ...]
     face: float
+    carriage: float
     back: float = 0.0
+    stroke: float = 0.0
 
     @property
-    def bay(self) -> float:
-        """Depth of the case that the tools' ends take [m]."""
-        return max((tool.corner + tool.size).real for tool in self.tools) + self.back - self.face
+    def partition(self) -> float:
+        """The plate behind the carriage [m from the warps]."""
+        return self.carriage + BAR + self.back + APART
+
+    @property
+    def centre_carriage(self) -> float:
+        """Front of the centre gripper's carriage at rest, behind the partition and its spring [m from the warps]."""
+        return self.partition + PARTITION + self.stroke + SPRING
 
     def tool(self, name: str) -> HeadTool:
         """The tool of a name."""
@@ -115,26 +150,26 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
     tied = low + height / 2
     front, tip = grippers.warp / 2 + params.standoff, grippers.front + grippers.opening
     face = max(tip + params.pull_back, drawn / 2) + params.standoff
-    forward = grippers.opening + grippers.crossing
+    carriage = face + SHEET + APART + COLLARS + grippers.opening + grippers.crossing
     tools = (
         HeadTool(
             "side grippers",
             SIDE_MOTION,
             complex(tip, low),
-            complex(face - tip + forward, height / 2 + grippers.height + grippers.finger / 2),
+            complex(carriage - tip, height / 2 + grippers.height + grippers.finger / 2),
             -1 + 0j,
         ),
-        *_opener(params, SIDE_MOTION, complex(grippers.opening - front, face + forward), grippers.opening),
+        *_opener(params, SIDE_MOTION, complex(grippers.opening - front, carriage)),
         HeadTool(
             "centre gripper",
             CENTRE_MOTION,
             complex(grippers.stroke - grippers.depth, tied + grippers.height - grippers.finger / 2),
-            complex(face + grippers.depth, grippers.finger),
+            complex(carriage - grippers.stroke + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
         _sley(params, complex(front, face + SLEY_TAIL)),
     )
-    return HeadTools(tools, face, params.pull_back)
+    return HeadTools(tools, face, carriage, params.pull_back, grippers.stroke)
 
 
 def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
@@ -142,22 +177,23 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     arms, radius, standoff = params.arms, params.warp / 2, params.standoff
     face = max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff
     rest, out = arms.rest - radius, params.opening - radius - standoff
+    carriage = face + SHEET + APART + params.opening
     size = complex(face - rest + arms.stroke, arms.breadth)
     corner = complex(rest, params.opener.front_span + (params.opener.height - arms.breadth) / 2)
     tools = (
         *(HeadTool(name, name, corner, size, -1 + 0j) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)),
-        *_opener(params, OPENER, complex(out, face + params.opening), params.opening),
+        *_opener(params, OPENER, complex(out, carriage)),
         _sley(params, complex(radius + standoff, face + SLEY_TAIL)),
     )
-    return HeadTools(tools, face)
+    return HeadTools(tools, face, carriage)
 
 
-def _opener(params: WeaverParams, track: str, span: complex, limit: float) -> Iterator[HeadTool]:
+def _opener(params: WeaverParams, track: str, span: complex) -> Iterator[HeadTool]:
     """Both plates of the opener; span: from their points at rest to the far end, as x + i x [m]."""
     own = params.opener
     for name, height in ((LOWER_PLATE, own.front_span - own.plate), (UPPER_PLATE, own.front_span + own.height)):
         size = complex(span.imag - span.real, own.plate)
-        yield HeadTool(name, track, complex(span.real, height), size, -1 + 0j, limit)
+        yield HeadTool(name, track, complex(span.real, height), size, -1 + 0j)
 
 
 def _sley(params: WeaverParams, span: complex) -> HeadTool:
@@ -170,24 +206,50 @@ def _sley(params: WeaverParams, span: complex) -> HeadTool:
 def head_shape(
     reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine, selector: Selector
 ) -> HeadShape:
-    """The head with its tools: the body in front of its face, as deep as tools' ends and its largest cam, the magazine.
+    """The head with its tools: behind its face the tools' carriages, below them levers, followers and cam shaft.
 
-    The magazine stands in front of the body, and moves each tier to the height at which the knot is tied. Its motor,
-    the selector's, stands below it on the bracket that leads from the body to the rail.
+    So it is as deep as its largest cam. The magazine stands in front of the body, and moves each tier to the height at
+    which the knot is tied. Its motor, the selector's, stands below it on the bracket that leads from the body to the
+    rail.
     """
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
     wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face)
-    deep = 2 * max(cam.radius for cam in cams) + 2 * CASE
-    top, bay = max((tool.corner + tool.size).imag for tool in tools) + CASE, reaching.bay + APART
+    largest, radius = max(cam.radius for cam in cams), max(cam.cam.roller_radius for cam in cams)
+    line = max(face + CASE + largest, reaching.partition + PARTITION + SOLID)
+    cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
+    arm = max(RACK + LEVER_AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
+    levers = {cam.name: lever for cam in cams if (lever := _lever(reaching, cam, line, arm)) is not None}
+    lowest = min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID
+    guide = largest + 2 * radius + PLAY + LAP
+    axis = complex(line, lowest - GUIDE - guide)
+    deep, low = line + largest + CASE - face, axis.imag - largest - CASE
+    top = max((tool.corner + tool.size).imag for tool in tools) + CASE
     return HeadShape(
-        body=complex(face, top - deep),
-        size=complex(bay + deep, deep),
-        bay=bay,
+        body=complex(face, low),
+        size=complex(deep, top - low),
+        axis=axis,
+        guide=guide,
+        levers=levers,
+        carriage=reaching.carriage,
+        partition=reaching.partition,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
         rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,
-        magazine=complex(face + bay + deep, tied - tall / 2),
+        magazine=complex(face + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),
     )
+
+
+def _lever(reaching: HeadTools, cam: LoadedPlateCam, line: float, arm: float) -> Lever | None:
+    """The lever of a cam, None where it has none; line: of its follower from the warps, arm: of all bell cranks [m]."""
+    if cam.name in BELL_CRANKS:
+        height = reaching.tool(LOWER_PLATE).corner.imag - UNDER
+        return Lever(complex(line - arm, height - cam.ratio * arm), arm, cam.ratio, cam.lift)
+    if cam.name == SLEY:
+        tool = reaching.tool(SLEY_TOOL)
+        far = line - (tool.corner + tool.size).real - SLEY_BLOCK - SLEY_PIN
+        own, height = far / (1 + cam.ratio), tool.corner.imag + SLEY_HEIGHT / 2 - cam.ratio * cam.lift / 2
+        return Lever(complex(line - own, height), own, cam.ratio, cam.lift, straight=True)
+    return None

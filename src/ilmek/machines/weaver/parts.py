@@ -1,10 +1,11 @@
-"""The parts in a head's case: side plates, cam shaft with cams and spacers, levers, and its motors.
+"""The parts in a head's case: side plates, cam shaft with cams and spacers, and its motors.
 
-What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From right
-to left: a side plate, then gap and cam in turn, a gap, and the other side plate. So the case is as wide as its cams.
+What stands in the case lies about the cam shaft's axis, z to the weaver's left, 0 in the middle of the head. From side
+plate to side plate: gap and cam in turn, in the order of the stations, and a gap. So the case is as wide as its cams.
 """
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,17 +13,16 @@ from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
-from ilmek.machines.weaver.cams import case_width
-from ilmek.machines.weaver.case import ALUMINIUM, sheet
+from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import CASE, RAIL_AXIS
-from ilmek.machines.weaver.selector import selector_of
+from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.widths import BELT, case_width
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
-from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.part import Part
+from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Prism, bar, box, rectangle, tube
+from ilmek.part.shapes import Prism, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.units import format_quantity, mm, turn
@@ -33,18 +33,13 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-SPACER_WALL = 5 * mm
-"""Wall of the rings between the cams [m]; assumed by this project."""
+SPACER_WALL, LEAST_SPACER = 5 * mm, 0.01 * mm
+"""Wall of the rings between the cams, and the length below which none is made [m]; assumed by this project."""
 
 
 def cam_id(track: str) -> str:
     """Id of the cam of a track."""
     return part_id(f"{track.replace(' ', '-')}-cam")
-
-
-def lever_id(track: str) -> str:
-    """Id of what leads the motion of a cam to its tool."""
-    return part_id(f"{track.replace(' ', '-')}-lever")
 
 
 SHAFT, BEARING, SIDE_PLATE = part_id("cam-shaft"), part_id("bearing"), part_id("side-plate")
@@ -74,22 +69,22 @@ def _deep_groove() -> Iterator[RollingBearing]:
 
 
 def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """What stands in the case: the side plates with the bearings, and the levers between cams and tools."""
-    params, high, wide = weaver.params, weaver.shape.size.imag, case_width(weaver.params, len(weaver.cams))
-    row, plate, bay, flat = bearing_of(weaver), params.side_plate, weaver.shape.bay, sheet(weaver)
+    """What stands in the case about the cam shaft: the side plates with its bearings."""
+    params, shape, wide = weaver.params, weaver.shape, case_width(weaver.params)
+    row, plate, flat = bearing_of(weaver), params.side_plate, sheet(weaver)
     if plate > 0:
-        deep, before = weaver.shape.size.real - flat, (bay - flat) / 2
-        hole = () if row is None or row.outer >= high else (circle(complex(before), row.outer / 2),)
-        shape = Prism(Profile(rectangle(deep, high), hole), plate)
+        middle = shape.body + (shape.size + flat) / 2 - shape.axis
+        deep, high = shape.size.real - flat, shape.size.imag
+        hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
+        outline = polygon(rectangle(deep, high).points + middle)
         size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {_mm(plate)}"
-        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, shape, ALUMINIUM)
-        yield Occurrence(part, (placement(-before, z=-wide / 2), placement(-before, z=wide / 2 - plate)))
+        section = Profile(outline, hole)
+        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, Prism(section, plate), ALUMINIUM)
+        yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:
         part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
         face = wide / 2 - plate - _into_gap(weaver)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
-    for cam, z in zip(weaver.cams, _stations(weaver), strict=True):
-        yield Occurrence(_lever(weaver, cam), (placement(-(high - CASE) / 2, 0.0, z),))
 
 
 def _into_gap(weaver: Weaver) -> float:
@@ -98,49 +93,35 @@ def _into_gap(weaver: Weaver) -> float:
     return 0.0 if row is None else min(max(row.width - params.side_plate, 0.0), params.cam_gap / 2)
 
 
-def _lever(weaver: Weaver, cam: LoadedPlateCam) -> Part:
-    """Lever, slide and roller between a cam and its tool: their room is the case's wall beside the cam."""
-    rest = weaver.tool_bodies.moved(cam.name) - weaver.tool_bodies.of_track(cam.name)
-    return Part(
-        lever_id(cam.name),
-        f"lever, slide and roller of the {cam.name}",
-        "machined link",
-        f"ratio {cam.ratio:.3g}" if cam.ratio < 100 else "rack and pinion",
-        box(CASE, weaver.shape.size.imag - 2 * sheet(weaver), weaver.params.cam_thickness),
-        purchase=Bought("lever, slide and roller", rest),
-        envelope=True,
-    )
-
-
 def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """What turns: the shaft, a cam for each track, and a spacer in each gap."""
-    params, wide = weaver.params, case_width(weaver.params, len(weaver.cams))
+    """What turns: the shaft, a cam for each track, and spacers between cams, pulley and bearings."""
+    params, wide = weaver.params, case_width(weaver.params)
     shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
     yield Occurrence(shaft, (placement(z=-wide / 2),))
-    stations = _stations(weaver)
-    for cam, z in zip(weaver.cams, stations, strict=True):
+    begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
+    for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
-    gap, within = params.cam_gap, _into_gap(weaver)
-    if gap > 0:
-        outer = params.shaft + 2 * SPACER_WALL
-
-        def spacer(name: str, title: str, length: float) -> Part:
-            ring = tube(outer, SPACER_WALL, length)
-            return Part(part_id(name), title, "pin or bush", f"{_round(outer)}, {_mm(length)}", ring, STEEL)
-
-        first = stations[0] + params.cam_thickness
-        between = [z + params.cam_thickness for z in stations[1:]]
-        yield Occurrence(spacer("spacer", "spacer of the cams", gap), tuple(placement(z=z) for z in between))
-        ends = placement(z=first), placement(z=stations[-1] - gap + within)
-        yield Occurrence(spacer("end-spacer", "spacer of cam and bearing", gap - within), ends)
+    end = wide / 2 - params.side_plate - _into_gap(weaver)
+    pulley = -belt_station(weaver) - BELT
+    places = [
+        (-end, -end),
+        (pulley, pulley + BELT),
+        *((z, z + params.cam_thickness) for z in sorted(begins)),
+        (end, end),
+    ]
+    yield from _spacers(params.shaft + 2 * SPACER_WALL, places)
 
 
-def _stations(weaver: Weaver) -> list[float]:
-    """Where each cam begins along the axis [m], from the right."""
-    params = weaver.params
-    inner = case_width(params, len(weaver.cams)) / 2 - params.side_plate
-    pitch = params.cam_thickness + params.cam_gap
-    return [inner - (number + 1) * pitch for number in range(len(weaver.cams))]
+def _spacers(outer: float, places: list[tuple[float, float]]) -> Iterator[Occurrence]:
+    """Rings between neighbours along the shaft, a part for each length."""
+    gaps: dict[float, list[float]] = {}
+    for (_, begin), (end, _) in pairwise(places):
+        if end - begin > LEAST_SPACER:
+            gaps.setdefault(round(end - begin, 9), []).append(begin)
+    for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
+        ring, size = tube(outer, SPACER_WALL, length), f"{_round(outer)}, {_mm(length)}"
+        part = Part(part_id(f"spacer-{number}"), "spacer of the cam shaft", "pin or bush", size, ring, STEEL)
+        yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 
 def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
@@ -164,33 +145,6 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         marks=zero_mark(float(np.abs(surface[-1]))),
         notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
     )
-
-
-def drive_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """The motor of the cam shaft with its reducer, upright below the case; that place is assumed by this project."""
-    servo, drive, shape = weaver.drive.servo, weaver.drive, weaver.shape
-    middle, low = shape.axis, shape.body.imag
-    motor = servo.motor if servo else None
-    if servo is not None:
-        geared = catalogue.reducer(part_id("reducer"), "reducer of a head", servo.reducer.ratio, motor)
-        low -= catalogue.length_of(geared)
-        yield Occurrence(geared, (_upright(low, middle.real),))
-    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
-    yield Occurrence(part, (_upright(low, middle.real),))
-    chosen, under = selector_of(weaver.params, weaver.magazine), shape.magazine + shape.magazine_size.real / 2
-    flange = shape.rail + RAIL_AXIS / 2 + chosen.length
-    colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
-    beside = chosen.face / 2
-    two = weaver.magazine.tiers > 1
-    for number, (name, title) in enumerate(colours[: 2 if two else 1]):
-        part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
-        x = (2 * number - 1) * beside if two else 0.0
-        yield Occurrence(part, (placement(x).after(_upright(flange, under.real)),))
-
-
-def _upright(height: float, front: float) -> Placement:
-    """At a height and a distance to the front [m] in the middle of the head, z up."""
-    return placement(0.0, height, front).after(UPRIGHT)
 
 
 def _mm(length: float) -> str:

@@ -7,7 +7,6 @@ import numpy as np
 
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam
 from ilmek.machines.electronic_cam import cam_table
-from ilmek.machines.weaver.cams import stack_width
 from ilmek.machines.weaver.checks import head_checks
 from ilmek.machines.weaver.design import Weaver, shaft_torque
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
@@ -19,6 +18,7 @@ from ilmek.machines.weaver.opener_figures import opener_figures
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.plan_view import animation, plan_view
 from ilmek.machines.weaver.tree import cam_masses
+from ilmek.machines.weaver.widths import stack_width
 from ilmek.records import Computed, computed, group, record
 from ilmek.report import (
     Axis,
@@ -68,7 +68,7 @@ class CamResults:
     cam_stack_width = computed(
         "mm",
         "width of the cams on their shaft",
-        lambda it: stack_width(it.params, len(it.cams)),
+        lambda it: stack_width(it.params),
         least=0.0,
     )
 

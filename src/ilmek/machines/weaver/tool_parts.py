@@ -16,32 +16,37 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.head_shape import LOWER_PLATE, SLEY_TOOL, UPPER_PLATE, HeadTool, HeadTools
+from ilmek.machines.weaver.head_shape import BAR, COLLARS, LOWER_PLATE, SLEY_TOOL, UPPER_PLATE, HeadTool, HeadTools
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Bought, Part
-from ilmek.part.placement import ALONG_WIDTH, IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box
-from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody
-from ilmek.plane.contours import bounds, polygon, rounded_hull
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle, tube
+from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBody
+from ilmek.plane.contours import bounds, circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import format_quantity, mm
 
-HANDLER_ARM = (12 * mm, 4 * mm)
-"""Width and thickness of the pile handler's arm [m]; assumed by this project."""
+HANDLER_ARM, HANDLER_SHAFT = (5 * mm, 4 * mm), 4 * mm
+"""Radius of the pile handler's arm and its thickness, and diameter of its shaft [m]; assumed by this project."""
+
+JAW, WIRE = 8 * mm, 0.9 * mm
+"""Length of a side gripper's jaws, and diameter of their wires, at most [m]; assumed by this project."""
 
 SLEY_FOOT, SLEY_ARM, BESIDE_SLEY = 6 * mm, 3 * mm, 3 * mm
 """Depth of the sley's foot over the pair, at most, width of its arm, and from the opener to it [m]; assumed by this
 project."""
 
-KNIFE = (10 * mm, 2 * mm, 20 * mm)
+KNIFE = (10 * mm, 20 * mm, 20 * mm)
 """Room of the cutter's blade with its slide, across, along the warps and to the front [m]; assumed by this project."""
 
-BESIDE = 10 * mm
-"""From the outermost wall of the opener to the pile handler's arm [m]; assumed by this project."""
+CENTRE_BAR, WINDOW = 8 * mm, 4 * mm
+"""Thickness of the centre gripper's carriage, and room about the jaws' collars in the opener's plates [m]; assumed by
+this project."""
 
 _ALONG = (0.0, 0.0, 1.0)
 
@@ -74,12 +79,11 @@ class ToolBodies:
     def bodies(self, parent: str = GROUND) -> tuple[tuple[str, RigidBody], ...]:
         """Each body with the track that moves it; parent: id of the body that guides them."""
         opener_track = OPENER if self.params.with_arms else SIDE_MOTION
-        tied = () if self.params.with_arms else (*self._side_grippers(parent), self._centre(parent))
+        tied = () if self.params.with_arms else (*self._side_grippers(), self._centre(parent))
         return (
-            *tied,
             (opener_track, _sliding(PLATES, self._plates(), parent)),
-            (SLEY, _sliding(SLEY_BODY, (self._sley(),), parent)),
-            (HANDLER, self._handler(parent)),
+            *tied,
+            (SLEY, _sliding(SLEY_BODY, (self._sley(),), parent, axis=(0.0, 1.0, 0.0))),
         )
 
     def moved(self, track: str) -> float:
@@ -96,29 +100,50 @@ class ToolBodies:
         params, by = self.params, self.grippers
         return float(params.opener.front_span + params.clearance + (by.lift + by.finger) / 2)
 
-    def _side_grippers(self, parent: str) -> tuple[tuple[str, RigidBody], ...]:
-        """Two alike, one turned half round: a rod to the front from its tip, and an arm across it to the outside."""
-        by, reach = self.grippers, self.tools.tool("side grippers").size.real
-        half = by.finger / 2
-        rod = Placed(bar(by.finger, reach + half), (placement(z=-half),))
-        arm = (Placed(bar(by.finger, by.arm - half), (placement(half).after(ALONG_WIDTH),)),) if by.arm > half else ()
-        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum((rod, *arm)), _round(by.finger))
-        front = by.front + by.opening
+    def frame(self, name: str) -> Placement:
+        """The frame of a carriage in the head's, by the id of its body."""
+        return placement(0.0, self.tied + self.grippers.height, self.tip(CENTRE)) if name == CENTRE else IDENTITY
+
+    def tip(self, name: str) -> float:
+        """Where the tip of a gripper is at rest [m from the warps], by the id of its body."""
+        by = self.grippers
+        return by.stroke - by.depth if name == CENTRE else by.front + by.opening
+
+    @property
+    def jaw(self) -> float:
+        """Length of a side gripper's jaws [m]."""
+        return min(JAW, 0.6 * max(self.grippers.arm - self.grippers.finger / 2, 0.0))
+
+    def _side_grippers(self) -> tuple[tuple[str, RigidBody], ...]:
+        """Two alike, one turned half round: a tube to the front from its tip, and an arm across it to the outside.
+
+        They turn in the carriage of the opener. The arm's end is half as thick, beside the jaws' finger.
+        """
+        by, half, jaw = self.grippers, self.grippers.finger / 2, self.jaw
+        length = self.tools.carriage + BAR - self.tip(LEFT)
+        rod = Placed(tube(by.finger, half - wire_of(self.params) / 2, length + half), (placement(z=-half),))
+        members = [rod]
+        if by.arm - jaw > half:
+            members.append(Placed(bar(by.finger, by.arm - jaw - half), (placement(half).after(ALONG_WIDTH),)))
+        if jaw > 0:
+            members.append(Placed(box(jaw, half, by.finger), (placement(by.arm - jaw / 2, -half / 2, -half),)))
+        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), _round(by.finger))
+        joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
             turned = placement(about=_ALONG, angle=math.pi if hand < 0 else 0.0)
-            origin = placement(hand * by.axis, self.tied + hand * by.lift / 2, front)
-            joint = Joint(JointKind.SCREW, _ALONG)
-            return SIDE_MOTION, RigidBody(name, (Occurrence(part, (turned,)),), parent, joint, (origin,))
+            origin = placement(hand * by.axis, self.tied + hand * by.lift / 2, self.tip(name))
+            return SIDE_MOTION, RigidBody(name, (Occurrence(part, (turned,)),), PLATES, joint, (origin,))
 
         return body(LEFT, -1), body(RIGHT, 1)
 
     def _centre(self, parent: str) -> tuple[str, RigidBody]:
-        by = self.grippers
-        length = self.tools.tool("centre gripper").size.real
+        """A square tube from its tip to its carriage."""
+        by, origin = self.grippers, self.frame(CENTRE)
+        length = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE)
         size = f"square {format_quantity(by.finger, 'mm')}"
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", box(by.finger, by.finger, length), size)
-        origin = placement(0.0, self.tied + by.height, by.stroke - by.depth)
+        section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
+        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Prism(section, length), size)
         return CENTRE_MOTION, _sliding(CENTRE, (Occurrence(part),), parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
@@ -135,7 +160,7 @@ class ToolBodies:
         return (Occurrence(part, tuple(_upright(tool) for tool in (low, high))),)
 
     def _comb(self, tool: HeadTool) -> Profile:
-        """A plate in plan, its x to the front from the points, its y along the row."""
+        """A plate in plan, its x to the front from the points, its y along the row; of grippers open at its end."""
         made, tip, deep = self.opener, self.params.opener.tip, tool.size.real
         pitch, radius = made.pitch, made.diameter / 2
         root = min(max(made.reach, made.travel), 0.9 * deep)
@@ -158,6 +183,9 @@ class ToolBodies:
         ]
         if centre:
             side = [0.5j * tip, lead + 1j * centre.at(share), ramp + 1j * centre.last, root + 1j * centre.last, *side]
+        notch = self.grippers.axis + WINDOW
+        if not self.params.with_arms and notch < outer.last - WINDOW:  # in which the rocker of the jaws moves
+            side += [deep + 1j * notch, deep - COLLARS + 1j * notch]
         half = np.array(side)
         return Profile(polygon(np.concatenate([half, np.conj(half[::-1])])))
 
@@ -176,38 +204,44 @@ class ToolBodies:
     @property
     def sley_arm(self) -> float:
         """From the middle of the pair to the outer side of the sley's arm, on the weaver's left [m]."""
-        return max(self.opener_half, self.grippers.axis) + BESIDE_SLEY + SLEY_ARM
+        params = self.params
+        cam = stack_width(params) / 2 - 2 * params.cam_gap - params.cam_thickness  # the next one beside its own
+        return max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY, cam + params.clearance) + SLEY_ARM
 
     @property
     def opener_half(self) -> float:
         """Half the width of a plate of the opener [m]."""
         return bounds(self._comb(self.tools.tool(LOWER_PLATE)).outline)[1].imag
 
-    def _handler(self, parent: str) -> RigidBody:
-        """The arm on its pinion's shaft, and the knife; how they are held is not designed."""
-        params, (wide, thick) = self.params, HANDLER_ARM
-        eye = params.pinion + wide / 2
-        outline = rounded_hull(np.array([0j, 1j * self.radius]), eye)
-        section = drilled(outline, [Hole(0j, params.pinion, "pinion")])
-        arm = _made(PILE_HANDLER, "pile handler", "machined link", Prism(section, thick), f"{_mm(thick)} thick")
-        across, along, deep = KNIFE
-        knife = Part(
-            KNIFE_PART,
-            "knife with its slide",
-            "machined link",
-            shape=box(across, along, deep),
-            purchase=Bought("blade and slide", params.forces.cutter_mass),
-            envelope=True,
-        )
-        beside = self.opener.aside + BESIDE
-        pivot = placement(beside + thick, self.tied, self.tools.face - eye).after(IN_SIDE_VIEW)
-        below = placement(beside - across / 2, self.tied - along, self.tools.face - deep)
-        return RigidBody(
-            part_id("pile handler and knife"),
-            (Occurrence(arm, (pivot,)), Occurrence(knife, (below,))),
-            parent,
-            Joint(JointKind.MISSING),
-        )
+    @property
+    def handler_arm(self) -> Part:
+        """The pile handler's arm along x from its shaft."""
+        radius, thick = HANDLER_ARM
+        outline = rounded_hull(np.array([0j, self.radius + 0j]), radius)
+        section = drilled(outline, [Hole(0j, HANDLER_SHAFT / 2, "shaft")])
+        return _handler_part(Prism(section, thick))
+
+
+@lru_cache(maxsize=8)
+def _handler_part(shape: Prism) -> Part:
+    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{_mm(shape.length)} thick")
+
+
+def knife(params: WeaverParams) -> Part:
+    """The cutter's blade with its slide and its spring, as one room."""
+    return Part(
+        KNIFE_PART,
+        "knife with its slide",
+        "machined link",
+        shape=box(*KNIFE),
+        purchase=Bought("blade, slide and spring", params.forces.cutter_mass),
+        envelope=True,
+    )
+
+
+def wire_of(params: WeaverParams) -> float:
+    """Diameter of the jaws' wires and of the grippers' bores [m]."""
+    return min(WIRE, 0.45 * params.finger)
 
 
 class _Wall(NamedTuple):
@@ -227,11 +261,13 @@ def _masses(made: ToolBodies) -> Mapping[str, float]:
     masses: dict[str, float] = {}
     for track, body in made.bodies():
         masses[track] = masses.get(track, 0.0) + body.moments.zeroth
-    return masses
+    return {**masses, HANDLER: made.handler_arm.mass}
 
 
-def _sliding(name: str, occurrences: tuple[Occurrence, ...], parent: str, origin: Placement = IDENTITY) -> RigidBody:
-    return RigidBody(name, occurrences, parent, Joint(JointKind.SLIDE, _ALONG), (origin,))
+def _sliding(
+    name: str, occurrences: tuple[Occurrence, ...], parent: str, origin: Placement = IDENTITY, axis: Axis = _ALONG
+) -> RigidBody:
+    return RigidBody(name, occurrences, parent, Joint(JointKind.SLIDE, axis), (origin,))
 
 
 def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:

@@ -10,15 +10,22 @@ from functools import lru_cache
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
+from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.drive_parts import cam_drive, colour_motors, shaft_pulley
+from ilmek.machines.weaver.followers import follower_bodies, guide
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.jaws import jaw_bodies
+from ilmek.machines.weaver.lever_parts import axles, lever_bodies
 from ilmek.machines.weaver.magazine_parts import magazine_parts
-from ilmek.machines.weaver.parts import cam_id, case_parts, drive_parts, shaft_parts
+from ilmek.machines.weaver.parts import cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.turning import turning_bodies
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.units import turn
 
 HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
 CARRIAGE = part_id("drive of the carriage")
@@ -51,25 +58,38 @@ def _at_rail(weaver: Weaver) -> Placement:
 
 @lru_cache(maxsize=8)
 def head_tree(weaver: Weaver) -> Tree:
-    """All that a carriage moves.
-
-    The case slides on the rail; between cams and tools nothing that carries is designed yet.
-    """
+    """All that a carriage moves: the case slides on the rail, the rest is in it, each body after what carries it."""
     axis = weaver.shape.axis
     about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
     case = (
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
         for stands in case_parts(weaver)
     )
+    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver))
+    upright, carried = placement(about=(0.0, 0.0, 1.0), angle=turn / 4), carried_parts(weaver)
+    tools = (
+        replace(body, occurrences=(*body.occurrences, *carried.get(body.id, ())))
+        for _, body in weaver.tool_bodies.bodies(HEAD)
+    )
     return Tree(
         (
             RigidBody(
                 HEAD,
-                (*case, *closing_parts(weaver), *drive_parts(weaver)),
+                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver)),
                 joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)),
             ),
-            RigidBody(CAM_SHAFT, tuple(shaft_parts(weaver)), HEAD, Joint(JointKind.PIN), (about,)),
-            *(body for _, body in weaver.tool_bodies.bodies(HEAD)),
+            RigidBody(
+                CAM_SHAFT,
+                (*shaft_parts(weaver), shaft_pulley(weaver)),
+                HEAD,
+                Joint(JointKind.PIN),
+                (about.after(upright),),
+            ),
+            *follower_bodies(weaver, HEAD),
+            *lever_bodies(weaver, HEAD),
+            *tools,
+            *(() if weaver.params.with_arms else jaw_bodies(weaver)),
+            *turning_bodies(weaver, HEAD),
             RigidBody(MAGAZINE, tuple(magazine_parts(weaver)), HEAD, Joint(JointKind.PIN, (0.0, 1.0, 0.0))),
         )
     )

@@ -20,19 +20,36 @@ from ilmek.machines.automated_loom.in_space.maker import (
     track_angles,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
-from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, HeadTool
+from ilmek.machines.weaver import Weaver
+from ilmek.machines.weaver.followers import follower_id
+from ilmek.machines.weaver.head_shape import RAIL_AXIS, HeadTool
+from ilmek.machines.weaver.jaws import collar_body, drawn, rocker_id, turned
 from ilmek.machines.weaver.knot import led_between
-from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, RIGHT_ARM, SIDE_MOTION, SLEY
+from ilmek.machines.weaver.lever_parts import lever_id
+from ilmek.machines.weaver.motions import (
+    CENTRE_ARM,
+    CENTRE_GRASP,
+    CENTRE_MOTION,
+    HANDLER,
+    LEFT_ARM,
+    OPENER,
+    RIGHT_ARM,
+    SIDE_GRASP,
+    SIDE_MOTION,
+    SLEY,
+)
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
 from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree, placed
+from ilmek.machines.weaver.turning import HANDLER_BODY, PINION_BODY
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
-_YARN_SAMPLES, _YARN_POINTS, _EACH = 91, 48, 41
+_YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS = 91, 48, 41, 121
 
 
 def heads(loom: LoomDesign) -> MachineTree:
@@ -78,22 +95,66 @@ def _drive(x: float) -> Placement:
 def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     """The motions of a head's bodies over a knot."""
     weaver, knot, angle = loom.weaver, loom.knot_cyclogram, np.linspace(0.0, turn, 3)
-    (opener,) = (tool for tool in loom.side.head.tools if tool.name == LOWER_PLATE)
-    back = (0.0, 0.0, -1.0)
-    moved = {
+    back, opener = (0.0, 0.0, -1.0), SIDE_MOTION if not weaver.params.with_arms else OPENER
+    driven = {
         HEAD: along_track(knot, CARRIAGE, (1.0, 0.0, 0.0)),
         CAM_SHAFT: motion(knot, angle, rotation=angle),
-        PLATES: along_track(knot, opener.track, back, opener.limit),
+        PLATES: along_track(knot, opener, back),
         SLEY_BODY: along_track(knot, SLEY, (0.0, -1.0, 0.0)),
+        **_of_cams(weaver, knot),
+        **_of_handler(weaver, knot),
     }
     if weaver.params.with_arms:
-        return moved
+        return driven
     by, side = weaver.grippers, knot.track(SIDE_MOTION)
     angle = track_angles(side)
     position = sample(side, angle).position
-    shift = position[:, None] * np.array(back)
-    hands = {name: motion(knot, angle, shift=shift, rotation=hand * by.turned(position)) for name, hand in _HANDS}
-    return {**moved, **hands, CENTRE: along_track(knot, CENTRE_MOTION, back)}
+    hands = {name: motion(knot, angle, rotation=hand * by.turned(position)) for name, hand in _HANDS}
+    jaws = _of_jaws(weaver, knot, SIDE_GRASP, (LEFT, RIGHT)) | _of_jaws(weaver, knot, CENTRE_GRASP, (CENTRE,))
+    return {**driven, **hands, **jaws, CENTRE: along_track(knot, CENTRE_MOTION, back)}
+
+
+def _of_cams(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
+    """The followers along x of their frames, and the levers that they turn."""
+    moved = {}
+    for cam in weaver.cams:
+        angle, lift = _lift(knot, cam.name, weaver)
+        still = 0 * lift
+        moved[follower_id(cam.name)] = motion(knot, angle, shift=np.stack([lift[0] - lift, still, still], axis=1))
+        if (lever := weaver.shape.levers.get(cam.name)) is not None:
+            turned = lever.turned(lift)
+            moved[lever_id(cam.name)] = motion(knot, angle, rotation=turned - turned[0])
+    return moved
+
+
+def _of_handler(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
+    """The handler, and its pinion, which the rack turns to and fro."""
+    angle, lift = _lift(knot, HANDLER, weaver)
+    track = knot.track(HANDLER)
+    own = track_angles(track)
+    return {
+        HANDLER_BODY: motion(knot, own, rotation=sample(track, own).position),
+        PINION_BODY: motion(knot, angle, rotation=(lift - lift[0]) / weaver.params.pinion),
+    }
+
+
+def _of_jaws(weaver: Weaver, knot: Cyclogram, track: str, names: tuple[str, ...]) -> Mapping[str, SceneMotion]:
+    """The rocker of jaws, and the collars on their grippers."""
+    angle, lift = _lift(knot, track, weaver)
+    swung = turned(weaver, track, lift)
+    moved = {rocker_id(track): motion(knot, angle, rotation=swung - swung[0])}
+    for number, name in enumerate(names):
+        along = drawn(weaver, track, number, lift)
+        still = 0 * along
+        moved[collar_body(name)] = motion(knot, angle, shift=np.stack([still, still, along - along[0]], axis=1))
+    return moved
+
+
+def _lift(knot: Cyclogram, track: str, weaver: Weaver) -> tuple[FloatArray, FloatArray]:
+    """The lift of a track's follower [m] at angles of the knot [rad]; its last angle closes the turn."""
+    cam, own = weaver.cam(track), knot.track(track)
+    angle = np.unique(np.concatenate([track_angles(own), np.linspace(0.0, turn, _LIFTS)]))
+    return angle, np.interp(angle, cam.angle, cam.motion.s, period=turn)
 
 
 _HANDS = ((LEFT, -1), (RIGHT, 1))
@@ -101,7 +162,7 @@ _HANDS = ((LEFT, -1), (RIGHT, 1))
 
 def _arm_frame(loom: LoomDesign, tool: HeadTool) -> SceneFrame:
     direction = (0.0, tool.direction.imag, tool.direction.real)
-    moves = along_track(loom.knot_cyclogram, tool.track, direction, tool.limit)
+    moves = along_track(loom.knot_cyclogram, tool.track, direction)
     return SceneFrame(tool.name, np.zeros((1, 3)), HEAD, moves)
 
 

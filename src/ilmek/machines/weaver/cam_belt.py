@@ -1,0 +1,52 @@
+"""The belt from a head's motor to its cam shaft: its pulleys by the torque, their places in the side view.
+
+    z = 2 pi T S / p F,   F = f w m        T torque, S margin, p pitch, m teeth in mesh
+
+A tooth bears f for each width w.
+
+The small pulley is on the reducer, in front of the case; the belt runs in a station of its own beside the last cam.
+"""
+
+import math
+
+from ilmek.elements.belts import BELTS, MESHING
+from ilmek.elements.duty import MARGIN
+from ilmek.machines.weaver.widths import BELT
+from ilmek.records import record
+from ilmek.units import turn
+
+PROFILE, SMALL = BELTS["AT5"], 30
+"""The belt, and the teeth of its small pulley, of which as many mesh as may share the pull."""
+
+PULL = (PROFILE.pull or 0.0) * BELT * MESHING
+"""Allowed pull of the belt [N]."""
+
+
+@record
+class CamBelt:
+    """A belt on two pulleys: teeth of the one on the cam shaft, and the torque that it has to give [N m]."""
+
+    large: int
+    torque: float
+
+    @property
+    def ratio(self) -> float:
+        """Turns of the reducer for one of the shaft."""
+        return self.large / SMALL
+
+    @property
+    def radii(self) -> tuple[float, float]:
+        """Pitch radii on the shaft and on the reducer [m]."""
+        return PROFILE.pitch * self.large / turn, PROFILE.pitch * SMALL / turn
+
+    @property
+    def pull(self) -> float:
+        """Greatest pull by the torque [N]."""
+        return self.torque / self.radii[0]
+
+
+def cam_belt(torque: float, room: float) -> CamBelt:
+    """The belt for a torque on the cam shaft [N m], its large pulley no larger than a room's radius [m]."""
+    needed = math.ceil(turn * MARGIN * torque / (PROFILE.pitch * PULL) - 1e-9)
+    most = math.floor(turn * room / PROFILE.pitch)
+    return CamBelt(max(SMALL, min(needed, most)), torque)

@@ -1,0 +1,135 @@
+"""The drive of a head's cam shaft, motor, angle reducer and belt, and the motors of the colours.
+
+The motor stands upright in front of the case, below the bracket, on a plate at the left side plate. The reducer's
+output is across, with the belt's small pulley, so that motor and reducer are within the head's width.
+"""
+
+from collections.abc import Iterator
+
+from ilmek.cams.loaded_plate_cam import STEEL
+from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
+from ilmek.machines.weaver.case import ALUMINIUM
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.outlines import hull_of_circles
+from ilmek.machines.weaver.parts import MOTOR
+from ilmek.machines.weaver.selector import selector_of
+from ilmek.machines.weaver.stations import belt_station
+from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.widths import BELT, case_width
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, bar, box, tube
+from ilmek.part.tree import Occurrence
+from ilmek.units import format_quantity, mm
+
+CAM_BELT, CAM_PULLEY, SMALL_PULLEY, STUB = (
+    part_id("cam-belt"),
+    part_id("cam-pulley"),
+    part_id("small-pulley"),
+    part_id("reducer-stub"),
+)
+"""Ids of the parts."""
+
+MOTOR_PLATE, OUTPUT, UNDER_BRACKET = 6 * mm, 14 * mm, 3 * mm
+"""Thickness of the motor's plate, diameter of the reducer's output, room under the bracket [m]; assumed by this
+project."""
+
+BACK, TEETH, ON_PULLEY = 1.5 * mm, 1.2 * mm, 0.05 * mm
+"""A belt outside and inside of its pitch line, half of the AT5 profile each, and its room on a pulley [m]."""
+
+
+def _face(weaver: Weaver) -> float:
+    """Side of the flanges of motor and reducer [m]."""
+    servo = weaver.drive.servo
+    return servo.motor.face if servo else catalogue.SPECIAL_FACE
+
+
+def reducer_at(weaver: Weaver) -> complex:
+    """The output's axis in the side view [m]: in front of the case, under the bracket."""
+    shape, face = weaver.shape, _face(weaver)
+    high = max(weaver.belt.radii[1] + BACK, catalogue.REDUCER_LENGTH * face / 2)
+    front = (shape.body + shape.size).real + MOTOR_PLATE + face / 2
+    return complex(front, shape.rail - RAIL_AXIS / 2 - UNDER_BRACKET - high)
+
+
+def shaft_pulley(weaver: Weaver) -> Occurrence:
+    """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
+    radius = weaver.belt.radii[0] - TEETH - ON_PULLEY
+    ring = tube(2 * radius, radius - weaver.params.shaft / 2, BELT)
+    part = Part(CAM_PULLEY, "pulley of the cam shaft", "machined link", _teeth(weaver.belt.large), ring, ALUMINIUM)
+    return Occurrence(part, (placement(z=-belt_station(weaver) - BELT),))
+
+
+def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
+    """Motor, reducer, its plate, the small pulley on the output, and the belt."""
+    shape, at, face, begin = weaver.shape, reducer_at(weaver), _face(weaver), belt_station(weaver)
+    servo, drive = weaver.drive.servo, weaver.drive
+    motor = servo.motor if servo else None
+    long, middle = catalogue.REDUCER_LENGTH * face, begin - 0.5 * mm - face / 2
+    low = at.imag - long / 2
+    if servo is not None:
+        geared = catalogue.reducer(part_id("reducer"), "angle reducer of a head", servo.reducer.ratio, motor)
+        yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
+    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
+    yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
+    stub = Part(STUB, "output of the angle reducer", "pin or bush", _mm(OUTPUT), bar(OUTPUT, BELT + 0.5 * mm), STEEL)
+    yield Occurrence(stub, (placement(begin - 0.5 * mm, at.imag, at.real).after(ALONG_WIDTH),))
+    radius = weaver.belt.radii[1] - TEETH - ON_PULLEY
+    ring = tube(2 * radius, radius - OUTPUT / 2, BELT)
+    pulley = Part(SMALL_PULLEY, "small pulley of the cam belt", "machined link", _teeth(SMALL), ring, ALUMINIUM)
+    yield Occurrence(pulley, (placement(begin, at.imag, at.real).after(ALONG_WIDTH),))
+    yield _belt(weaver, at, begin)
+    left = -case_width(weaver.params) / 2
+    plate = box(middle + face / 2 - left, long, MOTOR_PLATE)
+    carrier = Part(part_id("motor-plate"), "plate of the motor", "machined link", _mm(MOTOR_PLATE), plate, ALUMINIUM)
+    yield Occurrence(carrier, (placement((left + middle + face / 2) / 2, at.imag, (shape.body + shape.size).real),))
+
+
+def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
+    """The belt about both pulleys, in the side view."""
+    large, small = weaver.belt.radii
+    axis = weaver.shape.axis
+    outer = hull_of_circles(large + BACK, small + BACK, at - axis)
+    inner = hull_of_circles(large - TEETH, small - TEETH, at - axis)
+    length = float(abs(at - axis)) * 2 + 3.2 * (large + small)
+    part = Part(
+        CAM_BELT,
+        "belt of the cam shaft",
+        "belt and pulleys",
+        f"{PROFILE.name}, {_mm(BELT)} wide",
+        Prism(Profile(outer, (inner,)), BELT),
+        purchase=Bought(PROFILE.name, BELT_MASS * length, length=length),
+    )
+    return Occurrence(part, (placement(begin + BELT, axis.imag, axis.real).after(IN_SIDE_VIEW),))
+
+
+BELT_MASS = 0.034
+"""Of the belt for each metre, 10 mm wide [kg/m]: makers' data for AT5 of polyurethane."""
+
+
+def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:
+    """The motors of the tubes, upright on the bracket."""
+    shape = weaver.shape
+    chosen, under = selector_of(weaver.params, weaver.magazine), shape.magazine + shape.magazine_size.real / 2
+    flange = shape.rail + RAIL_AXIS / 2 + chosen.length
+    colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
+    two = weaver.magazine.tiers > 1
+    for number, (name, title) in enumerate(colours[: 2 if two else 1]):
+        part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
+        x = (2 * number - 1) * chosen.face / 2 if two else 0.0
+        yield Occurrence(part, (_upright(x, flange, under.real),))
+
+
+def _upright(x: float, height: float, front: float) -> Placement:
+    return placement(x, height, front).after(UPRIGHT)
+
+
+def _teeth(number: int) -> str:
+    return f"{PROFILE.name}, {number} teeth"
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "mm")

@@ -1,0 +1,212 @@
+"""The followers of a head's cams: each a fork with a roller, upright in the slot of one guide over the cam shaft.
+
+The axis of a roller is over that of the cams by the prime radius and the lift s of its programme:
+
+    y = r0 + s(angle)        the shaft is turned so that angle 0 of the cams lies upright
+
+A follower ends where it drives: with cheeks about the pin of a lever, with a rail on which a roller of the jaws' rocker
+runs wherever its carriage is, or with a rack.
+"""
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.cams.loaded_plate_cam import ROLLER, STEEL, LoadedPlateCam
+from ilmek.machines.weaver.case import ALUMINIUM, WEB
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import GUIDE, LAP, PLAY
+from ilmek.machines.weaver.jaws import rail_of
+from ilmek.machines.weaver.levers import OVER, PIN, SOLID
+from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.stations import cheek, follower_half, station
+from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.turning import follower_top, rack, rack_at, rack_top
+from ilmek.machines.weaver.widths import stack_width
+from ilmek.part.part import Part
+from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
+from ilmek.plane.contours import circle, polygon
+from ilmek.report import Contour
+from ilmek.units import format_quantity, mm, turn
+
+FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam-roller"), part_id("roller-pin")
+LEVER_PIN = part_id("lever-pin")
+"""Ids of the parts."""
+
+PIN_SHARE, CHEEK_SHARE = 0.4, 0.4
+"""Pin over roller; a fork's cheek over the gap of the cams; assumed by this project, the fork's stress is checked."""
+
+LEAST_CHEEK = 0.1 * mm
+"""Of a fork whose cams have no gap beside them [m]."""
+
+RAIL = 5 * mm
+"""Height of a rail [m]; assumed by this project."""
+
+FORK_STRESS = (STEEL.fatigue or 0.0) / 2
+"""Allowed stress of a fork [Pa]: the fatigue limit over a safety of 2, assumed by this project."""
+
+
+def follower_id(track: str) -> str:
+    """Id of the follower of a cam, and of its body."""
+    return part_id(f"{track.replace(' ', '-')}-follower")
+
+
+def follower_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
+    """A fork with its roller for each cam, at angle 0: x of its frame down to the cam's axis, y to the front."""
+    axis = weaver.shape.axis
+    for cam in weaver.cams:
+        height = axis.imag + cam.cam.prime_radius + float(cam.motion.s[0])
+        position = placement(station(weaver, cam.name) + cam.thickness / 2, height, axis.real).after(IN_SIDE_VIEW)
+        parts = _follower(weaver, cam)
+        if cam.name == HANDLER:
+            upright = rack_at(weaver, rack_top(weaver) + float(cam.motion.s[0]))
+            parts = *parts, Occurrence(rack(weaver), (position.after(_DOWN).inverse.after(upright),))
+        yield RigidBody(
+            follower_id(cam.name),
+            parts,
+            parent,
+            Joint(JointKind.CAM, (1.0, 0.0, 0.0)),
+            (position.after(_DOWN),),
+        )
+
+
+_DOWN = placement(about=(0.0, 0.0, 1.0), angle=-turn / 4)
+
+
+def follower_mass(weaver: Weaver, cam: LoadedPlateCam) -> float:
+    """Mass of the follower of a cam, with roller and pins [kg]."""
+    return sum(occurrence.part.mass for occurrence in _follower(weaver, cam))
+
+
+def fork_stress(weaver: Weaver, cam: LoadedPlateCam) -> float:
+    """Greatest stress of a fork's cheeks beside the pin, by half the contact force each [Pa]."""
+    fork, pin = _sizes(weaver)
+    return cam.contact_max / (2 * fork * (2 * follower_half(weaver) - pin))
+
+
+def _sizes(weaver: Weaver) -> tuple[float, float]:
+    """Thickness of a fork's cheek, diameter of its pin [m]."""
+    params = weaver.params
+    return max(CHEEK_SHARE * params.cam_gap, LEAST_CHEEK), 2 * PIN_SHARE * params.roller_radius
+
+
+def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
+    roller, bolt = _roller(weaver)
+    fork, _ = _sizes(weaver)
+    parts = Occurrence(_fork(weaver, cam)), Occurrence(roller), Occurrence(bolt, (placement(z=-fork),))
+    if cam.name not in weaver.shape.levers:
+        return parts
+    return *parts, Occurrence(lever_pin(weaver), (placement(-_pin_height(weaver, cam)),))
+
+
+@lru_cache(maxsize=8)
+def lever_pin(weaver: Weaver) -> Part:
+    """The pin of a follower or a drawbar in the slot of its lever, across both cheeks."""
+    return Part(
+        LEVER_PIN,
+        "pin of a lever",
+        "pin or bush",
+        _round(PIN),
+        bar(PIN, weaver.params.cam_thickness),
+        STEEL,
+    )
+
+
+@lru_cache(maxsize=8)
+def _roller(weaver: Weaver) -> tuple[Part, Part]:
+    """Roller and pin, alike for all cams."""
+    radius, thick = weaver.params.roller_radius, weaver.params.cam_thickness
+    fork, pin = _sizes(weaver)
+    ring = tube(2 * radius, radius - pin / 2, thick)
+    return (
+        Part(CAM_ROLLER, "roller of a cam", "pin or bush", _round(2 * radius), ring, ROLLER),
+        Part(ROLLER_PIN, "pin of a roller", "pin or bush", _round(pin), bar(pin, thick + 2 * fork), STEEL),
+    )
+
+
+def guide(weaver: Weaver) -> Occurrence:
+    """A plate between the side plates with a slot for each follower."""
+    params, half = weaver.params, follower_half(weaver)
+    wide, shape = stack_width(params), weaver.shape
+    middles = sorted(station(weaver, cam.name) for cam in weaver.cams)
+    ends = [(middle - params.cam_thickness / 2, middle + params.cam_thickness / 2) for middle in middles]
+    if params.cam_gap < WEB:  # no wall is left between two slots: one window
+        ends = [(ends[0][0] + WEB, ends[-1][1] - WEB)]
+    slots = tuple(_box(complex(-half, -high), complex(half, -low)) for low, high in ends)
+    outline = _box(complex(-4 * half, -wide / 2), complex(4 * half, wide / 2))
+    size = f"{format_quantity(GUIDE, 'mm')} thick"
+    section = Profile(outline, slots)
+    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
+    return Occurrence(part, (placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING),))
+
+
+_LYING = Placement(np.zeros(3), np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]))
+"""A plate that lies level: its x to the warps, its y to the weaver's left, its z up."""
+
+
+def _height(weaver: Weaver, cam: LoadedPlateCam, level: float, lift: float) -> float:
+    """Over the axis of a cam's roller [m]: a level above the fell that its follower has at a lift."""
+    return level - weaver.shape.axis.imag - cam.cam.prime_radius - lift
+
+
+def _pin_height(weaver: Weaver, cam: LoadedPlateCam) -> float:
+    """Of the pin that moves its lever, over the axis of a cam's roller [m]."""
+    return _height(weaver, cam, weaver.shape.levers[cam.name].pivot.imag, cam.lift / 2)
+
+
+def _fork(weaver: Weaver, cam: LoadedPlateCam) -> Part:
+    """Bar and two cheeks about the roller's axis; at its upper end what moves the lever, the jaws or the handler."""
+    fork, pin = _sizes(weaver)
+    radius, thick = weaver.params.roller_radius, cam.thickness
+    half, near = follower_half(weaver), radius + PLAY
+    upper, ends = _upper(weaver, cam, half)
+    body = Placed(Prism(Profile(_bar(near, upper, half, weaver, cam)), thick))
+    plate = Profile(_box(complex(-near - LAP, -half), complex(pin, half)), (circle(0j, pin / 2),))
+    sides = Placed(Prism(plate, fork), (placement(z=-fork), placement(z=thick)))
+    title, size = f"follower of the {cam.name}", format_quantity(upper, "mm")
+    return Part(follower_id(cam.name), title, "machined link", size, Sum((body, sides, *ends)), STEEL)
+
+
+def _upper(weaver: Weaver, cam: LoadedPlateCam, half: float) -> tuple[float, tuple[Placed, ...]]:
+    """Upper end of a follower's bar over its roller [m], and the cheeks about its lever's pin."""
+    if cam.name == HANDLER:
+        return _height(weaver, cam, follower_top(weaver), 0.0), ()
+    if cam.name not in weaver.shape.levers:
+        return _height(weaver, cam, rail_of(weaver, cam.name).top, 0.0), ()
+    height, thick = _pin_height(weaver, cam), cheek(weaver)
+    hole = (circle(complex(-height), PIN / 2),)
+    plate = Profile(_box(complex(-height - OVER, -half), complex(SOLID - height, half)), hole)
+    places = placement(), placement(z=cam.thickness - thick)
+    return height - SOLID, (Placed(Prism(plate, thick), places),)
+
+
+def _bar(near: float, upper: float, half: float, weaver: Weaver, cam: LoadedPlateCam) -> Contour:
+    """A follower's bar, of the jaws with their rail across its upper end."""
+    if cam.name == HANDLER or cam.name in weaver.shape.levers:
+        return _box(complex(-upper, -half), complex(-near, half))
+    rail, line = rail_of(weaver, cam.name), weaver.shape.axis.real
+    low, high = min(rail.begin - line, -half), max(rail.end - line, half)
+    corners = [
+        complex(-upper, low),
+        complex(RAIL - upper, low),
+        complex(RAIL - upper, -half),
+        complex(-near, -half),
+        complex(-near, half),
+        complex(RAIL - upper, half),
+        complex(RAIL - upper, high),
+        complex(-upper, high),
+    ]
+    return polygon(np.array([corner for k, corner in enumerate(corners) if corner != corners[k - 1]]))
+
+
+def _box(low: complex, high: complex) -> Contour:
+    middle, size = (low + high) / 2, high - low
+    return polygon(middle + rectangle(size.real, size.imag).points)
+
+
+def _round(diameter: float) -> str:
+    return f"round {format_quantity(diameter, 'mm')}"

@@ -1,0 +1,243 @@
+"""The jaws of the grippers: rail on the follower, rocker on the carriage, collar and wire in the gripper, finger.
+
+A rocker hangs on the carriage that moves the gripper. Its roller runs on the rail of the jaws' follower, which is as
+long as the carriage's way, so that the jaws close and open wherever the carriage is. The rail lifts the roller by s, at
+the arm c; the tip of the other arm, b long, moves the collar on the gripper, which a spring presses away:
+
+    sin phi = (s - h/2) / c,    the collar moves by b sin phi,    c = b / i
+
+The wire leads the collar's motion through the bore of the gripper to its end, as in forceps for endoscopes, where a
+finger opens by the jaw's width.
+"""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.arrays import FloatArray, RealField
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP
+from ilmek.machines.weaver.opener import STEEL
+from ilmek.machines.weaver.outlines import hull_of_circles
+from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
+from ilmek.machines.weaver.stations import station
+from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, part_id, wire_of
+from ilmek.part.part import Part
+from ilmek.part.placement import IN_SIDE_VIEW, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, Turned, bar
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
+from ilmek.plane.contours import circle, polygon
+from ilmek.records import record
+from ilmek.units import format_quantity, mm
+
+ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
+"""Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
+the width of their tips [m]; assumed by this project, as all sizes here."""
+
+EYE, LUG = 3 * mm, 2.5 * mm
+"""Radius of a rocker's eye on its axle, and thickness of the lugs that hold the axle [m]."""
+
+IN_BORE = 0.1 * mm
+"""Room of a wire in its bore [m]."""
+
+HUB, FLANGE, GROOVE, WALL = 4 * mm, 7 * mm, 2.8 * mm, 0.8 * mm
+"""Diameters of a collar's hub and flanges, width of its groove and thickness of its flanges [m]."""
+
+
+@record
+class Rail:
+    """The rail of a jaws' follower: from begin to end from the warps, and the height of its top at lift 0 [m]."""
+
+    begin: float
+    end: float
+    top: float
+
+
+@record
+class Rocker:
+    """A rocker while its carriage is at rest.
+
+    axle  z + i y [m]      tips  height of the axis of each gripper over its arm's tip, x of it: x + i y [m]
+    track  of the jaws     way  travel of the carriage forward and back [m]
+    """
+
+    track: str
+    axle: complex
+    grippers: tuple[complex, ...]
+    way: tuple[float, float]
+
+
+def rocker(weaver: Weaver, track: str) -> Rocker:
+    """The rocker of the jaws of a track."""
+    by, tied, params = weaver.grippers, weaver.tool_bodies.tied, weaver.params
+    under = ROCKER + HUB / 2 + TIP
+    if track == SIDE_GRASP:
+        rods = tuple(complex(hand * by.axis, tied + hand * by.lift / 2) for hand in (-1, 1))
+        axle = complex(weaver.shape.carriage - _before(weaver, track), tied - under)
+        return Rocker(track, axle, rods, (params.opening + by.crossing, params.pull_back))
+    height = tied + by.height
+    axle = complex(weaver.tool_bodies.tools.centre_carriage - _before(weaver, track), height - under)
+    return Rocker(track, axle, (1j * height,), (params.centre_stroke, 0.0))
+
+
+def _before(weaver: Weaver, track: str) -> float:
+    """From a carriage to the axle of its rocker [m]: the spring, and half a collar, in the middle of its stroke."""
+    return longest(weaver, track) - stroke_at(weaver.cam(track)) / 2 + GROOVE / 2 + WALL + IN_BORE * 3
+
+
+def arm_of(weaver: Weaver, track: str) -> float:
+    """Arm of a rocker to its roller [m]."""
+    return ROCKER / weaver.cam(track).ratio
+
+
+def turned(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
+    """Angle of a rocker [rad] at lifts of its follower [m]: the roller, nearer to the warps, goes up."""
+    share = (lift - weaver.cam(track).lift / 2) / arm_of(weaver, track)
+    return np.asarray(-np.arcsin(np.clip(share, -1.0, 1.0)))
+
+
+def drawn(weaver: Weaver, track: str, number: int, lift: RealField) -> FloatArray:
+    """How far a collar is from its middle position, to the front [m]."""
+    by = rocker(weaver, track)
+    length = by.grippers[number].imag - HUB / 2 - TIP - by.axle.imag
+    return np.asarray(-length * np.sin(turned(weaver, track, lift)))
+
+
+def rail_of(weaver: Weaver, track: str) -> Rail:
+    """The rail of a jaws' follower."""
+    by, cam = rocker(weaver, track), weaver.cam(track)
+    forward, back = by.way
+    roller = by.axle.real - arm_of(weaver, track)
+    top = by.axle.imag - ROLLER / 2 - cam.lift / 2
+    return Rail(roller - forward - ROLLER / 2, roller + back + ROLLER / 2, top)
+
+
+def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Occurrence:
+    """Plates on a carriage's front that hold its rocker's axle, by the x of their right faces [m]."""
+    axle = rocker(weaver, track).axle
+    deep = front - axle.real
+    corners = np.array([-EYE - 1j * EYE, deep - 1j * EYE, deep + 1j * EYE, -EYE + 1j * EYE])
+    section = Profile(polygon(corners), (circle(0j, AXLE / 2),))
+    name = "side" if track == SIDE_GRASP else "centre"
+    part = Part(
+        part_id(f"{name}-lug"), f"lug of the {name} jaws' rocker", "machined link", _mm(LUG), Prism(section, LUG), STEEL
+    )
+    return Occurrence(part, tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
+
+
+def rocker_id(track: str) -> str:
+    """Id of the rocker of the jaws of a track, and of its body."""
+    return part_id(f"{track.replace(' ', '-')}-rocker")
+
+
+def collar_body(name: str) -> str:
+    """Id of the body of the collar on a gripper."""
+    return f"{name}'s collar"
+
+
+def finger_body(name: str) -> str:
+    """Id of the body of a gripper's finger."""
+    return f"{name}'s finger"
+
+
+def jaw_bodies(weaver: Weaver) -> Iterator[RigidBody]:
+    """Rockers on the carriages, collars with wires on the grippers, fingers at their ends, at angle 0."""
+    for track, carriage, grippers in ((SIDE_GRASP, PLATES, (LEFT, RIGHT)), (CENTRE_GRASP, CENTRE, (CENTRE,))):
+        by = rocker(weaver, track)
+        start = float(weaver.cam(track).motion.s[0])
+        own = weaver.tool_bodies.frame(carriage).inverse
+        at = own.after(placement(0.0, by.axle.imag, by.axle.real)).after(IN_SIDE_VIEW)
+        rest = at.after(placement(about=(0.0, 0.0, 1.0), angle=float(turned(weaver, track, start))))
+        yield RigidBody(rocker_id(track), tuple(_rocker_parts(weaver, by)), carriage, Joint(JointKind.PIN), (rest,))
+        for number, name in enumerate(grippers):
+            along = by.axle.real + float(drawn(weaver, track, number, start))
+            yield _collar(weaver, by, name, along)
+
+
+def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
+    """Axle along the row, arm with roller over the rail, an arm to each collar; z to the weaver's left."""
+    side, arm = station(weaver, by.track), arm_of(weaver, by.track)
+    rods = [rod.real for rod in by.grippers]
+    towards = 1 if max(rods) > side else -1
+    near, name = side + towards * FACE / 2, "side" if by.track == SIDE_GRASP else "centre"
+    left, right = min(near, *(rod - 2 * ARM for rod in rods)), max(near, *(rod + 2 * ARM for rod in rods))
+    title = f"axle of the {name} jaws' rocker"
+    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", _mm(right - left), bar(AXLE, right - left), STEEL)
+    yield Occurrence(axle, (placement(z=-right),))
+    hole = (circle(0j, AXLE / 2),)
+    level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), hole), ARM)
+    title = f"roller's arm of the {name} jaws"
+    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", _mm(arm), level, STEEL)
+    yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
+    yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
+    for number, rod in enumerate(by.grippers):
+        long = rod.imag - HUB / 2 - TIP - by.axle.imag
+        shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
+        title = f"collar's arm {number + 1} of the {name} jaws"
+        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", _mm(long), shape, STEEL)
+        yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
+
+
+_ROLLER_PART = Part(
+    part_id("jaw-roller"),
+    "roller of the jaws",
+    "pin or bush",
+    format_quantity(ROLLER, "mm"),
+    bar(ROLLER, FACE),
+    STEEL,
+)
+
+
+def _roller() -> Part:
+    return _ROLLER_PART
+
+
+def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:
+    """A collar with its wire in a gripper's frame; along: where its middle is [m from the warps]."""
+    collar, wire = _collar_parts(weaver, by.track)
+    begin = along - GROOVE / 2 - WALL - weaver.tool_bodies.tip(name)
+    parts = Occurrence(collar, (placement(z=begin),)), Occurrence(wire)
+    return RigidBody(collar_body(name), parts, name, Joint(JointKind.SLIDE))
+
+
+@lru_cache(maxsize=8)
+def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
+    """The collar on a gripper, and the wire that it pulls, from the gripper's tip to it."""
+    params, side = weaver.params, track == SIDE_GRASP
+    bore, kind = (params.finger / 2, "side") if side else (params.finger / math.sqrt(2), "centre")
+    deep = GROOVE + 2 * WALL
+    corners = [
+        *(complex(0, bore), complex(deep, bore), complex(deep, FLANGE / 2), complex(deep - WALL, FLANGE / 2)),
+        *(complex(deep - WALL, HUB / 2), complex(WALL, HUB / 2), complex(WALL, FLANGE / 2), complex(0, FLANGE / 2)),
+    ]
+    ring = Turned(Profile(polygon(np.array(corners))))
+    wire, long = wire_of(params), rocker(weaver, track).axle.real - weaver.tool_bodies.tip(LEFT if side else CENTRE)
+    title = f"collar of the {kind} jaws"
+    return (
+        Part(part_id(f"{kind}-collar"), title, "turned part", _mm(FLANGE), ring, STEEL),
+        Part(
+            part_id(f"{kind}-wire"),
+            f"wire of the {kind} jaws",
+            "pin or bush",
+            _mm(wire),
+            bar(wire - IN_BORE, long),
+            STEEL,
+        ),
+    )
+
+
+def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:
+    """The springs of the jaws on their grippers, before the carriage, in its axes."""
+    part = spring_part(weaver, track)
+    if part is None:
+        return ()
+    by = rocker(weaver, track)
+    front = by.axle.real + _before(weaver, track) - shortest(weaver, track)
+    return (Occurrence(part, tuple(placement(rod.real, rod.imag, front) for rod in by.grippers)),)
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "mm")

@@ -1,0 +1,167 @@
+"""The pile handler's turning: rack on its cam's follower, pinion with a freewheel, shaft through the face, arm.
+
+The handler turns in a plane along the warps, before the opener's points at rest, and shows the pile to the right side
+gripper. Its shaft runs from its arm through the face to a pinion behind the carriages. The rack stands at the right
+of the pinion's axis, so that a rising follower turns the handler counter-clockwise, seen from the weaver; on its way
+back the pinion turns alone, by the freewheel.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ilmek.elements.involute import Gear, outline
+from ilmek.machines.weaver.cyclogram import DRAW_TURN, PRESENT_TURN, TUBE_TURN
+from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import LOWER_PLATE
+from ilmek.machines.weaver.motions import HANDLER
+from ilmek.machines.weaver.opener import STEEL
+from ilmek.machines.weaver.return_springs import longest
+from ilmek.machines.weaver.stations import follower_half, sheet, station
+from ilmek.machines.weaver.tool_parts import HANDLER_ARM, part_id
+from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT as SHAFT
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, bar, tube
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
+from ilmek.plane.contours import circle, polygon
+from ilmek.units import format_quantity, mm, turn
+
+HANDLER_BODY, PINION_BODY = part_id("turning pile handler"), part_id("turning pinion")
+HANDLER_SHAFT, PINION, RACK, FREEWHEEL = (
+    part_id("handler-shaft"),
+    part_id("handler-pinion"),
+    part_id("handler-rack"),
+    part_id("freewheel"),
+)
+"""Ids of bodies and parts."""
+
+BEFORE = 2.5 * mm
+"""From the handler's arm to the opener's points [m]; assumed by this project, as all sizes here."""
+
+TEETH, FACE, BACK, BACKLASH, STUB = 12, 5 * mm, 3 * mm, 0.1 * mm, 0.6
+"""Of the pinion; width of its teeth, the rack's back from its pitch line, play of the teeth [m], and addendum of the
+rack [modules], below which a pinion of few teeth is not undercut."""
+
+BESIDE = 1.5 * mm
+"""Of the rack's back at the right of its follower [m]."""
+
+CLUTCH = (8 * mm, 6 * mm)
+"""Outer diameter and width of the freewheel [m]: HF0406."""
+
+
+def pivot(weaver: Weaver) -> complex:
+    """The axis of the handler, x + i y [m]: its pinion beside the rack, its tip at the right side gripper's yarn."""
+    tip, radius = _shown_at(weaver), weaver.handler_radius
+    x = station(weaver, HANDLER) + weaver.params.cam_thickness / 2 + BESIDE - BACK - weaver.params.pinion
+    across = min(max((tip.real - x) / radius, -1.0), 1.0)
+    return complex(x, tip.imag - radius * math.sqrt(1 - across**2))
+
+
+def _shown_at(weaver: Weaver) -> complex:
+    """Where the handler shows the pile, x + i y [m]."""
+    by = weaver.grippers
+    return complex(by.axis + by.arm, weaver.tool_bodies.tied)
+
+
+def home(weaver: Weaver) -> float:
+    """Direction of its arm at angle 0 [rad], counter-clockwise from the right."""
+    shown = float(np.angle(_shown_at(weaver) - pivot(weaver)))
+    return shown - TUBE_TURN - DRAW_TURN - PRESENT_TURN
+
+
+def rack_top(weaver: Weaver) -> float:
+    """Height of the rack's upper end while its follower is lowest [m]: a tooth over the pinion."""
+    return pivot(weaver).imag + weaver.params.pinion + 2 * _gear(weaver).module
+
+
+def follower_top(weaver: Weaver) -> float:
+    """Height of the follower behind the rack while it is lowest [m]: under its spring, which stands under the top."""
+    under = (weaver.shape.body + weaver.shape.size).imag - sheet(weaver) - longest(weaver, HANDLER)
+    return min(under, rack_top(weaver))
+
+
+def _gear(weaver: Weaver) -> Gear:
+    return Gear(2 * weaver.params.pinion / TEETH, TEETH)
+
+
+def wheel_at(weaver: Weaver) -> float:
+    """Where the pinion begins behind the carriages [m from the warps]: before the followers' line."""
+    return weaver.shape.axis.real - follower_half(weaver) - FACE
+
+
+def rack(weaver: Weaver) -> Part:
+    """The rack, in the front view turned half round: x to the left from its pitch line, y down from its upper end."""
+    gear, teeth = _gear(weaver), math.ceil(weaver.cam(HANDLER).lift / (math.pi * _gear(weaver).module)) + 3
+    pitch, module = math.pi * gear.module, gear.module
+    deep, wide = math.tan(math.radians(20.0)) * module, pitch / 4 - BACKLASH / 2
+    corners = [complex(-BACK, teeth * pitch), complex(-BACK, 0.0), complex(-1.25 * module, 0.0)]
+    for k in range(teeth):
+        at = (k + 0.5) * pitch
+        root, tip = wide + 1.25 * deep, wide - STUB * deep
+        corners += [
+            complex(-1.25 * module, at - root),
+            complex(STUB * module, at - tip),
+            complex(STUB * module, at + tip),
+            complex(-1.25 * module, at + root),
+        ]
+    corners.append(complex(-1.25 * module, teeth * pitch))
+    size = f"module {format_quantity(module / mm, '')}, {teeth} teeth"
+    shape = Prism(Profile(polygon(np.array(corners))), FACE)
+    return Part(RACK, "rack of the pile handler", "machined link", size, shape, STEEL)
+
+
+def rack_at(weaver: Weaver, upper: float) -> Placement:
+    """Where the rack is while its upper end is at a height [m]: on the side of the follower next to the warps."""
+    line = pivot(weaver).real + weaver.params.pinion
+    return placement(line, upper, wheel_at(weaver), about=(0.0, 0.0, 1.0), angle=turn / 2)
+
+
+def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
+    """The handler on its shaft, and the pinion with its freewheel on it, at angle 0."""
+    at, about = pivot(weaver), (0.0, 0.0, 1.0)
+    (points,) = (tool.corner.real for tool in weaver.shape.tools if tool.name == LOWER_PLATE)
+    begin, end = points - BEFORE - HANDLER_ARM[1], wheel_at(weaver) + FACE
+    arm = weaver.tool_bodies.handler_arm
+    shaft = Part(HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", _mm(SHAFT), bar(SHAFT, end - begin), STEEL)
+    yield RigidBody(
+        HANDLER_BODY,
+        (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),))),
+        parent,
+        Joint(JointKind.PIN, about),
+        (placement(at.real, at.imag, 0.0, about=about, angle=home(weaver)),),
+    )
+    outer, wide = CLUTCH
+    wheel = Profile(polygon(outline(_gear(weaver))), (circle(0j, outer / 2),))
+    size = f"module {format_quantity(_gear(weaver).module / mm, '')}, {TEETH} teeth"
+    pinion = Part(PINION, "pinion of the pile handler", "machined link", size, Prism(wheel, FACE), STEEL)
+    clutch = Part(
+        FREEWHEEL,
+        "freewheel of the pile handler",
+        "bearing",
+        shape=tube(outer, (outer - SHAFT) / 2, wide),
+        purchase=Bought("HF0406", 0.001),
+        envelope=True,
+    )
+    yield RigidBody(
+        PINION_BODY,
+        (Occurrence(pinion), Occurrence(clutch, (placement(z=FACE - wide),))),
+        parent,
+        Joint(JointKind.PIN, about),
+        (placement(at.real, at.imag, wheel_at(weaver), about=about, angle=_meshing(weaver)),),
+    )
+
+
+def _meshing(weaver: Weaver) -> float:
+    """Angle of the pinion at angle 0 [rad], with a gap of its teeth at a tooth of the rack, which is at its right."""
+    gear = _gear(weaver)
+    pitch = math.pi * gear.module
+    upper = rack_top(weaver) + float(weaver.cam(HANDLER).motion.s[0])
+    above = (upper - pitch / 2 - pivot(weaver).imag) % pitch
+    return turn / (2 * TEETH) + above / gear.pitch_radius
+
+
+def _mm(length: float) -> str:
+    return format_quantity(length, "mm")

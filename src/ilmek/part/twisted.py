@@ -1,0 +1,68 @@
+"""A square bar that is twisted about its axis, straight before and behind: the screw of a rotation along a travel."""
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.part.convex import Points
+from ilmek.part.moments import Moments
+from ilmek.part.shapes import CHORD, box
+from ilmek.records import record
+from ilmek.report.scene import Solid
+
+STEP = np.deg2rad(6.0)
+"""Twist between two sections of a mesh, at most."""
+
+
+@record
+class TwistedBar:
+    """A square bar along z from z = 0 [m], each section turned about z.
+
+    side  of the square [m]      stations  of z where the twist changes, from 0 to its length [m]
+    angles  at them [rad], straight between them
+    """
+
+    side: float
+    stations: tuple[float, ...]
+    angles: tuple[float, ...]
+
+    @property
+    def length(self) -> float:
+        """Length [m]."""
+        return self.stations[-1]
+
+    @property
+    def volume(self) -> float:
+        """Volume [m³]: sections keep their area."""
+        return self.side**2 * self.length
+
+    @property
+    def moments(self) -> Moments:
+        """Moments of its volume: those of the straight bar, since a square's second moment is that of any direction."""
+        return box(self.side, self.side, self.length).moments
+
+    def mesh(self, deviation: float = CHORD) -> Solid:
+        """A closed surface of triangles between turned sections; they are near enough for any deviation."""
+        del deviation
+        rings = self._rings()
+        number, corner = len(rings), np.arange(4)
+        following = np.roll(corner, -1)
+        first = np.stack([corner, following, following + 4], axis=1)
+        other = np.stack([corner, following + 4, corner + 4], axis=1)
+        sides = [faces + 4 * k for k in range(number - 1) for faces in (first, other)]
+        low, high = np.array([[0, 2, 1], [0, 3, 2]]), np.array([[0, 1, 2], [0, 2, 3]]) + 4 * (number - 1)
+        return Solid(rings.reshape(-1, 3), np.concatenate([low, *sides, high]))
+
+    def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
+        """The convex hulls of neighbouring sections."""
+        del deviation
+        rings = self._rings()
+        return tuple(np.concatenate(pair) for pair in zip(rings[:-1], rings[1:], strict=True))
+
+    def _rings(self) -> FloatArray:
+        """Corners of the sections, (sections, 4, 3) [m]."""
+        steps = np.maximum(np.ceil(np.abs(np.diff(self.angles)) / STEP), 1).astype(int)
+        shares = np.concatenate([[0.0], *(k + np.arange(1, n + 1) / n for k, n in enumerate(steps))])
+        z = np.interp(shares, np.arange(len(self.stations)), self.stations)
+        angle = np.interp(shares, np.arange(len(self.stations)), self.angles)
+        corners = np.exp(1j * (angle[:, None] + np.pi / 4 + np.pi / 2 * np.arange(4))) * self.side / np.sqrt(2)
+        return np.stack([corners.real, corners.imag, np.broadcast_to(z[:, None], corners.shape)], axis=2)
