@@ -9,7 +9,7 @@ from collections.abc import Mapping
 import mujoco
 import numpy as np
 
-_SMALL, _STEPS = 1e-10, 30
+_SMALL, _STEPS, _TURNED = 1e-10, 30, 0.05
 
 
 class Judge:
@@ -82,6 +82,23 @@ class Judge:
             first, other = sorted(self.model.body(self.model.geom_bodyid[geom]).name for geom in contact.geom)
             depths[first, other] = max(depths.get((first, other), 0.0), -float(contact.dist))
         return depths
+
+    def turn(self, joint: str, value: float, speed: float) -> None:
+        """Turn a driven joint to a value by small steps, then let it go on at a constant speed: q, v and a of all."""
+        data, column = self.data, self.model.joint(joint).id
+        for at in np.linspace(data.qpos[column], value, 2 + int(abs(value - data.qpos[column]) / _TURNED)):
+            data.qpos[column] = at
+            self.close()
+        at, step = data.qpos.copy(), 1e-4
+        beside = []
+        for aside in (-step, step):
+            data.qpos[:] = at
+            data.qpos[column] += aside
+            self.close()
+            beside.append(data.qpos.copy())
+        data.qpos[:] = at
+        data.qvel[:] = (beside[1] - beside[0]) / (2 * step) * speed
+        data.qacc[:] = (beside[1] - 2 * at + beside[0]) / step**2 * speed**2
 
     def effort(self, joint: str) -> float:
         """Force or torque of a driven joint at the present position, velocity and acceleration.

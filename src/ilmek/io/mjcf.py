@@ -15,7 +15,7 @@ What a cam moves has a servo of its own: its law is no polynomial of the cam's a
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 import numpy as np
@@ -146,11 +146,10 @@ class _Model:
                 _joint(element, self.joints[number], self.mobility.coordinates[number][1])
             _inertial(element, link.body.moments)
             for occurrence in link.body.occurrences:
-                colour = _text(*colour_of(occurrence.part))
-                for position in occurrence.positions:
-                    for number in range(len(self.pieces.get(occurrence.part.id, ()))):
-                        mesh = f"{occurrence.part.id}:{number}"
-                        SubElement(element, "geom", mesh=mesh, rgba=colour, **_placed(position))
+                colour, pieces = _text(*colour_of(occurrence.part)), self.pieces.get(occurrence.part.id, ())
+                for placed in map(_placed, occurrence.positions):
+                    for number in range(len(pieces)):
+                        SubElement(element, "geom", mesh=f"{occurrence.part.id}:{number}", rgba=colour, **placed)
 
     def _contacts(self, contact: Element) -> None:
         """Bodies that a joint holds together do not contact each other."""
@@ -225,6 +224,12 @@ class _Model:
 
 def _smaller(corners: FloatArray) -> FloatArray:
     """Corners of the convex body within another, `PLAY` from its faces; at most half as far as its middle is."""
+    return (corners[0] + _inset((corners - corners[0]).round(9).tobytes())).round(9)
+
+
+@lru_cache(maxsize=256)
+def _inset(content: bytes) -> FloatArray:
+    corners = np.frombuffer(content).reshape(-1, 3)
     faces = np.unique(ConvexHull(corners).equations.round(9), axis=0)
     middle = corners.mean(axis=0)
     inwards = min(PLAY, float(np.min(-faces[:, :3] @ middle - faces[:, 3])) / 2)
