@@ -4,7 +4,6 @@ Evidence: MuJoCo reads the file without a warning, closes the loops by its own J
 convex hulls, and computes the torques by its own inverse dynamics.
 """
 
-import math
 from functools import cache
 
 import numpy as np
@@ -18,11 +17,12 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.machines.tufting.design import Tufting
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
-from ilmek.units import deg, mm, turn
+from ilmek.units import mm, turn
 
 pytest.importorskip("mujoco", reason="mujoco is not installed")
 
 from mujoco_judge import Judge
+from planted_faults import pushed
 
 from ilmek.io.mjcf import mjcf_text
 
@@ -31,8 +31,6 @@ _UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 _MACHINES = {
     # machine and settings: degrees of freedom by counting its drives
-    ("path-four-bar",): 1,
-    ("motion-four-bar",): 1,
     ("function-four-bar",): 1,
     ("knotting-four-bar",): 1,
     ("tufting", "bars=2"): 1,
@@ -70,7 +68,10 @@ def test_a_machine_has_the_degrees_of_freedom_and_servos_of_its_drives(
     assert judge.model.body_mass.sum() == pytest.approx(tree.mass, rel=1e-3, abs=1e-5)
 
 
-@pytest.mark.parametrize("case", [case for case in _MACHINES if case[0] not in {"beat-up", "hammer", "tension-compensator"}], ids=" ".join)
+_MOVING = ("function-four-bar", "knotting-four-bar", "tufting", "knotting-dyad", "cam")
+
+
+@pytest.mark.parametrize("case", [case for case in _MACHINES if case[0] in _MOVING], ids=" ".join)
 def test_bodies_follow_the_poses_of_the_project(case: tuple[str, ...]) -> None:
     _, tree = _machine(*case)
     judge = Judge(mjcf_text(tree, case[0], {}))
@@ -82,9 +83,7 @@ def test_bodies_follow_the_poses_of_the_project(case: tuple[str, ...]) -> None:
 
 def _farthest(tree: Tree, judge: Judge, drive: str, angle: float) -> float:
     """How far a point within 0.3 m of its body's origin is at most from where the project has it [m]."""
-    import mujoco  # noqa: PLC0415
-
-    mujoco.mj_kinematics(judge.model, judge.data)
+    judge.place()
     counts, numbers, farthest = tree.counts(), dict[str, int](), 0.0
     for chain in chains(tree):
         body = chain[-1].name
@@ -104,18 +103,21 @@ def test_the_loom_follows_its_cyclograms_and_touches_nothing_but_its_joints() ->
     touched: set[tuple[str, str]] = set()
     for drive in judge.drives:
         (angles, *_) = sorted((table[:, 0] for own, table in judge.tables.values() if own == drive), key=len)
-        for angle in angles[:: max(len(angles) // 12, 1)].tolist():
+        for angle in angles[:: max(len(angles) // 8, 1)].tolist():
             touched |= set(judge.contacts(drive, angle))
             assert _farthest(tree, judge, drive, angle) <= 0.1 * mm
     assert touched <= {("weaver/left side gripper", "weaver/right side gripper")}
     assert judge.model.body_mass.sum() == pytest.approx(tree.mass, rel=1e-6)
 
 
-def test_a_part_that_is_moved_into_another_contacts_it() -> None:
-    """The rocker's beater is moved by as much as it needs to be 1 mm in the cylinder, all of MuJoCo's own."""
-    _, judge = _loom()
-    judge.follow("row", 0.0)
-    assert not judge.contacts("row", 0.0)
+def test_a_rail_that_is_moved_into_the_carriage_on_it_contacts_it() -> None:
+    tree, _ = _loom()
+    weft = Tree(tuple(body for body in tree.bodies if body.id in {"weft/guide", "weft/carriage of the shuttle"}))
+    moved = pushed(weft, "weft/rail", np.array([0.0, 1.0 * mm, 0.0]))
+    assert not Judge(mjcf_text(weft, "weft", {})).contacts("row", 1.0)
+    depths = Judge(mjcf_text(moved, "weft", {})).contacts("row", 1.0)
+    assert depths.keys() == {("weft/carriage of the shuttle", "weft/guide")}
+    assert 0.2 * mm < max(depths.values()) < 1.0 * mm  # each is 0.25 mm smaller than it is
 
 
 def test_the_torque_of_the_crank_of_a_beat_up_is_that_of_the_design() -> None:
@@ -145,4 +147,3 @@ def test_the_torque_of_the_main_shaft_of_a_tufting_machine_is_that_of_the_design
         efforts.append(judge.effort("tufting/main-shaft"))
     assert np.abs(torque).max() > 0.1
     assert np.abs(np.array(efforts) - torque[chosen]).max() <= 0.05 * np.abs(torque).max()
-    assert math.degrees(design.transmission) > 30 * deg

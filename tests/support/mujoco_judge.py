@@ -34,11 +34,15 @@ class Judge:
         """The drives of the tables."""
         return tuple(dict.fromkeys(drive for drive, _ in self.tables.values()))
 
+    def place(self) -> None:
+        """Put the bodies where the joints have them."""
+        mujoco.mj_kinematics(self.model, self.data)
+        mujoco.mj_comPos(self.model, self.data)
+
     def closures(self) -> tuple[np.ndarray, np.ndarray]:
         """Residuals of the closures, and their derivatives by the joints, in the present position."""
         model, data = self.model, self.data
-        mujoco.mj_kinematics(model, data)
-        mujoco.mj_comPos(model, data)
+        self.place()
         mujoco.mj_makeConstraint(model, data)
         rows = np.flatnonzero(data.efc_type == mujoco.mjtConstraint.mjCNSTR_EQUALITY)
         jacobian = np.zeros((data.nefc, model.nv))
@@ -74,8 +78,7 @@ class Judge:
     def contacts(self, drive: str, angle: float) -> Mapping[tuple[str, str], float]:
         """Depth of the contacts of two bodies with tables at an angle of a drive [m]."""
         self.follow(drive, angle)
-        mujoco.mj_kinematics(self.model, self.data)
-        mujoco.mj_comPos(self.model, self.data)
+        self.place()
         mujoco.mj_collision(self.model, self.data)
         depths: dict[tuple[str, str], float] = {}
         for contact in self.data.contact[: self.data.ncon]:
@@ -112,9 +115,7 @@ class Judge:
         velocity = np.zeros(model.nv)
         velocity[column] = 1.0
         if self.following:
-            velocity[self.following] = np.linalg.lstsq(
-                jacobian[:, self.following], -jacobian[:, column], rcond=1e-9
-            )[0]
+            velocity[self.following] = np.linalg.lstsq(jacobian[:, self.following], -jacobian[:, column], rcond=1e-9)[0]
         model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
         mujoco.mj_inverse(model, data)
         model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)

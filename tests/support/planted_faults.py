@@ -2,8 +2,8 @@
 
     python -m planted_faults --seed 7 --number 30
 
-A part is pushed 1 mm into one that it touches, a part is taken away, a triangle of a mesh is left out; of those that are
-pushed only such that then have more in common than counts.
+A part is pushed 1 mm into one that it touches, a part is taken away, a triangle of a mesh is left out. Pushed are only
+parts that then have more in common with another than counts.
 """
 
 import argparse
@@ -24,7 +24,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.clearances import approaches
 from ilmek.part.contacts import groups, open_parts
 from ilmek.part.part import Part
-from ilmek.part.placement import Placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.shapes import CHORD, Shape
 from ilmek.part.space import frames_of, parts_of
@@ -80,18 +80,15 @@ def changed(tree: Tree, part: str, change: Callable[[RigidBody], RigidBody]) -> 
 
 
 def pushed(tree: Tree, part: str, shift: FloatArray) -> Tree:
-    """A part shifted in its bodies [m], at the first of its positions."""
+    """A part shifted along its own axes [m]."""
+    moved = placement(*shift.tolist())
 
     def change(body: RigidBody) -> RigidBody:
-        return replace(
-            body,
-            occurrences=tuple(
-                replace(own, positions=(Placement(own.positions[0].origin + shift, own.positions[0].rotation),))
-                if own.part.id == part
-                else own
-                for own in body.occurrences
-            ),
+        own = (
+            replace(one, positions=tuple(place.after(moved) for place in one.positions)) if one.part.id == part else one
+            for one in body.occurrences
         )
+        return replace(body, occurrences=tuple(own))
 
     return changed(tree, part, change)
 
@@ -142,7 +139,9 @@ def pushes(tree: Tree, names: list[str]) -> Iterator[tuple[str, FloatArray]]:
         if len(own) != 1:
             continue
         part = next(part for part, _ in placed if part.id == name)
-        others = [(other, place) for other, place in placed if other.id != name and _near((part, own[0]), (other, place))]
+        others = [
+            (other, place) for other, place in placed if other.id != name and _near((part, own[0]), (other, place))
+        ]
         common = [
             max((_common((part, own[0]), other, own[0].rotation @ axis) for other in others), default=0.0)
             for axis in axes

@@ -155,7 +155,15 @@ def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, part
     """The report and the files on the terminal; what was required and not written is noted."""
     if not call.quiet:
         show_report(made.report)
-        call.show_files({"--report": "report", "--animation": "animation", "--glb": "in space", "--step": "assembly", "--mjcf": "model for MuJoCo"})
+        call.show_files(
+            {
+                "--report": "report",
+                "--animation": "animation",
+                "--glb": "in space",
+                "--step": "assembly",
+                "--mjcf": "model for MuJoCo",
+            }
+        )
         if mechanism_to is not None and made.mechanism is not None:
             say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:

@@ -8,12 +8,13 @@
     numeric     `DRIVE: joint`: angle of the drive [rad] and value, in turns, straight between; `period of DRIVE` [s]
     keyframe    `start`: where every drive is at 0
 
-What a cam moves has a servo of its own: its law is no polynomial of the cam's angle. Parts without a mass weigh nothing.
+What a cam moves has a servo of its own: its law is no polynomial of the cam's angle. Parts that are not weighed have no
+mass.
 [MuJoCo XML reference: https://mujoco.readthedocs.io/en/stable/XMLreference.html]
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
@@ -26,10 +27,9 @@ from ilmek.arrays import FloatArray
 from ilmek.io.colours import colour_of
 from ilmek.part.mobility import Coordinate, Mobility
 from ilmek.part.moments import Moments
-from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains
-from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
+from ilmek.part.tree import JointKind, RigidBody, Tree
 from ilmek.units import mm, turn
 
 DEVIATION = 0.2 * mm
@@ -246,9 +246,7 @@ def _inertial(element: Element, moments: Moments) -> None:
     if moments.zeroth > 0:
         inertia = moments.inertia
         tensor = _text(*np.diag(inertia), inertia[0, 1], inertia[0, 2], inertia[1, 2])
-        SubElement(
-            element, "inertial", mass=_text(moments.zeroth), pos=_text(*moments.centre), fullinertia=tensor
-        )
+        SubElement(element, "inertial", mass=_text(moments.zeroth), pos=_text(*moments.centre), fullinertia=tensor)
 
 
 def _fixed_with(chain: Chain) -> Chain:

@@ -32,8 +32,8 @@ from OCP.IFSelect import IFSelect_ReturnStatus
 from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_Gravity
 from OCP.OCP.collections import Array2_gp_Pnt, List_TopoDS_Shape
-from OCP.StepData import StepData_StepModel
 from OCP.STEPControl import STEPControl_Reader, STEPControl_StepModelType, STEPControl_Writer
+from OCP.StepData import StepData_StepModel
 from OCP.TCollection import TCollection_HAsciiString
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer

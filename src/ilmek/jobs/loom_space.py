@@ -8,9 +8,9 @@ import numpy as np
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.glb import glb_bytes
+from ilmek.jobs.machine_space import bodies_file
 from ilmek.jobs.studio.answers import Binary, packed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.jobs.machine_space import bodies_file
 from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of, scene
 from ilmek.report import Json, Report
 from ilmek.report.scene import Scene

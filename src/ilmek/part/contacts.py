@@ -11,10 +11,10 @@ from scipy.sparse.csgraph import connected_components
 
 from ilmek.arrays import Float
 from ilmek.part.clearances import DEVIATION, triangle_tree
-from ilmek.part.mesh import is_closed
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
+from ilmek.plane.solids import is_closed
 from ilmek.records import record
 from ilmek.units import mm
 

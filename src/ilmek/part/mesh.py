@@ -71,15 +71,3 @@ def joined(*solids: Solid) -> Solid:
         np.concatenate([solid.points for solid in solids]),
         np.concatenate([solid.triangles + begin for solid, begin in zip(solids, begins, strict=True)]),
     )
-
-
-def is_closed(solid: Solid) -> bool:
-    """Whether a surface encloses a volume: each edge is that of one triangle, and the other way round of another.
-
-    >>> faces = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
-    >>> is_closed(Solid(np.eye(4, 3), faces)), is_closed(Solid(np.eye(4, 3), faces[1:]))
-    (True, False)
-    """
-    begin, end = np.stack([solid.triangles.ravel(), np.roll(solid.triangles, -1, axis=1).ravel()])
-    once = np.unique(begin * len(solid.points) + end)
-    return len(begin) > 0 and len(once) == len(begin) and bool(np.isin(end * len(solid.points) + begin, once).all())

@@ -142,7 +142,9 @@ class Mobility:
         for chain in chains(self.tree):
             places[chain[-1].name].append(chain)
         return tuple(
-            (closure, *pair) for closure in self.tree.closures for pair in _pairs(*(places[of] for of in closure.bodies))
+            (closure, *pair)
+            for closure in self.tree.closures
+            for pair in _pairs(*(places[of] for of in closure.bodies))
         )
 
     @cached_property
@@ -215,7 +217,11 @@ class _Pose:
         velocities = np.zeros((6, len(self.mobility.coordinates)))
         for length in range(1, len(chain) + 1):
             part = chain[:length]
-            before = self.place(part[:-1]).rotation @ part[-1].position.rotation if length > 1 else part[-1].position.rotation
+            before = (
+                self.place(part[:-1]).rotation @ part[-1].position.rotation
+                if length > 1
+                else part[-1].position.rotation
+            )
             for number in self.mobility._columns.get(part, ()):
                 one = self.mobility.coordinates[number][1]
                 axis = before @ np.array(one.axis)
