@@ -1,7 +1,7 @@
 """A tree of bodies as one STEP assembly (AP242, mm): each part once, with name and colour; each body an assembly of the
 parts that it has, placed where it is at an angle of a drive.
 
-With `step` the only module that imports OCP, as there.
+With `step` the only module that imports OCP, as there. The kernel orders the colours in a file as it likes.
 """
 
 import io
