@@ -114,6 +114,13 @@ PARTS = (
         _numbered("loom_cuts", ("--carpets", "2", "--runs", "1")),
     ),
     Part("sheets", "photographed sheets of squared paper", _numbered("sheet_readings", ()), whole=True),
+    Part("weights", "masses of 200 looms and machines, measured on meshes", _numbered("made_parts", ()), whole=True),
+    Part(
+        "faults",
+        "faults planted in a loom, found by its own measure and by a judge of its file",
+        _numbered("planted_faults", ()),
+        whole=True,
+    ),
     Part("mutants", "small wrong changes of the sources that a test must notice", _numbered("mutants", ()), whole=True),
 )
 

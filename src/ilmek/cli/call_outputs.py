@@ -69,18 +69,23 @@ class CallOutputs:
             else:
                 self.give(option, lambda: page)
 
-    def give_scene(self, option: str, made: "DesignResult") -> None:
-        """Stage a designed loom, or the parts of another machine, in space as GLB."""
+    def give_scene(self, option: str, made: "DesignResult", pose: str | None = None) -> None:
+        """Stage a designed loom, or the parts of another machine, in space; pose  of a STEP file, DRIVE=ANGLE.
+
+        A machine without parts, as a synthesis without a solution, is left out, which is noted at the end.
+        """
         if option not in self._to:
             return
         if made.loom is not None:
-            from ilmek.jobs.loom_space import loom_glb
+            from ilmek.jobs.loom_space import loom_file
 
-            self.outputs.write(Path(self._to[option]), loom_glb(made.loom, made.report))
-        elif made.tree is not None:
-            from ilmek.jobs.machine_space import machine_glb
+            self.outputs.write(Path(self._to[option]), loom_file(option, made.loom, made.report, pose))
+        elif made.tree is not None and made.tree.bodies:
+            from ilmek.jobs.machine_space import machine_file
 
-            self.outputs.write(Path(self._to[option]), machine_glb(made.tree, made.report))
+            self.outputs.write(Path(self._to[option]), machine_file(option, made.tree, made.report, pose))
+        else:
+            self._left_out.append(f"{self._to.pop(option)} was not written: there are no parts")
 
     def give_animation(self, option: str, report: "Report", motion: str | None = None) -> None:
         """Stage a motion that a report shows, the first or one by name. Raises ParameterError where there is none."""

@@ -26,6 +26,8 @@ Examples:
   ilmek design motion-four-bar --to gripper.toml
   ilmek design automated-loom --glb loom.glb
   ilmek design tufting --glb needles.glb
+  ilmek design automated-loom --step loom.step --pose row=90deg
+  ilmek design automated-loom --mjcf loom.xml
   ilmek design machines/beat-up.toml --set swing=32deg
 
 The parameters of a machine, and their limits: ilmek machines MACHINE
@@ -71,6 +73,21 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     help="Write the parts in space, in motion, as GLB (glTF 2.0); those of a loom, over a row and a knot, are compared "
     "there too: what is through each other, and what nothing holds, fails a check.",
 )
+@click.option(
+    "--step",
+    "solids_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.step",
+    help="Write the parts as one STEP assembly (AP242), as they stand at the start, or at --pose.",
+)
+@click.option("--pose", metavar="DRIVE=ANGLE", help="Angle of a drive in --step: row=90deg or knot=200deg in a loom.")
+@click.option(
+    "--mjcf",
+    "model_to",
+    type=click.Path(path_type=Path),
+    metavar="FILE.xml",
+    help="Write the bodies with joints, inertia, contacts and servos for MuJoCo (MJCF).",
+)
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @force_option
 def command(  # noqa: PLR0917 - click calls it by name
@@ -85,6 +102,9 @@ def command(  # noqa: PLR0917 - click calls it by name
     parts_to: Path | None,
     mechanism_to: Path | None,
     space_to: Path | None,
+    solids_to: Path | None,
+    pose: str | None,
+    model_to: Path | None,
     tolerance: str | None,
     force: bool,
 ) -> int:
@@ -93,20 +113,21 @@ def command(  # noqa: PLR0917 - click calls it by name
     FILE.toml has the machine and settings; --set wins over the settings of the file.
     """
     _require(
-        {"--tolerance": tolerance, "--motion": motion}, {"--workshop DIR": parts_to, "--animation FILE": animation_to}
+        {"--tolerance": tolerance, "--motion": motion, "--pose": pose},
+        {"--workshop DIR": parts_to, "--animation FILE": animation_to, "--step FILE": solids_to},
     )
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
     order = read_machine_order(name, read_settings(given))
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
-    if space_to is not None:
-        require_space(order.machine, space_to)
+    in_space = {"--glb": space_to, "--step": solids_to, "--mjcf": model_to}
+    require_space(order.machine, in_space)
     files = {
         "--json": json_to,
         "--report": page_to,
         "--animation": animation_to,
         "--to": mechanism_to,
-        "--glb": space_to,
+        **in_space,
     }
     inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
@@ -123,7 +144,8 @@ def command(  # noqa: PLR0917 - click calls it by name
         if mechanism_to is not None and made.mechanism is not None:
             text = mechanism_text(made.mechanism, mechanism_to)
             call.give("--to", lambda: text)
-        call.give_scene("--glb", made)
+        for option in in_space:
+            call.give_scene(option, made, pose)
         call.give_json(made.as_json)
     _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
@@ -133,7 +155,15 @@ def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, part
     """The report and the files on the terminal; what was required and not written is noted."""
     if not call.quiet:
         show_report(made.report)
-        call.show_files({"--report": "report", "--animation": "animation", "--glb": "in space"})
+        call.show_files(
+            {
+                "--report": "report",
+                "--animation": "animation",
+                "--glb": "in space",
+                "--step": "assembly",
+                "--mjcf": "model for MuJoCo",
+            }
+        )
         if mechanism_to is not None and made.mechanism is not None:
             say(f"mechanism: {mechanism_to}")
         if made.workshop is not None:

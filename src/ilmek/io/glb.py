@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.io.colours import colour
 from ilmek.report import Json
 from ilmek.report.scene import Assembly, Scene, SceneFrame, SceneMotion, ScenePart
 from ilmek.units import turn
@@ -26,13 +27,6 @@ _VERTICES, _INDICES = 34962, 34963
 
 _LEAST_ROTATION = math.pi / 2
 """Rotation between two samples above which others are put between: quaternions take the shorter arc."""
-
-_COLOURS = {
-    "structural steel": (0.55, 0.58, 0.62),
-    "induction-hardened steel": (0.42, 0.45, 0.5),
-    "beech": (0.76, 0.6, 0.42),
-}
-_OTHER, _ENVELOPE = (0.62, 0.64, 0.67), (0.45, 0.6, 0.8)
 
 
 @dataclass(slots=True)
@@ -128,12 +122,11 @@ def _mesh(made: _File, part: ScenePart) -> int:
 def _material(made: _File, part: ScenePart) -> int:
     key = ("envelope" if part.envelope else part.material, part.envelope)
     if key not in made.material_numbers:
-        colour = _ENVELOPE if part.envelope else _COLOURS.get(part.material, _OTHER)
         metal = 0.0 if part.envelope or part.material == "beech" else 0.4
         look: dict[str, Json] = {
             "name": key[0] or "material not stated",
             "pbrMetallicRoughness": {
-                "baseColorFactor": [*colour, 0.35 if part.envelope else 1.0],
+                "baseColorFactor": list(colour(part.material, envelope=part.envelope)),
                 "metallicFactor": metal,
                 "roughnessFactor": 0.6,
             },

@@ -1,5 +1,5 @@
 """Parts as STEP solids (AP214, mm): plates as the contours of the DXF, extruded; barrel and end cams with their flanks
-as smooth surfaces through exact points. The only module that imports OCP.
+as smooth surfaces through exact points. With `step_assembly` the only module that imports OCP.
 
 OCP is the extra `step`; without it, importing this module raises ImportError. Its releases rename classes; therefore
 all imports of it are here, and the extra is pinned below the next release.
@@ -33,6 +33,7 @@ from OCP.Interface import Interface_Static
 from OCP.Message import Message, Message_Gravity
 from OCP.OCP.collections import Array2_gp_Pnt, List_TopoDS_Shape
 from OCP.STEPControl import STEPControl_Reader, STEPControl_StepModelType, STEPControl_Writer
+from OCP.StepData import StepData_StepModel
 from OCP.TCollection import TCollection_HAsciiString
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
@@ -44,9 +45,10 @@ from ilmek.io.plate_shape import PlateShape
 from ilmek.part.placement import ALONG_WIDTH, Placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Sum, Turned
+from ilmek.plane.biarcs import fitted
 from ilmek.plane.contours import STRAIGHT, circle, on_piece
 from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
-from ilmek.units import mm
+from ilmek.units import mm, um
 
 TIME_STAMP = "2000-01-01T00:00:00"
 """Of every file, as in the DXF: the same plate gives the same bytes."""
@@ -63,12 +65,12 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
 def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
     if plate.solid is None:
         return _solid(plate, shape)
-    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else _of_shape(plate.solid.shape)
+    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else shape_solid(plate.solid.shape)
 
 
 def write_piece(path: Path, piece: WorkPiece) -> None:
     """Write a piece that is turned, sawn or welded. Raises OutputError as `write_step`."""
-    _write(path, _of_shape(piece.shape), piece.name, piece.title)
+    _write(path, shape_solid(piece.shape), piece.name, piece.title)
 
 
 def _write(path: Path, solid: TopoDS_Shape, name: str, title: str) -> None:
@@ -78,15 +80,20 @@ def _write(path: Path, solid: TopoDS_Shape, name: str, title: str) -> None:
     Interface_Static.SetCVal_s("write.step.unit", "MM")
     Interface_Static.SetCVal_s("write.step.product.name", name)
     writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
-    header = APIHeaderSection_MakeHeader(writer.Model(False))
-    header.SetName(TCollection_HAsciiString(title))
-    header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
-    header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
-    header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
+    with_header(writer.Model(False), title)
     written = io.BytesIO()  # the library opens only paths in UTF-8
     if writer.WriteStream(written) != IFSelect_ReturnStatus.IFSelect_RetDone:
         raise OutputError(f"{path} cannot be written as STEP")
     path.write_bytes(written.getvalue())
+
+
+def with_header(model: StepData_StepModel, title: str) -> None:
+    """Set the header of a file: the same content gives the same bytes."""
+    header = APIHeaderSection_MakeHeader(model)
+    header.SetName(TCollection_HAsciiString(title))
+    header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
+    header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
+    header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
 
 
 def read_step_volume(path: Path) -> float:
@@ -123,7 +130,7 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, plate.thickness / mm)).Shape()
 
 
-def _of_shape(shape: object) -> TopoDS_Shape:
+def shape_solid(shape: object) -> TopoDS_Shape:
     """A shape of the package `part` [mm]: prisms, turned profiles, and sums of them as one compound of solids."""
     if isinstance(shape, Prism):
         return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
@@ -135,26 +142,36 @@ def _of_shape(shape: object) -> TopoDS_Shape:
     whole, builder = TopoDS_Compound(), BRep_Builder()
     builder.MakeCompound(whole)
     for member in shape.members:
-        solid = _of_shape(member.shape)
+        solid = shape_solid(member.shape)
         for position in member.positions:
             builder.Add(whole, _placed(solid, position))
     return whole
 
 
 def _placed(solid: TopoDS_Shape, position: Placement) -> TopoDS_Shape:
+    return BRepBuilderAPI_Transform(solid, displacement(position), True).Shape()
+
+
+def displacement(position: Placement) -> gp_Trsf:
+    """A position as a rigid displacement of the kernel [mm]."""
     motion, (x, y, z) = gp_Trsf(), (position.origin / mm).tolist()
     first, second, third = position.rotation.tolist()
     motion.SetValues(*first, x, *second, y, *third, z)
-    return BRepBuilderAPI_Transform(solid, motion, True).Shape()
+    return motion
 
 
 def _face(profile: Profile) -> TopoDS_Shape:
-    """A figure in the plane z = 0."""
+    """A figure in the plane z = 0; a smooth outline as arcs through its points."""
     outline, *holes = profile.contours
+    outline = fitted(outline.points, _ARCS) if profile.smooth else outline
     face = BRepBuilderAPI_MakeFace(_wire(outline), True)
     for hole in holes:  # they run clockwise
         face.Add(_wire(hole))
     return face.Face()
+
+
+_ARCS = 0.1 * um
+"""Allowed deviation of arcs from the points of a smooth outline [m]."""
 
 
 def _round_solid(part: RoundSolid) -> TopoDS_Shape:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +24,9 @@ if TYPE_CHECKING:
 
 WRITERS = {".toml": "mechanism_toml", ".json": "mechanism_json"}
 """Functions of `io.mechanism_file` that write a mechanism, by the suffix of the file."""
+
+IN_SPACE = {"--glb": (".glb",), "--step": (".step", ".stp"), "--mjcf": (".xml", ".mjcf")}
+"""Suffixes of the files with the parts in space, by option."""
 
 LOOM = "automated-loom"
 """The machine whose report names the nearest carpets, where it cannot weave what is required."""
@@ -60,13 +64,20 @@ def require_mechanism(name: str, file: Path) -> None:
         raise ParameterError(f"mechanism file {file} ends in {file.suffix!r}", allowed=" or ".join(WRITERS))
 
 
-def require_space(name: str, file: Path) -> None:
-    """Raise ParameterError unless the machine is a loom or has parts in bodies, and the file ends in .glb."""
-    if find_machine(name).name != LOOM and find_machine(name).tree is None:
-        able = ", ".join(other for other, machine in MACHINES.items() if other == LOOM or machine.tree is not None)
-        raise ParameterError(f"{name} has no picture in space that --glb could write", allowed=able)
-    if file.suffix.lower() != ".glb":
-        raise ParameterError(f"--glb {file} ends in {file.suffix!r}", allowed=".glb")
+def require_space(name: str, files: Mapping[str, Path | None]) -> None:
+    """Raise ParameterError unless the machine has parts in space, if a file by its option is given, and each file ends
+    as it must; for a STEP file without the extra `step` too.
+    """
+    for option, file in files.items():
+        if file is None:
+            continue
+        if find_machine(name).name != LOOM and find_machine(name).tree is None:
+            able = ", ".join(other for other, machine in MACHINES.items() if other == LOOM or machine.tree is not None)
+            raise ParameterError(f"{name} has no picture in space that {option} could write", allowed=able)
+        if file.suffix.lower() not in IN_SPACE[option]:
+            raise ParameterError(f"{option} {file} ends in {file.suffix!r}", allowed=" or ".join(IN_SPACE[option]))
+        if option == "--step" and find_spec("OCP") is None:
+            raise ParameterError(f"--step {file} without the extra step", do="pip install 'ilmek[step]'")
 
 
 def mechanism_text(machine: "OwnMachine", file: Path) -> str:

@@ -8,9 +8,10 @@ import numpy as np
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.glb import glb_bytes
+from ilmek.jobs.machine_space import bodies_file
 from ilmek.jobs.studio.answers import Binary, packed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.scene import scene
+from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of, scene
 from ilmek.report import Json, Report
 from ilmek.report.scene import Scene
 from ilmek.viz.loom_page import LoomInSpace
@@ -26,6 +27,13 @@ MOST_KNOTS = 1_000_000
 def loom_glb(loom: LoomDesign, report: Report) -> bytes:
     """A loom as GLB, with its motions over a row and over a knot as animations."""
     return glb_bytes(scene(loom, report))
+
+
+def loom_file(option: str, loom: LoomDesign, report: Report, pose: str | None = None) -> bytes | str:
+    """The content of the file of an option, as `machine_file`."""
+    if option == "--glb":
+        return loom_glb(loom, report)
+    return bodies_file(option, loom_tree(loom), report, pose, periods_of(loom))
 
 
 def scene_answer(made: Scene, chart: Chart | None, *, most: int | None = None) -> Binary:

@@ -14,6 +14,7 @@ from ilmek.part.clearances import DEVIATION, triangle_tree
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
+from ilmek.plane.solids import is_closed
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -57,6 +58,12 @@ def groups(tree: Tree, gap: float = TOUCHING) -> tuple[TouchingParts, ...]:
     for piece, label in zip(pieces, labels.tolist(), strict=True):
         members.setdefault(label, Counter())[piece.part] += 1
     return tuple(sorted((TouchingParts(parts) for parts in members.values()), key=lambda group: -group.pieces))
+
+
+def open_parts(tree: Tree) -> tuple[str, ...]:
+    """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
+    shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)
+    return tuple(name for name, shape in shaped if not is_closed(shape.mesh(DEVIATION)))
 
 
 def _pieces(tree: Tree) -> Iterator[_Piece]:

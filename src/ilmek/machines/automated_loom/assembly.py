@@ -9,7 +9,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, nearest_parts
 from ilmek.machines.automated_loom.report import LoomVerdict
 from ilmek.part.clearances import DEVIATION, Approach
-from ilmek.part.contacts import TouchingParts, groups
+from ilmek.part.contacts import TouchingParts, groups, open_parts
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, results_of
 from ilmek.units import deg, format_quantity
@@ -86,8 +86,15 @@ def assembly_checks(found: LoomAssembly) -> tuple[Check, ...]:
             cure="give the parts named supports",
             parts=loose,
         ),
+        _closed(found.loom),
         *_too_near(found, titles),
     )
+
+
+def _closed(loom: LoomDesign) -> Check:
+    """That every mesh encloses a volume: what an open one is through could not be seen."""
+    parts = open_parts(loom_tree(loom))
+    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
 
 
 def _too_near(found: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:

@@ -52,11 +52,16 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         warps=_warps(loom),
         yarns=(*wefts(loom), *knot_yarn(loom)),
         carpet=_carpet(loom),
-        periods={ROW: loom.row_cyclogram.period, KNOT: loom.times.knot},
+        periods=periods_of(loom),
         heads=HEAD,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
     )
+
+
+def periods_of(loom: LoomDesign) -> dict[str, float]:
+    """Times of a row and of a knot [s]."""
+    return {ROW: loom.row_cyclogram.period, KNOT: loom.times.knot}
 
 
 @lru_cache(maxsize=2)
