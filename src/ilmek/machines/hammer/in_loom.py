@@ -16,6 +16,7 @@ from ilmek.machines import beat_up
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.beside_heads import ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
@@ -32,6 +33,9 @@ from ilmek.report import Check, Choice, Work, at_most, must
 from ilmek.units import turn
 
 _SHARES = 181
+
+_ROUNDS = 4
+"""In which links and ground are made for each other, at most."""
 
 
 def fit(task: LoomTask, kind: str = "comb") -> HammerParams:
@@ -150,10 +154,16 @@ class CombBeat:
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
     params = task.parameters("hammer", _of_carpet(task, kind))
-    start: CrankStart | None = None
-    choices: tuple[Choice, ...] = ()
-    if params.drive == "linkage":
-        fabric = params.fabric
-        params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.cloth.row_distance)))
-        start = linkage.start
-    return CombBeat(params, task.params.comb_acceleration, kind, start, choices)
+    if params.drive != "linkage":
+        return CombBeat(params, task.params.comb_acceleration, kind, None)
+    fabric, clearance = params.fabric, SPARE * task.params.clearance
+    needed = float(fabric.resistance(params.cloth.row_distance))
+    chosen, linkage, choices = chosen_linkage(params, fabric, needed)
+    for _ in range(_ROUNDS):
+        # A longer linkage may need other links, and these more room.
+        ground = ground_beside_heads(linkage.one, task.side, clearance)
+        params = task.parameters("hammer", replace(_of_carpet(task, kind), ground=ground))
+        if params.ground == chosen.ground:
+            break
+        chosen, linkage, choices = chosen_linkage(params, fabric, needed)
+    return CombBeat(chosen, task.params.comb_acceleration, kind, linkage.start, choices)
