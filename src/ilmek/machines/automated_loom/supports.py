@@ -1,4 +1,5 @@
-"""What the frame holds beat and weft with: posts under the beat's beam, and the tube behind the shuttle's bar.
+"""What the frame holds beat and weft with: posts under the beat's beam, and the tube behind the shuttle's bar, or what
+holds a rapier's side [`rapier_support`].
 
 Axes of the scene, as in `own_parts`. The posts stand on a beam across between the front feet. Each bears half of what
 the beat's beam carries, across at its end: stress F h c / (2 I) and deflection F h³ / (6 E I) [cantilevers]. The tube
@@ -12,6 +13,7 @@ from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, eul
 from ilmek.machines.automated_loom.brackets import ROOM, brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.rapier_support import RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -42,7 +44,7 @@ TUBE_SAG = 0.5 * mm
 @record
 class LoomSupports:
     """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
-    its span between the middles of the columns [m] and the pull on it [N].
+    its span between the middles of the columns [m] and the pull on it [N]; what holds a rapier's side, None with shuttles.
     """
 
     post: HollowSquare
@@ -52,12 +54,14 @@ class LoomSupports:
     tube: HollowSquare | None
     span: float
     pull: float
+    rapier: RapierSupport | None
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Strength and stiffness of both."""
+        """Strength and stiffness of all."""
         posts = _post_checks(self.post, self.height, self.force, across=self.across)
-        return (*posts, *(() if self.tube is None else _tube_checks(self.tube, self.span, self.pull)))
+        tube = () if self.tube is None else _tube_checks(self.tube, self.span, self.pull)
+        return (*posts, *tube, *(() if self.rapier is None else self.rapier.checks))
 
 
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
@@ -72,11 +76,13 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
         made.coupling.pull if isinstance(made, Shuttle) else 0.0,
         2 * brackets_of(loom).face + frame.column.side,
     )
-    tube = None
-    if isinstance(made, Shuttle):
+    tube = rapier = None
+    if not isinstance(made, Shuttle):
+        rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
+    else:
         sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, span, pull)))
         tube = next(sections, ascending()[-1])
-    return LoomSupports(post, height, force, across, tube, span, pull)
+    return LoomSupports(post, height, force, across, tube, span, pull, rapier)
 
 
 def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
@@ -168,6 +174,8 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     )
     if held.tube is not None:
         yield from _tube(loom, frame, held.tube, face)
+    if held.rapier is not None:
+        yield from rapier_supports(held.rapier)
 
 
 def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float) -> Iterator[Occurrence]:
