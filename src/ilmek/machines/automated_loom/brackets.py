@@ -22,6 +22,7 @@ from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.bearing_seats import BRACKET, BearingSeat
+from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import bearing_inner
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.part.profile import Profile
@@ -36,9 +37,6 @@ BACK_REST_SAG = 2e-3
 
 ROOM = 3 * mm
 """Least room between a column's sides and what stands beside it [m]; assumed by this project."""
-
-GUIDED = "guide-cams"
-"""The beat by the cams themselves: they sink with their bearings, along slots of their brackets."""
 
 _STEP = 5 * mm
 """Heights of brackets are multiples of this [m]."""

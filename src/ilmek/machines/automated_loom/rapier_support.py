@@ -5,7 +5,7 @@ which the plate of an edge is bolted. The axis of the rapier lies on the left be
 of all on the weft side, and the inertia m a of what runs, half on each side as on a cantilever of the length l of arm
 and beam, and W along the post of the height h, free at its end:
 
-    s = sqrt(W² + (m a)²) l³ / (6 E I),   W / P,   P = pi² E I / (2 h)²                          [theory of beams; Euler]
+    s = sqrt(W² + (m a)²) l³ / (6 E I),   W / P,   P = pi² E I / (2 h)²                     [theory of beams; Euler]
 """
 
 import math
@@ -41,8 +41,8 @@ POST_INSET = 0.15
 class RapierSupport:
     """Section of arms, beams and post; weight on them and inertia [N]; reach of arm and beam, height of the post [m].
 
-    face, front  of the columns: inner, from the middle of the width, and to the front, in the side view [m]; column: side of their section
-    middle  of the carrier in the side view [m]
+    side    the rapier's, its carrier's middle in the side view [m]
+    face, front, column  of the columns: inner face from the middle of the width, front in the side view, side [m]
     """
 
     side: RapierSide

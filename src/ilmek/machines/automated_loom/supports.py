@@ -44,7 +44,7 @@ TUBE_SAG = 0.5 * mm
 @record
 class LoomSupports:
     """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
-    its span between the middles of the columns [m] and the pull on it [N]; what holds a rapier's side, None with shuttles.
+    its span between the middles of the columns [m] and the pull on it [N]; what holds a rapier's side, or None.
     """
 
     post: HollowSquare
