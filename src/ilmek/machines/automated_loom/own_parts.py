@@ -4,6 +4,7 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 """
 
 import cmath
+import math
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import smallest_motor
@@ -48,11 +49,14 @@ def _retreat(loom: LoomDesign) -> RigidBody:
     )
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
-    # At the upper end, above the post; wider than its axis, it reaches outwards.
+    # Wider than its axis, it reaches outwards; at the end that is farther from the posts of the beat: of crank-rockers,
+    # which stand before the rail, the upper one, of vertical axes behind it the lower one.
     outwards = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2
     middle, beside, slope = _rail_middle(loom), (loom.task.width + RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [placement(x, middle.imag, middle.real, about=(1.0, 0.0, 0.0), angle=slope) for x in (-beside, beside)]
     flange = placement(outwards, z=-room)
+    if not loom.beat.crank_rockers:
+        flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
     return RigidBody(
         part_id("retreat"),
         (

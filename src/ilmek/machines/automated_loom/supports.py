@@ -163,14 +163,12 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
 
     face  of the columns from the middle of the width [m]
     """
-    held, (_, corner) = supports(loom, frame), beat_beam(loom)
-    # Next to vertical axes, which press along them, under the rear of the beam; else under its middle.
-    depth = post_depth(loom) if held.across else corner.real + held.post.side / 2
+    held = supports(loom, frame)
     aside = loom.task.width / 2 + POST - held.post.side / 2
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),
-        tuple(placement(x, _bottom(loom, frame), depth).after(UPRIGHT) for x in ends),
+        tuple(placement(x, _bottom(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
     )
     if held.tube is not None:
         yield from _tube(loom, frame, held.tube, face)
