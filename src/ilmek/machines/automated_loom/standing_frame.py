@@ -12,7 +12,7 @@ from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import ROOM, Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FOOT, LEVELLING, PAD, LoomFrame, member, part_id
-from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies
+from ilmek.machines.automated_loom.supports import base_section, post_depth, support_bodies, within
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
@@ -102,16 +102,21 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
     """Beams between the columns: at the floor, behind the cams between the brackets, at the front under the posts."""
     side, section, base = loom.side, frame.column, base_section(loom, frame)
     low = side.floor + FOOT + base.side / 2
-    behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - section.side / 2
     spacer, _, *of_cams = made.shafts
     lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
-    middle = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
+    highest = float(spacer.nodes.imag.max()) + spacer.radius
+    between_brackets = within(section, lowest - highest - 2 * ROOM)
+    behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - between_brackets.side / 2
     front = [(low, post_depth(loom))]
     if frame.task.rail_spans > 1:
         front.append((low, _front(loom, section)))
     between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
     for name, title, chosen, own, long in (
-        ("beam", "beam across", section, [(middle, min(side.column, behind))], 2 * made.face),
+        (
+            *("beam", "beam across", between_brackets),
+            [((highest + lowest) / 2, min(side.column, behind))],
+            2 * made.face,
+        ),
         ("floor-beam", "beam across at the floor", base, [(low, side.column)], 2 * made.face),
         ("front-beam", "beam across between the front feet", base, front, between),
     ):

@@ -146,11 +146,15 @@ def post_depth(loom: LoomDesign) -> float:
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     """Section of feet and beams at the floor: the columns', or the largest that has room under the lowest bracket."""
     lowest = min(float(one.nodes.imag.min()) - one.radius for one in brackets_of(loom).plates)
-    room = lowest - ROOM - loom.side.floor - FOOT
-    if frame.column.side <= room:
-        return frame.column
+    return within(frame.column, lowest - ROOM - loom.side.floor - FOOT)
+
+
+def within(section: HollowSquare, room: float) -> HollowSquare:
+    """The section, or where it is higher than its room [m] the largest that is not."""
+    if section.side <= room:
+        return section
     offered = [HollowSquare(*size) for size in SECTIONS]
-    return max((one for one in offered if one.side <= room), key=lambda one: one.area, default=offered[0])
+    return max((other for other in offered if other.side <= room), key=lambda other: other.area, default=offered[0])
 
 
 def _bottom(loom: LoomDesign, frame: LoomFrame) -> float:
