@@ -14,7 +14,12 @@ import math
 from collections.abc import Iterator
 
 from ilmek.machines.arrangement.side_view import RETREAT, SideView
+from ilmek.machines.beat_up.carriage import PLATE
 from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.links import PART_IDS
+from ilmek.report import Check, at_least
+
+_SLOPE = -cmath.phase(RETREAT)
 
 
 def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> float:
@@ -24,15 +29,47 @@ def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     ground = linkage.params.ground
     if side is None:
         return ground
-    swing, slope, half = linkage.swing, -cmath.phase(RETREAT), linkage.params.width / 2
-    arm = max(
-        max(
-            corner.real + (corner.imag * math.cos(swing) + half + clearance) / math.sin(swing),
-            corner.real + half + (clearance + (half + corner.imag) * math.cos(slope)) / math.sin(slope),
-        )
+    longer = max(
+        *((clearance - gap) / math.sin(linkage.swing) for gap in _over(linkage, side)),
+        *((clearance - gap) / math.sin(_SLOPE) for gap in _before(linkage, side)),
+    )
+    return ground * (1 + max(longer, 0.0) / linkage.lengths["beater"])
+
+
+def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> tuple[Check, ...]:
+    """Whether rocker and plate keep the clearance [m]; none without a side view."""
+    if side is None:
+        return ()
+    cure = "leave the ground of the crank-rocker open, or set fewer heads"
+    source = "parameter clearance; the rail no larger than its room in the arrangement"
+    return (
+        at_least(
+            *("clearance: rocker at rest and heads that knot", min(_over(linkage, side)), clearance, "mm", source),
+            cure=cure,
+            parts=(PART_IDS["rocker"],),
+        ),
+        at_least(
+            *("clearance: plate of the crank-rocker and heads that retreat", min(_before(linkage, side)), clearance),
+            *("mm", source),
+            cure=cure,
+            parts=(PLATE,),
+        ),
+    )
+
+
+def _over(linkage: BeatUp, side: SideView) -> Iterator[float]:
+    """Gaps between the rocker at rest and the corners of heads and rail [m]."""
+    swing, arm, half = linkage.swing, linkage.lengths["beater"], linkage.params.width / 2
+    return ((arm - corner.real) * math.sin(swing) - corner.imag * math.cos(swing) - half for corner in _corners(side))
+
+
+def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:
+    """Gaps between the plate and the ways of these corners in the retreat [m]."""
+    arm, half = linkage.lengths["beater"], linkage.params.width / 2
+    return (
+        (arm - half - corner.real) * math.sin(_SLOPE) - (half + corner.imag) * math.cos(_SLOPE)
         for corner in _corners(side)
     )
-    return max(ground, ground * arm / linkage.lengths["beater"])
 
 
 def _corners(side: SideView) -> Iterator[complex]:

@@ -9,7 +9,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
-from ilmek.machines.beat_up.beside_heads import ground_beside_heads
+from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
@@ -104,6 +104,7 @@ class TravellingBeat:
             force=across.stroke_force,
             beaten=across.stroke_warps,
             frame_force=frame_force(made.state),
+            loom_checks=checks_beside_heads(made, task.side, task.params.clearance),
             striking=across.beater.ids,
             use=use,
         )

@@ -16,7 +16,7 @@ from ilmek.machines import beat_up
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import GUIDED, Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
-from ilmek.machines.beat_up.beside_heads import ground_beside_heads
+from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
@@ -164,8 +164,14 @@ class CombBeat:
             beaten=hammer.params.cloth.warps,
             frame_force=force,
             striking=(LEAF_ID, BAR_ID),
-            loom_checks=_carried(task) if self.kind == GUIDED else (),
+            loom_checks=self._loom_checks(task, hammer),
         )
+
+    def _loom_checks(self, task: LoomTask, hammer: Hammer) -> tuple[Check, ...]:
+        """Room beside the heads of crank-rockers, and of guide cams that sink."""
+        if hammer.linkage is not None:
+            return checks_beside_heads(hammer.linkage.one, task.side, task.params.clearance)
+        return _carried(task) if self.kind == GUIDED else ()
 
     def _path(self, params: HammerParams) -> BeatPath:
         """Straight down to the fell and up again."""
