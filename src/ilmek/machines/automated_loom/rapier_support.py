@@ -24,6 +24,9 @@ from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import format_quantity, mm
 
+LEAST = 0.05 * mm
+"""Shorter arms are left out [m]."""
+
 SAG = 0.5 * mm
 """Allowed deflection at the end of a beam along the edge [m]: assumed by this project."""
 
@@ -89,7 +92,7 @@ def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, 
             "mm",
             "weight and inertia; assumed by this project",
             cure=cure,
-            parts=(part_id("weft-arm"), part_id("weft-beam")),
+            parts=(part_id("weft-beam"),),
         ),
         at_least(
             "post of the rapier's axis against buckling",
@@ -108,8 +111,10 @@ def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
     side, rapier, middle = support.section.side, support.side, support.middle
     y, z = middle.imag + rapier.low - side / 2, middle.real + rapier.plate_back
     beside, inner = support.face + support.column / 2, rapier.edge - SIDE / 2
-    arm = member("weft-arm", "arm of the rapier's side", support.section, z - side - support.front)
-    yield Occurrence(arm, tuple(placement(x, y, support.front) for x in (-beside, beside)))
+    gap = z - side - support.front
+    if gap > LEAST:
+        arm = member("weft-arm", "arm of the rapier's side", support.section, gap)
+        yield Occurrence(arm, tuple(placement(x, y, support.front) for x in (-beside, beside)))
     long = beside + side / 2 - inner
     beam = member("weft-beam", "beam along an edge of the cloth", support.section, long)
     starts = (-beside - side / 2, inner)

@@ -13,7 +13,7 @@ from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, eul
 from ilmek.machines.automated_loom.brackets import ROOM, brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import FOOT, LoomFrame, member, part_id
-from ilmek.machines.automated_loom.rapier_support import RapierSupport, rapier_support, rapier_supports
+from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -24,9 +24,6 @@ from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
-
-_LEAST = 0.05 * mm
-"""Shorter arms are left out [m]."""
 
 POST_SAFETY = 2.0
 """Of the posts against yielding; assumed by this project."""
@@ -189,6 +186,6 @@ def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float
     yield Occurrence(member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
     front = loom.side.column + frame.column.side / 2
     gap, beside = depth - section.side / 2 - front, face + section.side / 2
-    if gap > _LEAST:
+    if gap > LEAST:
         arm = member("weft-arm", "arm of the tube", section, gap)
         yield Occurrence(arm, tuple(placement(x, height, front) for x in (-beside, beside)))
