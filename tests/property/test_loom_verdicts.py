@@ -69,6 +69,8 @@ def buckling(loom: LoomDesign) -> tuple[float, float]:
     return math.nan, 3.0
 
 
+BESIDE: dict[str, Figure | None] = {"room of the rapier": lambda loom: (loom.task.cloth.width + 0.39, 3.0)}
+
 DRIVE = r"force of a warp|distance of the rows|force of the crank-rockers"
 
 TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
@@ -81,7 +83,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
     ({"beat": "comb", "knot": "asymmetric"}, {}),
     ({"beat": "linkage", "width": "0.6m", "length": "0.9m"}, {}),
     ({"beat": "comb", "width": "6m", "length": "9m"}, {}),
-    ({"beat": "guide-cams", "width": "4m", "length": "6m"}, {"frame: room of a column": None}),
+    # A rapier of the cloth's width, both runs to the edge, its clamp and drive, within 3 m beside the cloth.
+    ({"beat": "guide-cams", "width": "4m", "length": "6m"}, {"frame: room of a column": None, **BESIDE}),
     ({"beat": "comb", "heads": 8}, {}),
     ({"beat": "comb", "colours": 200}, {}),
     # The head of the thesis leads both ends round the outside of their warps: never the asymmetric knot.
@@ -118,7 +121,12 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
     ),
     (
         {"beat": "guide-cams", "width": "4m", "length": "6m", "hammer.axes": 4, "hammer.screw_diameter": "12mm"},
-        {"buckling of the screws": buckling, "(?:life|static load) of the screws": None},
+        {
+            "buckling of the screws": buckling,
+            "(?:life|static load|critical speed) of the screws|servo over": None,
+            "frame: room of a column": None,
+            **BESIDE,
+        },
     ),
     # Guide cams of 148 mm do not clear what stands 80 mm from their shaft.
     (

@@ -47,7 +47,9 @@ def test_every_drive_is_as_strong_as_the_rows_need(kind, width) -> None:
     assert drive.row_pitch_left <= drive.task.cloth.row_distance * (1 + 1e-9)
     assert drive.fabric.resistance(drive.row_pitch_left) == pytest.approx(drive.beat_force_warp)
     needed = stroke_needed(drive.task)
-    assert needed * (1 - 1e-9) <= drive.path.rise <= needed + 2 * drive.task.params.clearance
+    assert needed * (1 - 1e-9) <= drive.path.rise
+    # Crank-rockers may be longer, to clear the heads: property/test_beats_beside_heads.
+    assert drive.crank_rockers or drive.path.rise <= needed + 2 * drive.task.params.clearance
     assert [work.per for work in drive.work] == ["beat"]
     assert drive.work[0].energy > drive.fabric.energy(drive.beat_force_needed)
     assert drive.frame_force > 0

@@ -55,7 +55,9 @@ def test_other_pictures_have_no_round_outline(name: str) -> None:
     assert share_outside(OTHERS[name]) == 0.0
 
 
-@pytest.mark.parametrize(("options", "code"), [((), 3), (("--ground", "#efe6d0"), 0), (("--crop", "20%,20% 80%,80%"), 0)])
+@pytest.mark.parametrize(
+    ("options", "code"), [((), 3), (("--ground", "#efe6d0"), 0), (("--crop", "20%,20% 80%,80%"), 0)]
+)
 def test_the_knots_outside_are_a_failed_check(tmp_path: Path, options: tuple[str, ...], code: int) -> None:
     ROUND["a circle"].save(tmp_path / "round.png")
     with pytest.raises(SystemExit) as end:

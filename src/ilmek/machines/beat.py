@@ -22,6 +22,9 @@ from ilmek.report import BillLine, Check, Work, at_least
 from ilmek.timing.track import MotionLaw
 from ilmek.weaving.fell import Fabric
 
+GUIDED = "guide-cams"
+"""The beat by the shedding cams themselves, which sink with their bearings."""
+
 FORCE_TOLERANCE = 0.05
 """Share by which the force of a warp may be short: rows are then left less than 2 % too far apart."""
 

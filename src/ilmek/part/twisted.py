@@ -1,5 +1,7 @@
 """A square bar that is twisted about its axis, straight before and behind: the screw of a rotation along a travel."""
 
+import itertools
+
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -56,7 +58,7 @@ class TwistedBar:
         """The convex hulls of neighbouring sections."""
         del deviation
         rings = self._rings()
-        return tuple(np.concatenate(pair) for pair in zip(rings[:-1], rings[1:], strict=True))
+        return tuple(np.concatenate(pair) for pair in itertools.pairwise(rings))
 
     def _rings(self) -> FloatArray:
         """Corners of the sections, (sections, 4, 3) [m]."""

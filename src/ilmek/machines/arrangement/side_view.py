@@ -21,6 +21,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.elements.columns import ascending, mid_loaded
+from ilmek.elements.materials import GRAVITY
+from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -34,6 +37,7 @@ from ilmek.machines.arrangement.spans import (
 )
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
+from ilmek.machines.weaver.tree import head_mass
 from ilmek.records import computed, record, result
 from ilmek.units import deg, mm
 
@@ -57,7 +61,7 @@ _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
 
 RAIL = 80 * mm
-"""Side of the heads' rail in the side view, before the frame is designed [m]."""
+"""Side of the room for the linear axis of the heads on their rail [m]."""
 
 
 RETREAT = cmath.exp(-55j * deg)
@@ -100,6 +104,7 @@ class SideView:
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
     compensator   of the warps' tension, between back rest and upper cylinder
     head          while it knots                                   rail  of the heads while they knot
+    rail_side     side of the rail's section, in front of its axis, before the frame is designed [m]
     """
 
     room: ShedRoom
@@ -116,6 +121,7 @@ class SideView:
     pile: float
     head: HeadShape
     rail: SideBox
+    rail_side: float
     retreat: float = result(
         "mm", "retreat of the heads for wefts and beats, down and to the front", name="head_retreat"
     )
@@ -212,8 +218,25 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         pile=head.drawn / 2,
         head=shape,
         rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
+        rail_side=_rail_side(task),
         retreat=(shape.top + room.clearance + below(path)) / -RETREAT.imag,
     )
+
+
+def _rail_side(task: "LoomTask") -> float:
+    """Side of the lightest section that bears the heads in the middle of a span of the rail [m], the largest of all.
+
+    Not smaller than that of the frame, where they stand side by side. All heads that fit where their number is open.
+    """
+    params, head = task.params, task.weaver
+    number = params.heads or 1
+    if not params.heads and (params.aim == "time" or params.deadline is not None):
+        number = heads_that_fit(task.columns, task.cloth.knot_pitch, head.width)
+    span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
+    weight = min(number, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
+    sections = ascending()
+    bearing = (one for one in sections if mid_loaded(one, span, weight)[0] <= params.rail_sag)
+    return next(bearing, sections[-1]).side
 
 
 def _carrier(room: ShedRoom, spans: ShedSpans) -> SideBox:

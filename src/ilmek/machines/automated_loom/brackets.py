@@ -22,6 +22,7 @@ from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.bearing_seats import BRACKET, BearingSeat
+from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import bearing_inner
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.part.profile import Profile
@@ -34,8 +35,6 @@ from ilmek.units import mm
 BACK_REST_SAG = 2e-3
 """Deflection of the back rest's beam over its width, as that of the compensator's; assumed by this project."""
 
-GUIDED = "guide-cams"
-"""The beat by the cams themselves: they sink with their bearings, along slots of their brackets."""
 
 _STEP = 5 * mm
 """Heights of brackets are multiples of this [m]."""

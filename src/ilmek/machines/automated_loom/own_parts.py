@@ -4,6 +4,7 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 """
 
 import cmath
+import math
 
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.materials import GRAVITY
@@ -54,7 +55,8 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     )
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
-    # At the upper end, above the post; wider than its axis, it reaches outwards.
+    # Wider than its axis, it reaches outwards; at the end that is farther from the posts of the beat: of crank-rockers,
+    # which stand before the rail, the upper one, of vertical axes behind it the lower one.
     outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
@@ -62,6 +64,8 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         for x in own.stations
     ]
     flange = placement(outwards, z=-room)
+    if not loom.beat.crank_rockers:
+        flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
     return RigidBody(
         part_id("retreat"),
         (

@@ -26,11 +26,11 @@ from ilmek.machines.automated_loom.bodies import (
     knot_bodies,
     row_bodies,
 )
-from ilmek.machines.automated_loom.brackets import GUIDED
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id as loom_part
 from ilmek.machines.automated_loom.parts import built_side, parts_of_loom
+from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.stack import part_id as shedding_part
 from ilmek.machines.tension_compensator.members import part_id as compensator_part
 from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part

@@ -14,7 +14,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
-from ilmek.machines.automated_loom.steady_posts import cam_beam, steady_posts
+from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
@@ -98,12 +98,12 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
     """Beams between the columns: at the floor, behind the cams between the brackets, at the front under the posts."""
     side, section, base = loom.side, frame.column, base_section(loom, frame)
     low = side.floor + FOOT + base.side / 2
-    middle = cam_beam(loom, frame, made)
+    middle, behind_cams = cam_beam(loom, frame, made), cam_beam_section(frame, made)
     front = [(low, depth) for depth in _front_depths(loom, frame)]
     rear, between_columns = _before_the_roll(loom, frame)
     between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
     for name, title, chosen, own, long in (
-        ("beam", "beam across", section, [(middle.imag, middle.real)], 2 * made.face),
+        ("beam", "beam across", behind_cams, [(middle.imag, middle.real)], 2 * made.face),
         ("floor-beam", "beam across at the floor", base, [(low, rear)], 2 * made.face if between_columns else between),
         ("front-beam", "beam across between the front feet", base, front, between),
     ):

@@ -13,6 +13,7 @@ from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.machines.automated_loom.brackets import Brackets
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.supports import within
 from ilmek.machines.shedding import stack
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.steady import Steady, steady_of, steady_stations
@@ -46,13 +47,24 @@ class SteadyPost:
 
 def cam_beam(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> complex:
     """Axis of the beam behind the cams in the side view: between spacer and lowest cam bracket, behind all cams [m]."""
-    side, half = loom.side, frame.column.side / 2
-    spacer, _, *of_cams = made.shafts
-    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
-    height = (float(spacer.nodes.imag.max()) + spacer.radius + lowest) / 2
+    side, half, (highest, lowest) = loom.side, cam_beam_section(frame, made).side / 2, _between(made)
+    height = (highest + lowest) / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - half
     rears = [rear - half for rear, *_ in _held(loom)]
     return complex(min(side.column, behind, *rears), height)
+
+
+def cam_beam_section(frame: LoomFrame, made: Brackets) -> HollowSquare:
+    """Section of the beam: the columns', or the largest that has room between the brackets."""
+    highest, lowest = _between(made)
+    return within(frame.column, lowest - highest - 2 * ROOM)
+
+
+def _between(made: Brackets) -> tuple[float, float]:
+    """Heights of the upper end of the spacer's bracket and of the lower end of the lowest cam bracket [m]."""
+    spacer, _, *of_cams = made.shafts
+    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
+    return float(spacer.nodes.imag.max()) + spacer.radius, lowest
 
 
 def _held(loom: LoomDesign) -> Iterator[tuple[float, float, Steady, CamShaft]]:
@@ -68,7 +80,7 @@ def steady_post(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> SteadyPos
     held = tuple(_held(loom))
     if not held:
         return None
-    bottom = cam_beam(loom, frame, made).imag + frame.column.side / 2
+    bottom = cam_beam(loom, frame, made).imag + cam_beam_section(frame, made).side / 2
     height = max(y + own.half_height for _, y, own, _ in held) - bottom
     arm, force = max(y for _, y, _, _ in held) - bottom, sum(shaft.shaft.seat.reaction for *_, shaft in held)
     number = held[0][3].params.spans - 1
@@ -96,7 +108,7 @@ def steady_checks(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> tuple[C
     if own is None:
         return ()
     load = own.force * own.number / own.along
-    bow = float(uniform.deflection_max(load, own.along, STEEL.modulus, frame.column.inertia))
+    bow = float(uniform.deflection_max(load, own.along, STEEL.modulus, cam_beam_section(frame, made).inertia))
     source, parts = "length over 1000, assumed by this project", (part_id("beam"),)
     bent = at_most("bow of the beam behind the cams", bow, SWAY * own.along, "mm", source, cure=_CURE, parts=parts)
     rollers = (one.check(stack.part_id("steady", index)) for index, (*_, one, _) in enumerate(_held(loom)))
@@ -113,5 +125,8 @@ def steady_posts(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator
     aside = held[0][2].roller.width / 2 + own.section.side / 2
     post = member("steady-post", "post of the steadies", own.section, own.height)
     stations = steady_stations(shaft.params.spans, shaft.shaft.length)
-    places = (placement(-z - aside, beam.imag + frame.column.side / 2, depth).after(UPRIGHT) for z in stations)
+    places = (
+        placement(-z - aside, beam.imag + cam_beam_section(frame, made).side / 2, depth).after(UPRIGHT)
+        for z in stations
+    )
     yield Occurrence(post, tuple(places))

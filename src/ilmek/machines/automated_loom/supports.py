@@ -1,4 +1,5 @@
-"""What the frame holds beat and weft with: posts under the beat's beam, and the tube behind the shuttle's bar.
+"""What the frame holds beat and weft with: posts under the beat's beam, and the tube behind the shuttle's bar, or what
+holds a rapier's side [`rapier_support`].
 
 Axes of the scene, as in `own_parts`. The posts stand on a beam across between the front feet. Each bears half of what
 the beat's beam carries, across at its end: stress F h c / (2 I) and deflection F h³ / (6 E I) [cantilevers]. The tube
@@ -13,6 +14,7 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -23,9 +25,6 @@ from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
-
-_LEAST = 0.05 * mm
-"""Shorter arms are left out [m]."""
 
 POST_SAFETY = 2.0
 """Of the posts against yielding; assumed by this project."""
@@ -43,7 +42,7 @@ TUBE_SAG = 0.5 * mm
 @record
 class LoomSupports:
     """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
-    its span between the middles of the columns [m] and the pull on it [N].
+    its span between the middles of the columns [m] and the pull on it [N]; what holds a rapier's side, or None.
     """
 
     post: HollowSquare
@@ -53,12 +52,14 @@ class LoomSupports:
     tube: HollowSquare | None
     span: float
     pull: float
+    rapier: RapierSupport | None
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Strength and stiffness of both."""
+        """Strength and stiffness of all."""
         posts = _post_checks(self.post, self.height, self.force, across=self.across)
-        return (*posts, *(() if self.tube is None else _tube_checks(self.tube, self.span, self.pull)))
+        tube = () if self.tube is None else _tube_checks(self.tube, self.span, self.pull)
+        return (*posts, *tube, *(() if self.rapier is None else self.rapier.checks))
 
 
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
@@ -73,11 +74,13 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
         made.coupling.pull if isinstance(made, Shuttle) else 0.0,
         2 * brackets_of(loom).face + frame.column.side,
     )
-    tube = None
-    if isinstance(made, Shuttle):
+    tube = rapier = None
+    if not isinstance(made, Shuttle):
+        rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
+    else:
         sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, span, pull)))
         tube = next(sections, ascending()[-1])
-    return LoomSupports(post, height, force, across, tube, span, pull)
+    return LoomSupports(post, height, force, across, tube, span, pull, rapier)
 
 
 def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
@@ -141,11 +144,15 @@ def post_depth(loom: LoomDesign) -> float:
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     """Section of feet and beams at the floor: the columns', or the largest that has room under the lowest bracket."""
     lowest = min(float(one.nodes.imag.min()) - one.radius for one in brackets_of(loom).plates)
-    room = lowest - ROOM - loom.side.floor - FOOT
-    if frame.column.side <= room:
-        return frame.column
+    return within(frame.column, lowest - ROOM - loom.side.floor - FOOT)
+
+
+def within(section: HollowSquare, room: float) -> HollowSquare:
+    """The section, or where it is higher than its room [m] the largest that is not."""
+    if section.side <= room:
+        return section
     offered = [HollowSquare(*size) for size in SECTIONS]
-    return max((one for one in offered if one.side <= room), key=lambda one: one.area, default=offered[0])
+    return max((other for other in offered if other.side <= room), key=lambda other: other.area, default=offered[0])
 
 
 def floor_top(loom: LoomDesign, frame: LoomFrame) -> float:
@@ -167,6 +174,8 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     )
     if held.tube is not None:
         yield from _tube(loom, frame, held.tube, face)
+    if held.rapier is not None:
+        yield from rapier_supports(held.rapier)
 
 
 def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float) -> Iterator[Occurrence]:
@@ -178,6 +187,6 @@ def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float
     yield Occurrence(member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
     front = loom.side.column + frame.column.side / 2
     gap, beside = depth - section.side / 2 - front, face + section.side / 2
-    if gap > _LEAST:
+    if gap > LEAST:
         arm = member("weft-arm", "arm of the tube", section, gap)
         yield Occurrence(arm, tuple(placement(x, height, front) for x in (-beside, beside)))

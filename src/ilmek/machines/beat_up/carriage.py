@@ -35,6 +35,9 @@ AXIS_SIDE = 80 * mm
 BLOCK_HEIGHT, BLOCK_LENGTH, BLOCK_MASS = 20 * mm, 120 * mm, 1.5
 """Carriage of the belt axis: height, length [m], mass [kg]; usual of axes of 80 mm, makers' data."""
 
+PLATE = "beat-up/carriage-plate"
+"""Id of the plate of crank and rocker."""
+
 SHEAR = 40e6
 """Allowed shear stress of the shaft that drives the cranks of a comb [Pa]; assumed by this project."""
 
@@ -90,7 +93,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
         holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
     thickness = linkage.params.thickness
     return Part(
-        "beat-up/carriage-plate",
+        PLATE,
         "plate of crank and rocker",
         "laser-cut part",
         format_quantity(thickness, "mm"),
@@ -166,6 +169,12 @@ def driving(drive: Sequence[Part], z: float, axis: complex = 0j) -> tuple[Occurr
     behind = placement(axis.real, axis.imag, z, about=(1.0, 0.0, 0.0), angle=math.pi)
     parts = in_line(drive, 0.0)
     return tuple(Occurrence(one.part, tuple(behind.after(at) for at in one.positions)) for one in parts)
+
+
+def face_of(part: Part) -> float:
+    """Width of a motor or reducer [m]."""
+    assert part.shape is not None
+    return float(np.ptp(np.concatenate(part.shape.pieces(mm))[:, 0]))
 
 
 def on_slide(linkage: BeatUp, high: float, drive: Sequence[Part]) -> tuple[Occurrence, ...]:

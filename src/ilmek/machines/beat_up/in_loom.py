@@ -9,6 +9,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
@@ -103,6 +104,7 @@ class TravellingBeat:
             force=across.stroke_force,
             beaten=across.stroke_warps,
             frame_force=frame_force(made.state),
+            loom_checks=checks_beside_heads(made, task.side, task.params.clearance),
             striking=across.beater.ids,
             use=use,
         )
@@ -118,7 +120,10 @@ def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
     """The travelling beater of a loom, its links as the paper's or stronger. Raises the errors of `beat_up.design`."""
     usual, fabric = fit(task), loom_fabric(task)
     for width, thickness in FLAT_BARS:
-        made = design(task.parameters("beat-up", replace(usual, width=width, thickness=thickness)))
+        usual = replace(usual, width=width, thickness=thickness)
+        made = design(task.parameters("beat-up", usual))
+        ground = ground_beside_heads(made, task.side, SPARE * task.params.clearance)
+        made = design(task.parameters("beat-up", replace(usual, ground=ground)))
         found = in_use(made, fabric)
         given = (made.params.width, made.params.thickness) != (width, thickness)
         if given or all(check.ok for check in beat_up_strength_checks(found.strength)):

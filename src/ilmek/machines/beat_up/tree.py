@@ -25,6 +25,7 @@ from ilmek.machines.beat_up.carriage import (
     beam_corner,
     carried,
     driving,
+    face_of,
     in_links_axes,
     on_slide,
     plate_begin,
@@ -74,10 +75,12 @@ def travelling(
     axis, *drive = travel_parts(across)
     high = use.beam.section.side
     on_beam = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE / 2)
+    # A drive wider than the slide lies on the beam, too.
+    raised = on_beam + 0.5j * max(0.0, *(face_of(part) - AXIS_SIDE for part in drive))
     standing = (
         *beam_occurrences(design, use.beam),
         _in_loom(design, Occurrence(axis, (placement(z=-length / 2),)), on_beam, middle),
-        *(_in_loom(design, one, on_beam, middle) for one in in_line(drive, -length / 2)),
+        *(_in_loom(design, one, raised, middle) for one in in_line(drive, -length / 2)),
     )
     rail = RigidBody("beat-up/rail", standing)
     on_block = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE + BLOCK_HEIGHT / 2)

@@ -14,8 +14,9 @@ from ilmek.cams.laws import LAWS
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.arrangement.spans import SPARE
-from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
+from ilmek.machines.beat import GUIDED, Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
@@ -26,12 +27,18 @@ from ilmek.machines.hammer.params import HammerParams
 from ilmek.machines.hammer.report import checks
 from ilmek.machines.hammer.tree import outline, tree
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.shedding.stack import part_id
+from ilmek.machines.weft.carriers import CARRIAGE
+from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.bill import bill
 from ilmek.records import record
-from ilmek.report import Check, Choice, Work, at_most, must
+from ilmek.report import Check, Choice, Work, at_least, at_most, must
 from ilmek.units import turn
 
 _SHARES = 181
+
+_ROUNDS = 4
+"""In which links and ground are made for each other, at most."""
 
 
 def fit(task: LoomTask, kind: str = "comb") -> HammerParams:
@@ -46,7 +53,7 @@ def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> 
         params,
         shed_speed=turn / task.period,
         step=min(beat.time / task.period, 0.5) * turn,
-        stack_mass=task.shedding.stack.mass if kind == "guide-cams" else 0.0,
+        stack_mass=task.shedding.stack.mass if kind == GUIDED else 0.0,
     )
 
 
@@ -74,12 +81,33 @@ def work(hammer: Hammer) -> tuple[Work, ...]:
 
 
 def _carried(task: LoomTask) -> tuple[Check, ...]:
-    """Whether there are guide cams that carry the leaves, on one shaft."""
+    """Whether there are guide cams that carry the leaves, on one shaft, with room to sink."""
     shedding = task.shedding
     cure = "set another beat, or shedding.guides=cams and a coarser pitch"
     return (
         must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),
         at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3", cure=cure),
+        *_over_shuttles(task),
+    )
+
+
+def _over_shuttles(task: LoomTask) -> tuple[Check, ...]:
+    """Whether the guide cams that sink stay above what drags the shuttles behind the warps; none with a rapier."""
+    side, laid = task.side, task.weft
+    if side is None or not isinstance(laid.carried, Shuttle):
+        return ()
+    lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams) - stroke_needed(task)
+    highest = (side.carrier.corner + side.carrier.size).imag
+    return (
+        at_least(
+            "clearance: guide cams that sink and carriage of the shuttle",
+            lowest - highest,
+            task.params.clearance,
+            "mm",
+            "parameter clearance; the carriage runs behind the warps, below the cams",
+            cure="set weft=rapier, or another beat",
+            parts=(part_id("shedding-cam"), CARRIAGE),
+        ),
     )
 
 
@@ -136,8 +164,14 @@ class CombBeat:
             beaten=hammer.params.cloth.warps,
             frame_force=force,
             striking=(LEAF_ID, BAR_ID),
-            loom_checks=_carried(task) if self.kind == "guide-cams" else (),
+            loom_checks=self._loom_checks(task, hammer),
         )
+
+    def _loom_checks(self, task: LoomTask, hammer: Hammer) -> tuple[Check, ...]:
+        """Room beside the heads of crank-rockers, and of guide cams that sink."""
+        if hammer.linkage is not None:
+            return checks_beside_heads(hammer.linkage.one, task.side, task.params.clearance)
+        return _carried(task) if self.kind == GUIDED else ()
 
     def _path(self, params: HammerParams) -> BeatPath:
         """Straight down to the fell and up again."""
@@ -150,10 +184,16 @@ class CombBeat:
 def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     """The comb's beat in a loom. Raises ParameterError where values set for it contradict each other."""
     params = task.parameters("hammer", _of_carpet(task, kind))
-    start: CrankStart | None = None
-    choices: tuple[Choice, ...] = ()
-    if params.drive == "linkage":
-        fabric = params.fabric
-        params, linkage, choices = chosen_linkage(params, fabric, float(fabric.resistance(params.cloth.row_distance)))
-        start = linkage.start
-    return CombBeat(params, task.params.comb_acceleration, kind, start, choices)
+    if params.drive != "linkage":
+        return CombBeat(params, task.params.comb_acceleration, kind, None)
+    fabric, clearance = params.fabric, SPARE * task.params.clearance
+    needed = float(fabric.resistance(params.cloth.row_distance))
+    chosen, linkage, choices = chosen_linkage(params, fabric, needed)
+    for _ in range(_ROUNDS):
+        # A longer linkage may need other links, and these more room.
+        ground = ground_beside_heads(linkage.one, task.side, clearance)
+        params = task.parameters("hammer", replace(_of_carpet(task, kind), ground=ground))
+        if params.ground == chosen.ground:
+            break
+        chosen, linkage, choices = chosen_linkage(params, fabric, needed)
+    return CombBeat(chosen, task.params.comb_acceleration, kind, linkage.start, choices)

@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
-from ilmek.machines.beat_up.carriage import beam_corner
+from ilmek.machines.beat_up.carriage import beam_corner, face_of
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, loops, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
@@ -175,7 +175,7 @@ def _low(params: HammerParams) -> float:
 def _before_axes(hammer: Hammer) -> float:
     """From the fell to the vertical axes [m]: their carriages lead past the reducers."""
     params = hammer.params
-    wide = max(_face(part) for part in _driving(hammer))
+    wide = max(face_of(part) for part in _driving(hammer))
     deep = max(BLOCK_DEPTH, (wide - AXIS_SIDE) / 2 + BLOCK_DEPTH / 2)
     return params.reach + params.comb_thickness + deep
 
@@ -192,12 +192,6 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
     if drive is None:
         return (motor,)
     return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row), motor
-
-
-def _face(part: Part) -> float:
-    """Width of a motor or reducer [m]."""
-    assert part.shape is not None
-    return float(np.ptp(np.concatenate(part.shape.pieces(mm))[:, 0]))
 
 
 @lru_cache(maxsize=4)

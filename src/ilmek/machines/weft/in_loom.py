@@ -1,19 +1,21 @@
 """The weft side in a loom: its parameters from the loom's task, its work."""
 
 from ilmek.machines.arrangement.spans import SPARE
+from ilmek.machines.beat import GUIDED
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weft.design import Weft
-from ilmek.machines.weft.params import WeftParams
+from ilmek.machines.weft.params import AUTO, RAPIER, WeftParams
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.report import Work
 from ilmek.units import turn
 
 
 def fit(task: LoomTask) -> WeftParams:
-    """The parameters for a loom's cloth and shed."""
+    """The parameters for a loom's cloth and shed; cams that sink for the beat leave no room for shuttles' carriages."""
     params = task.params
+    carrier = RAPIER if params.weft == AUTO and params.beat == GUIDED else params.weft
     return WeftParams(
-        carrier=params.weft,
+        carrier=carrier,
         aim=params.aim,
         cloth=task.cloth,
         rows=task.rows,

@@ -4,7 +4,6 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.bodies import beat_displacement, beat_joints
-from ilmek.machines.automated_loom.brackets import GUIDED
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -15,6 +14,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     MachineTree,
     track_angles,
 )
+from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import tree
 from ilmek.machines.shedding.tree import warp_positions as positions_of
 from ilmek.part.placement import IN_SIDE_VIEW, placement

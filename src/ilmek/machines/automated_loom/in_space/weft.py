@@ -7,7 +7,8 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import ROW, STANDS, MachineTree, half_width, motion, track_angles
 from ilmek.machines.weft import Shuttle
-from ilmek.machines.weft.tree import DRAGGING, RAPIER_BODY, RIGHT_BOX, SINUOUS, STRAIGHT
+from ilmek.machines.weft.rapier_tree import RAPIER_BODY
+from ilmek.machines.weft.tree import DRAGGING, RIGHT_BOX, SINUOUS, STRAIGHT
 from ilmek.part.placement import placement
 from ilmek.report.scene import SceneYarn
 from ilmek.timing.track import sample

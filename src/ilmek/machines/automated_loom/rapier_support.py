@@ -1,0 +1,133 @@
+"""What the frame holds a rapier's side with: on both sides an arm with a beam along the edge, a post under the far end.
+
+Axes of the scene. The arms lead from the fronts of the columns to the front; each carries a beam towards the cloth, to
+which the plate of an edge is bolted. The axis of the rapier lies on the left beam, and on the post. With the weight W
+of all on the weft side, and the inertia m a of what runs, half on each side as on a cantilever of the length l of arm
+and beam, and W along the post of the height h, free at its end:
+
+    s = sqrt(W² + (m a)²) l³ / (6 E I),   W / P,   P = pi² E I / (2 h)²                     [theory of beams; Euler]
+"""
+
+import math
+from collections.abc import Iterator
+
+from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
+from ilmek.elements.materials import GRAVITY
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.weft.rapier_tree import SIDE, RapierSide
+from ilmek.part.part import Part
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
+from ilmek.part.shapes import box
+from ilmek.part.tree import Occurrence
+from ilmek.records import record
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import format_quantity, mm
+
+LEAST = 0.05 * mm
+"""Shorter arms are left out [m]."""
+
+SAG = 0.5 * mm
+"""Allowed deflection at the end of a beam along the edge [m]: assumed by this project."""
+
+BUCKLING = 3.0
+"""Of the post against buckling; assumed by this project."""
+
+SOLE = (150 * mm, 10 * mm)
+"""Side and thickness of the post's plate on the floor [m]: assumed by this project."""
+
+POST_INSET = 0.15
+"""Of the post from the far end of the axis, clear of its drive [m]: assumed by this project."""
+
+
+@record
+class RapierSupport:
+    """Section of arms, beams and post; weight on them and inertia [N]; reach of arm and beam, height of the post [m].
+
+    side    the rapier's, its carrier's middle in the side view [m]
+    face, front, column  of the columns: inner face from the middle of the width, front in the side view, side [m]
+    """
+
+    side: RapierSide
+    middle: complex
+    section: HollowSquare
+    weight: float
+    inertia: float
+    reach: float
+    height: float
+    face: float
+    front: float
+    column: float
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Deflection of arms and beams, buckling of the post."""
+        return _checks(self.section, self.weight, self.inertia, self.reach, self.height)
+
+
+def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSupport:
+    """The lightest section that keeps its checks; the largest where none does.
+
+    face  inner face of the columns from the middle of the width [m]      column  side of their section [m]
+    """
+    bodies, middle = loom.weft.bodies, loom.side.carrier.corner + loom.side.carrier.size / 2
+    rapier, front = bodies.rapier, loom.side.column + column / 2
+    weight, inertia = bodies.tree.mass * GRAVITY, loom.weft.axis.mass * loom.weft.passage.acceleration
+    reach = middle.real + rapier.plate_back - front + face + column / 2 - rapier.edge
+    height = middle.imag + rapier.low - loom.side.floor - SOLE[1]
+    sections = ascending()
+    bearing = (one for one in sections if all(c.ok for c in _checks(one, weight, inertia, reach, height)))
+    section = next(bearing, sections[-1])
+    return RapierSupport(rapier, middle, section, weight, inertia, reach, height, face, front, column)
+
+
+def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, height: float) -> tuple[Check, Check]:
+    sag = math.hypot(weight, inertia) / 2 * reach**3 / (3 * STEEL.modulus * section.inertia)
+    cure = "set a lower weft.acceleration, or weft=shuttle"
+    return (
+        at_most(
+            "deflection of the arms of the rapier's side",
+            sag,
+            SAG,
+            "mm",
+            "weight and inertia; assumed by this project",
+            cure=cure,
+            parts=(part_id("weft-beam"),),
+        ),
+        at_least(
+            "post of the rapier's axis against buckling",
+            euler(2 * height, section) / weight,
+            BUCKLING,
+            "1",
+            "Euler's load, assumed by this project",
+            cure=cure,
+            parts=(part_id("weft-post"),),
+        ),
+    )
+
+
+def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
+    """Arms, beams, and the post on its plate; they belong to the frame's body."""
+    side, rapier, middle = support.section.side, support.side, support.middle
+    y, z = middle.imag + rapier.low - side / 2, middle.real + rapier.plate_back
+    beside, inner = support.face + support.column / 2, rapier.edge - SIDE / 2
+    gap = z - side - support.front
+    if gap > LEAST:
+        arm = member("weft-arm", "arm of the rapier's side", support.section, gap)
+        yield Occurrence(arm, tuple(placement(x, y, support.front) for x in (-beside, beside)))
+    long = beside + side / 2 - inner
+    beam = member("weft-beam", "beam along an edge of the cloth", support.section, long)
+    starts = (-beside - side / 2, inner)
+    yield Occurrence(beam, tuple(placement(x, y, z - side / 2).after(ALONG_WIDTH) for x in starts))
+    post = member("weft-post", "post of the rapier's axis", support.section, support.height)
+    low, x = middle.imag + rapier.low - support.height, rapier.run[0] + POST_INSET
+    yield Occurrence(post, (placement(x, low, middle.real).after(UPRIGHT),))
+    sole = Part(
+        part_id("weft-sole"),
+        "plate under the post of the rapier's axis",
+        "laser-cut part",
+        format_quantity(SOLE[1], "mm"),
+        box(SOLE[0], SOLE[0], SOLE[1]),
+        STEEL,
+    )
+    yield Occurrence(sole, (placement(x, low - SOLE[1], middle.real).after(UPRIGHT),))

@@ -1,0 +1,179 @@
+"""The rapier as bodies: tube with gripper and clamp, the belt axis under it, the devices that serve the cloth's edges.
+
+Axes as in `tree`. The axis stands beside the cloth, its drive upright below its far end. At each edge a plate before
+the rapier's way carries what cuts, tucks in and offers the wefts, side by side, with the motors below.
+"""
+
+import math
+from collections.abc import Iterator
+
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.motors import STEPPER, smallest_motor
+from ilmek.machines.weft.axis import BeltAxis
+from ilmek.machines.weft.carriers import AXIS, CARRIAGE, GRIPPER, MOTOR, NEEDLE, along, part_id, rapier_tube
+from ilmek.machines.weft.params import WeftParams
+from ilmek.machines.weft.passage import WeftPassage
+from ilmek.machines.weft.rapier import CLAMP, Rapier
+from ilmek.part import catalogue
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.shapes import Shape, box
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
+from ilmek.records import record
+from ilmek.units import format_quantity, mm
+
+RAPIER_BODY = part_id("rapier with its carriage")
+"""Id of the body that moves."""
+
+CUTTER, SELECTOR, TUCKER = 0.3, 0.2, 0.5
+"""Masses of a weft cutter, of the fingers of the selector and of a tuck-in needle [kg]; assumed by this project."""
+
+AUXILIARY = 0.4
+"""Torque of the motors of selector, cutter and tuck-in needles [N m]: the smallest stepper's."""
+
+SIDE = 40 * mm
+"""Side of the room for a linear axis, a carriage and a device at the edge [m]; assumed by this project."""
+
+PITCH = 50 * mm
+"""Distance of the devices of an edge along the width [m]."""
+
+PLATE, BEFORE_WAY = 6 * mm, 3 * mm
+"""Thickness of an edge's plate, and its distance from the way of rapier and carriage [m]; assumed by this project."""
+
+
+@record
+class RapierSide:
+    """Places of rapier, axis and devices."""
+
+    params: WeftParams
+    made: Rapier
+    passage: WeftPassage
+    axis: BeltAxis
+
+    @property
+    def edge(self) -> float:
+        """Middle of the devices next to the cloth, from the middle of the width [m]."""
+        return self.params.cloth.width / 2 + self.params.edge
+
+    @property
+    def rest(self) -> float:
+        """Tip of the rapier at rest, from the middle of the width [m]; negative: left of the cloth."""
+        return -self.params.cloth.width / 2 - self.passage.run
+
+    @property
+    def low(self) -> float:
+        """Lower side of the axis [m]."""
+        return -self.made.tube[0] / 2 - 2 * SIDE
+
+    @property
+    def run(self) -> tuple[float, float]:
+        """Left and right end of the axis [m]."""
+        left = self.rest - self.made.gripper - self.made.length
+        return left, left + self.passage.move.distance + CLAMP
+
+    @property
+    def plate_back(self) -> float:
+        """Back of the plates at the edges [m]: before the way of rapier and carriage."""
+        return max(self.made.depth, SIDE) / 2 + BEFORE_WAY
+
+    def bodies(self) -> Iterator[RigidBody]:
+        """The rapier from the left, its tip at rest before the cloth, clamped at its far end; axis and devices."""
+        params, made = self.params, self.made
+        far = -made.gripper - made.length
+        jaws = _bought(
+            (GRIPPER, "gripper of the rapier", "two jaws"),
+            "machined link",
+            box(made.gripper, made.gripper, made.gripper),
+            Bought("gripper", params.gripper_mass),
+        )
+        clamp = _bought(
+            (CARRIAGE, "carriage of the rapier", "with clamp"),
+            "machined link",
+            box(SIDE, SIDE, CLAMP),
+            Bought("carriage", params.carriage_mass),
+        )
+        parts = (
+            Occurrence(rapier_tube(params, made.tube, made.length), (along(far),)),
+            Occurrence(jaws, (along(-made.gripper),)),
+            Occurrence(clamp, (placement(0.0, self.low + 1.5 * SIDE).after(along(far)),)),
+        )
+        slide = Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))
+        yield RigidBody(RAPIER_BODY, parts, joint=slide, positions=(placement(self.rest),))
+        yield RigidBody(part_id("belt axis"), tuple(self._axis()))
+        yield RigidBody(part_id("devices at the edges"), (*self._devices(), *self._plates()))
+
+    def _axis(self) -> Iterator[Occurrence]:
+        """The belt axis, and its drive upright below its far end."""
+        axis, carrier, (left, right) = self.axis, self.params.carrier, self.run
+        wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
+        belt = _bought(
+            (AXIS, f"axis of the {carrier}", f"belt {axis.belt.belt.name}, {wide}"),
+            "linear axis",
+            box(SIDE, SIDE, right - left),
+            Bought("belt axis", length=self.passage.stroke),
+        )
+        yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
+        row, low = axis.drive.motor if axis.drive else None, self.low
+        if axis.drive is not None and axis.drive.reducer.ratio != 1:
+            geared = catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer.ratio, row)
+            low -= catalogue.length_of(geared)
+            yield Occurrence(geared, (_upright(left, low),))
+        driving = catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)
+        yield Occurrence(driving, (_upright(left, low),))
+
+    def _devices(self) -> Iterator[Occurrence]:
+        """Cutters, tuck-in needles with their axes, selector, and the motors of all of them, before the plates."""
+        row = smallest_motor(AUXILIARY, 0.0, STEPPER)
+        title = "motor of selector, cutters and needles"
+        motor = catalogue.motor(part_id("edge-motor"), title, row, AUXILIARY, 0.0)
+        front, size = self.plate_back + PLATE, box(SIDE, SIDE, SIDE)
+
+        def device(name: str, title: str, text: str, mass: float) -> Part:
+            return _bought((name, title, text), "machined link", size, Bought(title, mass))
+
+        long = max(2 * self.params.turn, SIDE)
+        slide = _bought(
+            (part_id("needle-axis"), "axis of a tuck-in needle", "along the edge"),
+            "linear axis",
+            box(SIDE, SIDE, long),
+            Bought("slide", length=2 * self.params.turn),
+        )
+
+        def beside(*places: tuple[int, int], high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
+            """At an edge, -1 left, 1 right, as the device of a number from the cloth on."""
+            return tuple(
+                _upright(side * (self.edge + number * PITCH), high, front + depth / 2) for side, number in places
+            )
+
+        yield Occurrence(device(part_id("cutter"), "weft cutter", "one at each edge", CUTTER), beside((-1, 0), (1, 0)))
+        yield Occurrence(device(NEEDLE, "tuck-in needle", "one at each edge", TUCKER), beside((-1, 1), (1, 1)))
+        yield Occurrence(slide, beside((-1, 2), (1, 2), high=SIDE / 2 - long))
+        yield Occurrence(device(part_id("selector"), "weft selector", "two fingers", SELECTOR), beside((1, 3)))
+        places = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
+        yield Occurrence(motor, beside(*places, depth=row.face if row else catalogue.SPECIAL_FACE))
+
+    def _plates(self) -> Iterator[Occurrence]:
+        """The plates, from below the axis to the devices."""
+        low, high = self.low - SIDE, SIDE / 2
+        wide = 3 * PITCH + SIDE
+        part = Part(
+            part_id("edge-plate"),
+            "plate of the devices at an edge",
+            "laser-cut part",
+            format_quantity(PLATE, "mm"),
+            box(wide, high - low, PLATE),
+            MATERIALS["structural steel"],
+        )
+        x = self.edge - SIDE / 2 + wide / 2
+        yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
+
+
+def _bought(names: tuple[str, str, str], process: str, room: Shape, bought: Bought) -> Part:
+    """A part of which the room alone is known; names: id, title, size."""
+    name, title, size = names
+    return Part(name, title, process, size, room, purchase=bought, envelope=True)
+
+
+def _upright(x: float, y: float, z: float = 0.0) -> Placement:
+    """At a place, z up."""
+    return placement(x, y, z).after(UPRIGHT)

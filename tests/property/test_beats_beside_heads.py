@@ -1,0 +1,104 @@
+"""Crank-rockers are as long as the heads that knot require, and no longer.
+
+Evidence: distances of points on the outlines, by brute force, of the rocker at rest and the plate that carries it from
+the heads, their magazine and the rail as it is built, while they knot and all along their retreat.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+
+import numpy as np
+import pytest
+
+from ilmek.arrays import ComplexArray
+from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.beat import stroke_needed
+from ilmek.machines.beat_up.carriage import shaft
+from ilmek.machines.beat_up.design import BeatUp, ground_for
+from ilmek.units import mm
+
+LOOMS = (
+    {"beat": "linkage"},
+    {"beat": "linkage", "heads": "4"},
+    {"beat": "linkage", "heads": "8", "width": "1.5m"},
+    {"beat": "travelling"},
+    {"beat": "travelling", "heads": "4"},
+    {"beat": "travelling", "heads": "7", "knots_across": "40/dm"},
+)
+
+
+@cache
+def loom(settings: tuple[tuple[str, str], ...]) -> LoomDesign:
+    return design(AutomatedLoomParams.read(dict(settings)))
+
+
+def linkage_of(made: LoomDesign) -> BeatUp:
+    own = made.beat.design
+    return own if isinstance(own, BeatUp) else own.linkage.one
+
+
+def outline(corners: ComplexArray) -> ComplexArray:
+    """Points along the sides of a polygon, about 1 mm apart."""
+    sides = zip(corners, np.roll(corners, -1), strict=True)
+    return np.concatenate([np.linspace(a, b, int(abs(b - a) / mm) + 2) for a, b in sides])
+
+
+def box(corner: complex, size: complex) -> ComplexArray:
+    return outline(corner + np.array([0, size.real, size, 1j * size.imag]))
+
+
+def heads_of(made: LoomDesign) -> Iterator[ComplexArray]:
+    side, section = made.side, parts_of_loom(made).frame.rail.side
+    yield box(side.head.body, side.head.size)
+    yield box(side.head.magazine, side.head.magazine_size)
+    # The rail stands in front of the axis on it, whose middle is the arrangement's.
+    yield box(side.rail.corner + side.rail.size / 2 - 0.5j * section, section * (1 + 1j))
+
+
+def least(one: ComplexArray, other: ComplexArray) -> float:
+    return float(np.abs(one[:, None] - other[None, :]).min())
+
+
+def gap_of_rocker(made: LoomDesign) -> float:
+    """Of the rocker at rest, with round ends, from the heads that knot [m]."""
+    linkage = linkage_of(made)
+    arm, half, path = linkage.lengths["beater"], linkage.params.width / 2, made.beat.path
+    middle = path.carried(np.array([linkage.params.before_beater, arm], complex), path.tip[:1])[0]
+    spine = np.linspace(middle[0], middle[1], 500)
+    return min(least(spine, head) for head in heads_of(made)) - half
+
+
+def gap_of_plate(made: LoomDesign) -> float:
+    """Of the plate's edge towards the heads from these, all along their retreat [m]."""
+    linkage = linkage_of(made)
+    arm, half = linkage.lengths["beater"], linkage.params.width / 2
+    edge = np.linspace(complex(arm - half, -half), shaft(linkage) - (half + 10 * mm) * (1 + 1j), 250)
+    lower = np.linspace(complex(arm - half, -half), complex(arm + half, -half), 50)
+    plate, steps = np.concatenate([edge, lower]), np.linspace(0.0, made.side.retreat, 60) * RETREAT
+    return min(least(plate, (head[::4, None] + steps).ravel()) for head in heads_of(made))
+
+
+@pytest.mark.parametrize("settings", LOOMS, ids=str)
+def test_rocker_and_plate_clear_the_heads(settings: dict[str, str]) -> None:
+    made = loom(tuple(settings.items()))
+    for gap in (gap_of_rocker(made), gap_of_plate(made)):
+        assert gap >= made.params.clearance - 0.5 * mm
+
+
+def test_a_longer_linkage_is_as_long_as_the_heads_require() -> None:
+    """Of one head on a rail of known section the gap is what the arrangement keeps: 1.5 times the clearance."""
+    made = loom((("beat", "linkage"),))
+    needed = ground_for(stroke_needed(made.task) + 1.5 * made.params.clearance)
+    assert linkage_of(made).params.ground > 1.05 * needed
+    assert min(gap_of_rocker(made), gap_of_plate(made)) == pytest.approx(1.5 * made.params.clearance, abs=0.5 * mm)
+
+
+def test_a_ground_that_is_set_is_kept_and_fails_beside_the_heads() -> None:
+    made = loom((("beat", "linkage"), ("hammer.ground", "0.463m")))
+    assert linkage_of(made).params.ground == 0.463
+    assert gap_of_rocker(made) < 0
+    check = next(one for one in made.beat.checks if one.name == "clearance: rocker at rest and heads that knot")
+    assert not check.ok
+    assert check.value == pytest.approx(gap_of_rocker(made), abs=0.5 * mm)
