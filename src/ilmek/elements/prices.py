@@ -63,6 +63,20 @@ PRICES: Mapping[str, PriceRates] = {
     "clutch and brake": PriceRates(each=350.0, per_kg=10.0),
     "control": PriceRates(each=3000.0),
     "axis of the control": PriceRates(each=120.0),
+    "motion controller": PriceRates(each=900.0),
+    "power supply": PriceRates(each=120.0),
+    "safety relay": PriceRates(each=180.0),
+    "terminal": PriceRates(each=2.0),
+    "mounting rail": PriceRates(per_m=6.0),
+    "emergency stop": PriceRates(each=45.0),
+    "button": PriceRates(each=25.0),
+    "interlock": PriceRates(each=160.0),
+    "actuator": PriceRates(each=30.0),
+    "sensor": PriceRates(each=60.0),
+    "load cell": PriceRates(each=350.0),
+    "light barrier": PriceRates(each=90.0),
+    "yarn sensor": PriceRates(each=35.0),
+    "guard mesh": PriceRates(each=20.0, per_kg=6.0),
 }
 """Rates by kind of part."""
 

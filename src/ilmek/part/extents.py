@@ -88,9 +88,7 @@ def _corners(low: Corner, high: Corner) -> Float[np.ndarray, "8 3"]:
     return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))))
 
 
-def _of_chain(
-    chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.ndarray, "8 3"]]
-) -> Iterator[Extent]:
+def _of_chain(chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.ndarray, "8 3"]]) -> Iterator[Extent]:
     body = chain[-1].body
     driven = [drive for drive in drives if any(_moves(link.body.joint.motion, drive) for link in chain)]
     rest = poses(chain, "", np.zeros(1))

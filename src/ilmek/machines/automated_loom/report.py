@@ -19,8 +19,9 @@ from ilmek.machines.automated_loom.cyclogram import (
 )
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
-from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -97,7 +98,7 @@ class LoomAnalysis:
 @lru_cache(maxsize=4)
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
-    listed = parts_of_loom(loom)
+    listed = whole_list(loom)
     energy = energy_of(loom, listed.axes)
     return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat, clearances(loom))
 
@@ -158,6 +159,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
+        *equipment_checks(loom),
     )
 
 

@@ -11,6 +11,7 @@ Axes of the scene: x to the right, y up from the fell, z to the front [m].
 import math
 from collections.abc import Iterator
 from functools import lru_cache
+from itertools import pairwise
 
 from ilmek.elements.safety_distances import FENCES, door, least_fence, over_span, through
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -87,9 +88,7 @@ def fence_of(loom: LoomDesign) -> Fence:
     right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
     front = max(float(stands_high[2]) + BESIDE, float(moves_high[2]) + door(stopping.whole))
-    hazards = tuple(
-        (*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards
-    )
+    hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
 
 
@@ -172,7 +171,7 @@ def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[fl
     """
     ends = (begin, *sorted(one for one in stations if begin + POST < one < end - POST), end)
     posts = [begin]
-    for first, then in zip(ends, ends[1:], strict=False):
+    for first, then in pairwise(ends):
         number = math.ceil((then - first) / BAY - 1e-9)
-        posts += [first + (k + 1) / number * (then - first) for k in range(number)]
+        posts += [*(first + k / number * (then - first) for k in range(1, number)), then]
     return tuple(posts)

@@ -107,9 +107,8 @@ def _strain(near: Surroundings) -> Occurrence:
 def _barriers(loom: LoomDesign, near: Surroundings) -> Occurrence:
     """Sender and receiver on the inner faces of the upper brackets, at the first free place below the level warps."""
     part = device(signals.WARP_STOP, "light barrier for broken warps", BARRIER)
-    side, inner, (_, tall, deep) = loom.side, brackets_of(loom).upper.inner, BARRIER.size
-    begin, end = side.upper.at, side.back_rest.at
-    bracket = part_id("upper-bracket")
+    inner, bracket = brackets_of(loom).upper.inner, part_id("upper-bracket")
+    begin, end = loom.side.upper.at, loom.side.back_rest.at
     for share in np.linspace(0.2, 0.9, 15).tolist():
         at = begin + share * (end - begin)
         both = (placed(-inner, at.imag, at.real, TO_THE_RIGHT), placed(inner, at.imag, at.real, TO_THE_LEFT))

@@ -8,12 +8,13 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.beating import beating
-from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
-from ilmek.machines.automated_loom.in_space.heads import arms, heads, knot_yarn
+from ilmek.machines.automated_loom.equipment.tree import equipment
+from ilmek.machines.automated_loom.in_space.cams import warp_positions
+from ilmek.machines.automated_loom.in_space.heads import arms, knot_yarn
+from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
-from ilmek.machines.automated_loom.in_space.standing import carpet_roll, standing
-from ilmek.machines.automated_loom.in_space.weft import weft, wefts
+from ilmek.machines.automated_loom.in_space.standing import carpet_roll
+from ilmek.machines.automated_loom.in_space.weft import wefts
 from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.space import frames_of, parts_of
@@ -60,16 +61,13 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
 
 
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
-    """The trees of all machines of a loom, each after what carries it."""
-    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
+    """The trees of all machines of a loom and of its equipment, each after what carries it."""
+    return (*machine_branches(loom), *equipment(loom))
 
 
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
-    whole = Tree()
-    for branch in branches_of(loom):
-        whole = whole.carrying(branch.parent, branch.tree, branch.position)
-    return whole
+    return joined(branches_of(loom))
 
 
 def _warps(loom: LoomDesign) -> SceneWarps:
