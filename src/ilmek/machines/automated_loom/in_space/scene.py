@@ -17,8 +17,9 @@ from ilmek.machines.automated_loom.in_space.standing import carpet_roll
 from ilmek.machines.automated_loom.in_space.weft import wefts
 from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
-from ilmek.part.space import frames_of, parts_of
-from ilmek.part.tree import Tree
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.space import frames_of, parts_of, rotations
+from ilmek.part.tree import GROUND, Tree
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
@@ -31,7 +32,7 @@ _ARC = 7
 @lru_cache(maxsize=2)
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
-    branches, checks = branches_of(loom), report.all_checks
+    branches, checks = _in_the_scene(branches_of(loom)), report.all_checks
     arm_frames, arm_parts = arms(loom)
     parts = (
         part
@@ -58,6 +59,16 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
     )
+
+
+def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
+    """The trees with their positions in the axes of the scene, which all its frames have at rest."""
+    turned, moved = {GROUND: IDENTITY.rotation}, list[MachineTree]()
+    for branch in branches:
+        position = Placement(np.zeros(3), turned[branch.parent]).after(branch.position)
+        turned |= {name: own for name, own in rotations(branch.tree, position).items() if name != GROUND}
+        moved.append(replace(branch, position=position))
+    return tuple(moved)
 
 
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
