@@ -8,8 +8,6 @@ from dataclasses import dataclass
 
 from ilmek.units import g, mm
 
-_KG = 1.0
-
 
 @dataclass(frozen=True, slots=True)
 class FieldDevice:
@@ -38,6 +36,7 @@ ROWS = (
     FieldDevice("magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3),
     FieldDevice("strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3),
     FieldDevice("photoelectric yarn sensor", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3),
+    FieldDevice("disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS),
     FieldDevice("laser light barrier, receiver or sender", "light barrier", _size(15, 50, 40), 60 * g, _CLASS, 10e-3),
     FieldDevice("RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, "ISO 14119, type 4", 0.1),
     FieldDevice("actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, "ISO 14119, type 4"),
@@ -52,5 +51,8 @@ ROWS = (
 FIELD_DEVICES = {row.name: row for row in ROWS}
 """The rows by their names."""
 
-ENCODER, AXIS_SENSOR, STRAIN, YARN_SENSOR, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, CONTROLLER, SUPPLY, \
-    TERMINAL = ROWS  # fmt: skip
+ENCODER, AXIS_SENSOR, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, CONTROLLER, \
+    SUPPLY, TERMINAL = ROWS  # fmt: skip
+
+BRAKE_FORCES = (0.02, 0.5)
+"""Range of a yarn's disc brake [N]; makers differ, assumed by this project."""

@@ -76,6 +76,11 @@ PRICES: Mapping[str, PriceRates] = {
     "load cell": PriceRates(each=350.0),
     "light barrier": PriceRates(each=90.0),
     "yarn sensor": PriceRates(each=35.0),
+    "yarn brake": PriceRates(each=12.0),
+    "yarn package": PriceRates(),
+    "duct": PriceRates(per_m=12.0),
+    "conduit": PriceRates(per_m=1.5),
+    "energy chain": PriceRates(each=20.0, per_m=60.0),
     "guard mesh": PriceRates(each=20.0, per_kg=6.0),
 }
 """Rates by kind of part."""

@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
+from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -62,7 +63,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, YarnPath, PartsList),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),

@@ -20,6 +20,7 @@ from ilmek.machines.automated_loom.cyclogram import (
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
@@ -105,7 +106,8 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed)
+    path = yarn_path(found.loom)
+    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed)
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
@@ -210,7 +212,7 @@ def _least_room(loom: LoomDesign) -> float:
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
     listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
-    return (*listed, *room_tables(found.room))
+    return (*listed, *room_tables(found.room), *yarn_tables(found.loom))
 
 
 def _heads_table(found: LoomAnalysis) -> Table:

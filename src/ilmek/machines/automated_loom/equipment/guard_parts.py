@@ -26,6 +26,7 @@ from ilmek.machines.automated_loom.equipment.guards import (
     bays,
     fence_of,
     rear_feet,
+    side_posts,
 )
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
@@ -85,7 +86,7 @@ class _Lines:
         self.left, self.right, self.back = fence.left - half, fence.right + half, fence.rear - half
         self.forward = fence.front + half
         self.front = bays(self.left, self.right)
-        self.side = bays(self.back, self.forward)
+        self.side = side_posts(fence)
         (self._control,) = near.of(CONTROL)
         # The cabinet is in the fence's line, or stands inside of it.
         self._cabinet = self._control.low[2] < self.back < self._control.high[2]

@@ -103,6 +103,11 @@ def _distances(left: float, right: float, rear: float, front: float, one: Hazard
     yield front - float(one.high[2])
 
 
+def side_posts(fence: Fence) -> tuple[float, ...]:
+    """Middles of the posts of a side, z, from the rear to the front [m]."""
+    return bays(fence.rear - POST / 2, fence.front + POST / 2)
+
+
 def rear_feet(near: Surroundings) -> tuple[float, ...]:
     """Middles of the rear feet at whose ends posts stand, those beside the cabinet left out [m]."""
     (control,) = near.of(CONTROL)

@@ -5,9 +5,11 @@ from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.circuit import circuit, circuit_checks
+from ilmek.machines.automated_loom.equipment.creel_parts import creel_trees
 from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
@@ -25,6 +27,7 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
         *sensors(loom),
         MachineTree(_NAME, guards(loom)),
         MachineTree(_NAME, circuit(loom)),
+        *creel_trees(loom),
     )
 
 
@@ -49,5 +52,5 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
 
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """The checks of guards, sensors and circuit."""
-    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom))
+    """The checks of guards, sensors, circuit and yarn path."""
+    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *yarn_checks(loom))
