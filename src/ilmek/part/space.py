@@ -27,7 +27,7 @@ def frames_of(tree: Tree, parent: str, position: Placement = IDENTITY) -> tuple[
 
     Raises ParameterError for a body at positions of different rotations: they are bodies of their own.
     """
-    turned = _rotations(tree, position)
+    turned = rotations(tree, position)
     frames = []
     for body in tree.bodies:
         if body.parent == GROUND:
@@ -48,7 +48,7 @@ def frames_of(tree: Tree, parent: str, position: Placement = IDENTITY) -> tuple[
     return tuple(frames)
 
 
-def _rotations(tree: Tree, position: Placement) -> Mapping[str, Float[np.ndarray, "3 3"]]:
+def rotations(tree: Tree, position: Placement) -> Mapping[str, Float[np.ndarray, "3 3"]]:
     """The rotation of each body's frame in the scene, at rest."""
     turned = {GROUND: position.rotation}
     for body in tree.bodies:
@@ -101,7 +101,7 @@ def parts_of(
     machine  that they belong to      position  of the tree's ground, as in `frames_of`
     deviations  of the meshes, from the finest to the coarsest [m]
     """
-    turned = _rotations(tree, position)
+    turned = rotations(tree, position)
     numbers = {part.id: number for part, number in tree.occurrences()}
     parts = []
     for body in tree.bodies:

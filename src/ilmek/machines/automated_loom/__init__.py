@@ -14,6 +14,8 @@ from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
+from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
+from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -61,15 +63,15 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, YarnPath, PartsList),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),
     warnings=warnings,
     cam_tables=cam_tables,
     cyclograms=cyclograms,
-    parts=lambda loom: parts_of_loom(loom).parts,
-    pieces=lambda loom: pieces_of(own_tree(loom)),
+    parts=lambda loom: whole_list(loom).parts,
+    pieces=lambda loom: tuple(piece for tree in (own_tree(loom), *equipment_trees(loom)) for piece in pieces_of(tree)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
     verdict=LoomVerdict,

@@ -19,10 +19,12 @@ from ilmek.machines.automated_loom.cyclogram import (
 )
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
-from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
 from ilmek.machines.automated_loom.steady_posts import steady_checks
@@ -101,15 +103,15 @@ class LoomAnalysis:
 @lru_cache(maxsize=4)
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
-    listed = parts_of_loom(loom)
+    listed = whole_list(loom)
     energy = energy_of(loom, listed.axes)
     return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat, clearances(loom))
 
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    modes = frame_modes(found.loom, found.listed.frame)
-    return (found, found.loom.side, found.shares, found.beat, found.energy, found.listed, modes)
+    path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
+    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed, modes)
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
@@ -167,6 +169,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
         *joint_checks(loom, found.listed.frame),
         *frame_modes(loom, found.listed.frame).checks,
+        *equipment_checks(loom),
     )
 
 
@@ -217,7 +220,7 @@ def _least_room(loom: LoomDesign) -> float:
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
     listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
-    return (*listed, *room_tables(found.room))
+    return (*listed, *room_tables(found.room), *yarn_tables(found.loom))
 
 
 def _heads_table(found: LoomAnalysis) -> Table:

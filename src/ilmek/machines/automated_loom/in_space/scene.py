@@ -8,16 +8,18 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.beating import beating
-from ilmek.machines.automated_loom.in_space.cams import cams, warp_positions
-from ilmek.machines.automated_loom.in_space.heads import arms, heads, knot_yarn
+from ilmek.machines.automated_loom.equipment.tree import equipment
+from ilmek.machines.automated_loom.in_space.cams import warp_positions
+from ilmek.machines.automated_loom.in_space.heads import arms, knot_yarn
+from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
-from ilmek.machines.automated_loom.in_space.standing import carpet_roll, standing
-from ilmek.machines.automated_loom.in_space.weft import weft, wefts
+from ilmek.machines.automated_loom.in_space.standing import carpet_roll
+from ilmek.machines.automated_loom.in_space.weft import wefts
 from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
-from ilmek.part.space import frames_of, parts_of
-from ilmek.part.tree import Tree
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.space import frames_of, parts_of, rotations
+from ilmek.part.tree import GROUND, Tree
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
@@ -30,7 +32,7 @@ _ARC = 7
 @lru_cache(maxsize=2)
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
-    branches, checks = branches_of(loom), report.all_checks
+    branches, checks = _in_the_scene(branches_of(loom)), report.all_checks
     arm_frames, arm_parts = arms(loom)
     parts = (
         part
@@ -64,19 +66,26 @@ def periods_of(loom: LoomDesign) -> dict[str, float]:
     return {ROW: loom.row_cyclogram.period, KNOT: loom.times.knot}
 
 
+def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
+    """The trees with their positions in the axes of the scene, which all its frames have at rest."""
+    turned, moved = {GROUND: IDENTITY.rotation}, list[MachineTree]()
+    for branch in branches:
+        position = Placement(np.zeros(3), turned[branch.parent]).after(branch.position)
+        turned |= {name: own for name, own in rotations(branch.tree, position).items() if name != GROUND}
+        moved.append(replace(branch, position=position))
+    return tuple(moved)
+
+
 @lru_cache(maxsize=2)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
-    """The trees of all machines of a loom, each after what carries it."""
-    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
+    """The trees of all machines of a loom and of its equipment, each after what carries it."""
+    return (*machine_branches(loom), *equipment(loom))
 
 
 @lru_cache(maxsize=2)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
-    whole = Tree()
-    for branch in branches_of(loom):
-        whole = whole.carrying(branch.parent, branch.tree, branch.position)
-    return whole
+    return joined(branches_of(loom))
 
 
 def _warps(loom: LoomDesign) -> SceneWarps:

@@ -1,0 +1,58 @@
+"""Devices of a machine's control and safety: sensors, switches, buttons, relays, terminals; and the price of each kind.
+
+Sizes and masses are those that makers have in common, rounded to what is ordered by the designation; a part of another
+make differs by some millimetres. `response` is the longest time from the event to the switched output [s].
+"""
+
+from dataclasses import dataclass
+
+from ilmek.units import g, mm
+
+
+@dataclass(frozen=True, slots=True)
+class FieldDevice:
+    """A row of the catalogue.
+
+    kind   by which it is priced       size  width, height, length of its room [m]       mass  [kg]
+    source of its sizes, its mass and its response
+    """
+
+    name: str
+    kind: str
+    size: tuple[float, float, float]
+    mass: float
+    source: str
+    response: float = 0.0
+
+
+def _size(width: float, height: float, length: float) -> tuple[float, float, float]:
+    return width * mm, height * mm, length * mm
+
+
+_CLASS = "class of catalogue parts; makers differ by some millimetres"
+
+ROWS = (
+    FieldDevice("absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3),
+    FieldDevice("magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3),
+    FieldDevice("strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3),
+    FieldDevice("photoelectric yarn sensor", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3),
+    FieldDevice("disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS),
+    FieldDevice("laser light barrier, receiver or sender", "light barrier", _size(15, 50, 40), 60 * g, _CLASS, 10e-3),
+    FieldDevice("RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, "ISO 14119, type 4", 0.1),
+    FieldDevice("actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, "ISO 14119, type 4"),
+    FieldDevice("emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 250 * g, "ISO 13850"),
+    FieldDevice("button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS),
+    FieldDevice("safety relay, 2 channels, PL e", "safety relay", _size(22.5, 100, 115), 250 * g, "ISO 13849-1", 0.02),
+    FieldDevice("motion controller with PLC", "motion controller", _size(100, 120, 100), 900 * g, _CLASS, 0.01),
+    FieldDevice("power supply 24 V, 10 A", "power supply", _size(60, 120, 115), 900 * g, _CLASS),
+    FieldDevice("terminal, two levels", "terminal", _size(5.2, 100, 48), 15 * g, "IEC 60947-7-1"),
+)  # fmt: skip
+
+FIELD_DEVICES = {row.name: row for row in ROWS}
+"""The rows by their names."""
+
+ENCODER, AXIS_SENSOR, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, CONTROLLER, \
+    SUPPLY, TERMINAL = ROWS  # fmt: skip
+
+BRAKE_FORCES = (0.02, 0.5)
+"""Range of a yarn's disc brake [N]; makers differ, assumed by this project."""

@@ -1,0 +1,1 @@
+"""What stands round the loom and watches it: guards with their doors, sensors, safety circuit, creel and yarn path."""

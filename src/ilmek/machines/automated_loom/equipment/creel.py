@@ -1,0 +1,163 @@
+"""The creel: a package of pile yarn on a peg for each tube of a head, its brake with a stop motion, and the conduits.
+
+It stands at the left side of the fence, outside of it, so that packages are changed while the loom weaves. Rows of pegs
+along the fence point to it; the yarn leaves its package over the nose, runs through the brake, and in a conduit of its
+own through the mesh, in a duct over the front foot, and in the energy chain of its head to its tube.
+
+A package of the mass m, as long as it is thick, on a core of the diameter c:   pi (d² - c²) d rho / 4 = m    [volume]
+
+Axes of the scene: x to the right, y up from the fell, z to the front [m].
+"""
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.field_devices import BRAKE
+from ilmek.errors import LoomError
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_posts
+from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
+from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.part.extents import Corner, shape_box
+from ilmek.records import record
+from ilmek.units import mm
+
+PACKAGE, PEG, BRAKE_ID = part_id("yarn-package"), part_id("peg"), part_id("yarn-brake")
+CONDUIT, DUCT, TROUGH, CHAIN = (
+    part_id("yarn-conduit"),
+    part_id("duct"),
+    part_id("chain-trough"),
+    part_id("energy-chain"),
+)
+"""Ids of parts."""
+
+DENSITY, CORE = 350.0, 40 * mm
+"""Of a wound package of wool [kg/m³], and diameter of its core [m]; assumed by this project."""
+
+BETWEEN = 60 * mm
+"""Room between two packages, for a hand [m]; assumed by this project."""
+
+HIGHEST = 1.9
+"""Axis of the highest package over the floor [m]: a person changes it from the floor; assumed by this project."""
+
+TUBE_OUTER, FILLED, CONDUIT_MASS = 5 * mm, 0.5, 0.02
+"""Outer diameter of a conduit of PTFE [m], share of a duct that conduits fill, mass per length [kg/m]."""
+
+LEAST_DUCT, DUCT_MASS = 40 * mm, 0.6
+"""Least side of the duct [m], mass per length of one of that side [kg/m]."""
+
+CHAIN_SIZE, CHAIN_MASS = (40 * mm, 66 * mm), 1.2
+"""Width and height of an energy chain with its bend [m], mass per length [kg/m]: a class of catalogue parts."""
+
+WALL, PLAY = 2 * mm, 1 * mm
+"""Of the trough, and between it and a chain at each side [m]."""
+
+_STEP = 10 * mm
+
+
+TROUGH_SIZE = CHAIN_SIZE[0] + 2 * (WALL + PLAY), CHAIN_SIZE[1] + WALL + 2 * PLAY
+"""Width and height of the trough [m]."""
+
+
+@record
+class Creel:
+    """Where the packages are.
+
+    size     diameter and length of a package [m]       pitch  of neighbours [m]
+    rows     heights of their axes [m]                   columns  z of their axes [m]
+    ends     of its rails, z [m]: past all columns, to a post of the fence
+    base     x of the packages' bases, their axes point to the right [m]
+    inner    x of the rails' faces that carry the brakes [m]
+    number   of packages                                 mouth  where the duct begins, x, y, z [m]
+    duct     side of its section [m]                     duct_end  x of its end [m]
+    """
+
+    size: float
+    pitch: float
+    rows: tuple[float, ...]
+    columns: tuple[float, ...]
+    ends: tuple[float, float]
+    base: float
+    inner: float
+    number: int
+    mouth: tuple[float, float, float]
+    duct: float
+    duct_end: float
+
+    @property
+    def places(self) -> tuple[tuple[float, float], ...]:
+        """Height and depth of the axis of each package [m]."""
+        every = ((y, z) for z in self.columns for y in self.rows)
+        return tuple(every)[: self.number]
+
+
+def package_size(mass: float) -> float:
+    """Diameter of a package that is as long as it is thick [m]: the positive root of d³ - c² d = 4 m / (pi rho).
+
+    >>> d = package_size(1.0)
+    >>> round(math.pi / 4 * (d**2 - CORE**2) * d * DENSITY, 9)
+    1.0
+    """
+    roots = np.roots([1.0, 0.0, -(CORE**2), -4 * mass / (math.pi * DENSITY)])
+    return float(max(root.real for root in roots if abs(root.imag) < _REAL))
+
+
+_REAL = 1e-9
+
+
+@lru_cache(maxsize=4)
+def creel_of(loom: LoomDesign) -> Creel:
+    """The creel of a loom. Raises LoomError where no duct passes to the heads."""
+    near, fence = surroundings(loom), fence_of(loom)
+    size, number = package_size(loom.params.package_mass), loom.heads * loom.weaver.params.tubes
+    foot = near.of(part_id("front-foot"))[0]
+    side = max(LEAST_DUCT, math.ceil(TUBE_OUTER * math.sqrt(number / FILLED) / _STEP) * _STEP)
+    low, high = trough_box(loom)
+    height = max(float(low[1] + high[1]) / 2, float(foot.high[1]) + side)
+    end, start = float(foot.high[0]) + side / 2, fence.left
+    depth = _free_depth(near, (start, end), height, side, float(low[2] + high[2]) / 2)
+    pitch, inner = size + BETWEEN, fence.left - POST - POST
+    lowest = fence.floor + size / 2 + 2 * BETWEEN
+    rows = np.arange(lowest, max(fence.floor + HIGHEST, lowest) + _REAL, pitch).tolist()
+    columns = tuple(depth - side - pitch * (k + 0.5) - POST for k in range(math.ceil(number / len(rows))))
+    begin, last = columns[-1] - (pitch + POST) / 2, columns[0] + (pitch + POST) / 2
+    post = max((z for z in side_posts(fence) if z < last), default=begin)
+    return Creel(
+        size=size,
+        pitch=pitch,
+        rows=tuple(rows),
+        columns=columns,
+        ends=(min(begin, post), last),
+        base=inner - BRAKE.size[2] - 2 * size,
+        inner=inner,
+        number=number,
+        mouth=(start, height, depth),
+        duct=side,
+        duct_end=end,
+    )
+
+
+def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, side: float, wished: float) -> float:
+    """Axis of the duct, z [m]: the nearest to what is wished where it and its stand have room, over the front foot."""
+    foot, (begin, end) = near.of(part_id("front-foot"))[0], ends
+    half = side / 2
+    offered = np.arange(float(foot.low[2]) + half, float(foot.high[2]) - half, _STEP)
+    for z in sorted(offered.tolist(), key=lambda one: abs(one - wished)):
+        low = np.array([begin, float(foot.high[1]) + _REAL, z - half])
+        if near.free(low, np.array([end, height + half, z + half]), but=foot.part):
+            return z
+    raise LoomError("no room for the yarns' duct over the front foot", do="set a larger margin")
+
+
+def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
+    """Corners of the trough under the heads' rail, in the axes of the scene while the heads knot [m]."""
+    body, rail, position = surroundings(loom).occurrence((part_id("rail"),))
+    assert rail.shape is not None
+    corners = np.array(shape_box(rail.shape))
+    points = body.positions[0].after(position).points(corners)
+    below, middle, half = float(points[:, 1].min()), float(points[:, 2].mean()), TROUGH_SIZE[0] / 2
+    long = loom.task.width / 2 - RAIL_AXIS
+    return np.array([-long, below - TROUGH_SIZE[1], middle - half]), np.array([long, below, middle + half])

@@ -1,0 +1,176 @@
+"""The creel as bodies: its frame, pegs with packages, brakes; the conduits' duct; the chains in their trough."""
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.field_devices import BRAKE, YARN_SENSOR
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.creel import (
+    BETWEEN,
+    BRAKE_ID,
+    CHAIN,
+    CHAIN_MASS,
+    CHAIN_SIZE,
+    CONDUIT,
+    CONDUIT_MASS,
+    CORE,
+    DUCT,
+    DUCT_MASS,
+    LEAST_DUCT,
+    PACKAGE,
+    PEG,
+    PLAY,
+    TROUGH,
+    TROUGH_SIZE,
+    TUBE_OUTER,
+    WALL,
+    Creel,
+    creel_of,
+    trough_box,
+)
+from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, device, placed
+from ilmek.machines.automated_loom.equipment.guards import POST
+from ilmek.machines.automated_loom.equipment.surroundings import surroundings
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
+from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, bar, box, tube
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.plane.contours import polygon
+from ilmek.units import format_quantity, mm, turn
+
+_SECTION = HollowSquare(POST, 3 * mm)
+
+_UPRIGHTS = 1.5
+"""Greatest distance of two uprights [m]; assumed by this project."""
+
+_ALONG = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
+"""A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
+
+
+def creel_trees(loom: LoomDesign) -> Iterator[MachineTree]:
+    """The creel with the duct on the floor, and the chains in their trough on the rail."""
+    creel = creel_of(loom)
+    bodies = (
+        RigidBody(part_id("creel"), tuple(_creel(loom, creel))),
+        RigidBody(part_id("yarn-duct"), tuple(_duct(loom, creel))),
+    )
+    yield MachineTree("automated-loom", Tree(bodies))
+    yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
+
+
+def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
+    """Frame, pegs with their packages, brakes with their sensors."""
+    yield from _stand(loom, creel)
+    long = creel.size
+    peg = Part(PEG, "peg of a package", "pin or bush", "", bar(CORE - PLAY, long), STEEL)
+    winding = tube(creel.size, (creel.size - CORE) / 2, long)
+    full = format_quantity(loom.params.package_mass, "kg", 3)
+    package = Part(
+        PACKAGE, "package of pile yarn", "yarn package", shape=winding, purchase=Bought(full, loom.params.package_mass),
+        envelope=True,
+    )  # fmt: skip
+    brake, sensor = (
+        device(BRAKE_ID, "yarn brake", BRAKE),
+        device(signals.YARN_STOP, "stop motion of a yarn", YARN_SENSOR),
+    )
+    on_pegs = tuple(placement(creel.base, y, z).after(ALONG_WIDTH) for y, z in creel.places)
+    yield Occurrence(peg, on_pegs)
+    yield Occurrence(package, on_pegs)
+    yield Occurrence(brake, tuple(placed(creel.inner, y, z, TO_THE_LEFT) for y, z in creel.places))
+    above = (BRAKE.size[1] + YARN_SENSOR.size[1]) / 2
+    yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, TO_THE_LEFT) for y, z in creel.places))
+
+
+def _stand(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
+    """Rails behind the packages and behind the brakes, uprights between the columns, ties between both planes."""
+    half, floor = POST / 2, loom.side.floor
+    begin, end = creel.ends
+    rail = member("creel-rail", "rail of the creel", _SECTION, end - begin + POST)
+    behind, before = creel.base - half, creel.inner + half
+    yield Occurrence(rail, tuple(placement(x, y, begin - half) for x in (behind, before) for y in creel.rows))
+    top = creel.rows[-1] + creel.size / 2 + POST
+    every = max(1, math.floor(_UPRIGHTS / creel.pitch))
+    between = [(a + b) / 2 for a, b in pairwise(creel.columns)]
+    stations = (begin, *between[every - 1 :: every], end)
+    upright = member("creel-upright", "upright of the creel", _SECTION, top - floor)
+    beside = behind - POST, creel.inner - half
+    feet = tuple(placement(x, floor, z).after(UPRIGHT) for x in beside for z in stations)
+    yield Occurrence(upright, feet)
+    low = beside[0] + half
+    tie = member("creel-tie", "tie of the creel", _SECTION, beside[1] - half - low)
+    yield Occurrence(tie, tuple(placement(low, top - half, z).after(ALONG_WIDTH) for z in (stations[0], stations[-1])))
+
+
+def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
+    """The duct from the fence over the front foot, its stand, and the conduits, whose ends hang free."""
+    (start, height, depth), side = creel.mouth, creel.duct
+    foot, long = surroundings(loom).of(part_id("front-foot"))[0], creel.duct_end - start
+    mass = DUCT_MASS * side / LEAST_DUCT * long
+    shape, size = Prism(_channel(side, side, WALL), long), format_quantity(side, "mm")
+    duct = Part(
+        DUCT, "duct of yarns and cables", "duct", size, shape, purchase=Bought("slotted duct", mass, length=long)
+    )
+    yield Occurrence(duct, (placement(start, height, depth).after(_ALONG),))
+    clear, middle = height - side / 2 - float(foot.high[1]), float(foot.low[0] + foot.high[0]) / 2
+    if clear > PLAY:
+        stand = member("duct-stand", "stand of the duct", _SECTION, clear)
+        yield Occurrence(stand, (placement(middle, float(foot.high[1]), depth).after(UPRIGHT),))
+    within = side - 2 * WALL
+    each = yarn_path(loom).conduit
+    bundle = Part(
+        CONDUIT,
+        "bundle of the yarns' conduits",
+        "conduit",
+        f"{creel.number} tubes of PTFE, {format_quantity(TUBE_OUTER, 'mm')}",
+        box(within, 0.8 * within, long),
+        purchase=Bought("PTFE", CONDUIT_MASS * creel.number * each, length=creel.number * each),
+        envelope=True,
+    )
+    yield Occurrence(bundle, (placement(start, height - 0.1 * within, depth).after(_ALONG),))
+
+
+def _channel(wide: float, high: float, wall: float) -> Profile:
+    """A channel that is open at its top, about the origin [m]."""
+    x, y, inner = wide / 2, high / 2, wide / 2 - wall
+    corners = [-x + 1j * y, -x - 1j * y, x - 1j * y, x + 1j * y, inner + 1j * y]
+    corners += [inner - 1j * (y - wall), -inner - 1j * (y - wall), -inner + 1j * y]
+    return Profile(polygon(np.array(corners)))
+
+
+def _chains(loom: LoomDesign) -> RigidBody:
+    """The trough under the rail, and in it the chain of each head over its share of the row."""
+    low, high = trough_box(loom)
+    body, _, _ = surroundings(loom).occurrence((part_id("rail"),))
+    own = body.positions[0].inverse
+    middle, long = (low + high) / 2, float(high[0] - low[0])
+    section = _channel(TROUGH_SIZE[0], TROUGH_SIZE[1], WALL)
+    trough = Part(TROUGH, "trough of the energy chains", "laser-cut part", "folded sheet", Prism(section, long), STEEL)
+    share = long / loom.heads
+    chain = Part(
+        CHAIN,
+        "energy chain of a head with cables and conduits",
+        "energy chain",
+        "",
+        box(*CHAIN_SIZE, share - BETWEEN),
+        purchase=Bought("chain 40 mm", CHAIN_MASS * share, length=share),
+        envelope=True,
+    )
+    y, z = float(low[1]) + WALL + CHAIN_SIZE[1] / 2, float(middle[2])
+    starts = [float(low[0]) + k * share + BETWEEN / 2 for k in range(loom.heads)]
+    return RigidBody(
+        part_id("chains"),
+        (
+            Occurrence(trough, (own.after(placement(float(low[0]), float(middle[1]), z).after(_ALONG)),)),
+            Occurrence(chain, tuple(own.after(placement(x, y, z).after(_ALONG)) for x in starts)),
+        ),
+    )

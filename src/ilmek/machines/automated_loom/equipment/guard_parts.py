@@ -1,0 +1,218 @@
+"""The guards as bodies: posts, panels of mesh, doors with hinges and interlocks, emergency stops and the reset.
+
+Posts stand in the lines of the fence, at most `BAY` apart; panels fill the bays between them, above the cabinet of the
+control too, which is a part of the fence. The doors are the bays of the front; they are closed while the loom weaves.
+"""
+
+import math
+from collections.abc import Iterable, Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.field_devices import ACTUATOR, BUTTON, INTERLOCK, STOP
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, TO_THE_RIGHT, UPWARDS, device, placed
+from ilmek.machines.automated_loom.equipment.guards import (
+    BOTTOM,
+    DOOR,
+    MESH,
+    PANEL,
+    POST,
+    WIRE,
+    Fence,
+    bays,
+    fence_of,
+    rear_feet,
+    side_posts,
+)
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Surroundings, surroundings
+from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, box
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.plane.contours import polygon
+from ilmek.units import format_quantity, mm
+
+_LEAF = part_id("door")
+"""Id of the body of the doors."""
+
+_HINGE = (5 * mm, 60 * mm, 20 * mm)
+"""Width, height and depth of a hinge [m]: the gap of a door, and what is seen of it."""
+
+_BEFORE_LATCH = 15 * mm
+"""From the edge of a door to its actuator [m]: the interlock sees it 15 mm away, and open doors not."""
+
+_ABOVE_CABINET = 5 * mm
+"""Between the cabinet and the panel above it [m]: no finger passes."""
+
+_STOP_HEIGHT, _RESET_HEIGHT = 1.1, 1.3
+"""Of emergency stops and reset over the floor [m]: ISO 13850, 0.6 to 1.7 m."""
+
+_STOPS_APART = 3.0
+"""Greatest distance of two emergency stops along the doors [m]; assumed by this project."""
+
+_LEAST_PANEL = 12 * mm
+"""Narrower gaps between posts stay open: a finger, 80 mm at most, does not reach the loom [m]."""
+
+_SECTION = HollowSquare(POST, 3 * mm)
+
+
+def guards(loom: LoomDesign) -> Tree:
+    """The fence, its doors, and what is on its posts."""
+    fence, near = fence_of(loom), surroundings(loom)
+    lines = _Lines(fence, near)
+    return Tree(
+        (
+            RigidBody(
+                part_id("guards"),
+                (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front)),
+            ),
+            _doors(fence, lines.front),
+        )
+    )
+
+
+class _Lines:
+    """The posts of the four sides, and the bays between them; middles of the posts [m]."""
+
+    def __init__(self, fence: Fence, near: Surroundings) -> None:
+        half = POST / 2
+        self._fence, self._near = fence, near
+        self.left, self.right, self.back = fence.left - half, fence.right + half, fence.rear - half
+        self.forward = fence.front + half
+        self.front = bays(self.left, self.right)
+        self.side = side_posts(fence)
+        (self._control,) = near.of(CONTROL)
+        # The cabinet is in the fence's line, or stands inside of it.
+        self._cabinet = self._control.low[2] < self.back < self._control.high[2]
+        ends = float(self._control.low[0]) - half, float(self._control.high[0]) + half
+        feet = rear_feet(near)
+        beside = (bays(self.left, ends[0], feet), bays(ends[1], self.right, feet))
+        self._rear = beside if self._cabinet else (bays(self.left, self.right, feet),)
+
+    def posts(self) -> Iterator[Occurrence]:
+        """All posts, each once."""
+        fence = self._fence
+        corners = {(x, z) for x in (self.left, self.right) for z in self.side}
+        corners |= {(x, self.forward) for x in self.front} | {(x, self.back) for line in self._rear for x in line}
+        part = member("guard-post", "post of the guards", _SECTION, fence.height)
+        yield Occurrence(part, tuple(placement(x, fence.floor, z).after(UPRIGHT) for x, z in sorted(corners)))
+
+    def lintel(self) -> Occurrence:
+        """Above each door, from post to post."""
+        spacing = self.front[1] - self.front[0]
+        part = member("guard-lintel", "lintel of a door", _SECTION, spacing - POST)
+        y = self._fence.top - POST / 2
+        places = (placement(x + POST / 2, y, self.forward).after(ALONG_WIDTH) for x in self.front[:-1])
+        return Occurrence(part, tuple(places))
+
+    def ties(self) -> Iterator[Occurrence]:
+        """Between rear feet and posts, where the fence stands behind their ends."""
+        feet = self._near.of(part_id("rear-foot"))
+        gap = float(feet[0].low[2]) - self._fence.rear
+        if gap > _LEAST_PANEL:
+            part = member("guard-tie", "tie of the guards to a rear foot", _SECTION, gap)
+            height = float(feet[0].low[1] + feet[0].high[1]) / 2
+            yield Occurrence(part, tuple(placement(x, height, self._fence.rear) for x in rear_feet(self._near)))
+
+    def panels(self) -> Iterator[Occurrence]:
+        """Panels of both sides and of the rear, a part for each size."""
+        low, high = self._fence.floor + BOTTOM, self._fence.top
+        places: dict[tuple[float, float], list[Placement]] = {}
+        for first, then in pairwise(self.side):
+            for x in (self.left, self.right):
+                _add(places, then - first, high - low, placed(x - WIRE, low, (first + then) / 2, TO_THE_RIGHT))
+        for line in self._rear:
+            for first, then in pairwise(line):
+                _add(places, then - first, high - low, placement((first + then) / 2, low, self.back - WIRE))
+        if self._cabinet:
+            (first, *_), (begin, *_) = self._rear[0][::-1], self._rear[1]
+            over = float(self._control.high[1]) + _ABOVE_CABINET
+            if high - over > _LEAST_PANEL:
+                _add(places, begin - first, high - over, placement((first + begin) / 2, over, self.back - WIRE))
+        for number, ((wide, tall), positions) in enumerate(places.items(), start=1):
+            name = PANEL if number == 1 else f"{PANEL}-{number}"
+            yield Occurrence(mesh_panel(name, "panel of the guards", wide, tall), tuple(positions))
+
+
+def _add(places: dict[tuple[float, float], list[Placement]], spacing: float, tall: float, own: Placement) -> None:
+    wide = spacing - POST
+    if wide > _LEAST_PANEL:
+        places.setdefault((round(wide, 9), round(tall, 9)), []).append(own)
+
+
+def mesh_panel(name: str, title: str, wide: float, tall: float) -> Part:
+    """A panel of welded wire: x across, 0 in its middle, y up from its lower edge, z through it from 0.
+
+    Upright wires before level ones, those at the edges among them, at most `MESH` apart.
+    """
+    upright, level = (math.ceil((size - WIRE) / MESH - 1e-9) for size in (wide, tall))
+    columns = np.linspace(-(wide - WIRE) / 2, (wide - WIRE) / 2, upright + 1).tolist()
+    rows = np.linspace(WIRE / 2, tall - WIRE / 2, level + 1).tolist()
+    shape = Sum(
+        (
+            Placed(box(WIRE, tall, WIRE), tuple(placement(x, tall / 2) for x in columns)),
+            Placed(box(wide, WIRE, WIRE), tuple(placement(0.0, y, WIRE) for y in rows)),
+        )
+    )
+    size = f"{format_quantity(wide, 'mm', 4)} x {format_quantity(tall, 'mm', 4)}, mesh {format_quantity(MESH, 'mm')}"
+    bought = Bought(f"welded mesh {WIRE / mm:g} mm", shape.volume * STEEL.density)
+    return Part(name, title, "guard mesh", size, shape, purchase=bought)
+
+
+def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
+    """The doors, hinged at their left posts, each with the actuator of its interlock at its right edge."""
+    gap, tall, _ = _HINGE
+    wide, high = front[1] - front[0] - POST - 2 * gap, fence.height - BOTTOM - POST - gap
+    leaf = mesh_panel(DOOR, "door of the guards", wide, high)
+    hinge = _made("guard-hinge", "hinge of a door", *_HINGE)
+    actuator = device(signals.ACTUATOR, "actuator of an interlock", ACTUATOR)
+    height = fence.floor + _STOP_HEIGHT
+    hinges = (placement(-(wide + gap) / 2, y * high - tall / 2, -_HINGE[2] / 2 + WIRE) for y in (0.15, 0.85))
+    inwards = wide / 2 - ACTUATOR.size[0] / 2 - _BEFORE_LATCH, height - fence.floor - BOTTOM, -ACTUATOR.size[1] / 2
+    middles = ((first + then) / 2 for first, then in pairwise(front))
+    return RigidBody(
+        _LEAF,
+        (
+            Occurrence(leaf),
+            Occurrence(hinge, tuple(hinges)),
+            Occurrence(actuator, (placed(*inwards, UPWARDS),)),
+        ),
+        positions=tuple(placement(x, fence.floor + BOTTOM, fence.front + POST / 2 - WIRE) for x in middles),
+    )
+
+
+def _made(name: str, title: str, wide: float, tall: float, deep: float) -> Part:
+    """A small piece of steel, its lower edge on y = 0."""
+    return Part(part_id(name), title, "pin or bush", shape=Prism(_standing(wide, tall), deep), material=STEEL)
+
+
+def _standing(wide: float, tall: float) -> Profile:
+    corners = np.array([-wide / 2, wide / 2, wide / 2 + 1j * tall, -wide / 2 + 1j * tall])
+    return Profile(polygon(corners))
+
+
+def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
+    """Interlocks at the latches of the doors, emergency stops at front and rear, the reset beside the last door."""
+    wide, thick, _ = INTERLOCK.size
+    latch = device(signals.INTERLOCK, "interlock of a door", INTERLOCK)
+    height, inner = fence.floor + _STOP_HEIGHT, fence.front - thick / 2
+    # Beside the last post's middle, to which the panel of the side reaches.
+    beside = wide / 2 + 2 * WIRE
+    yield Occurrence(latch, tuple(placed(x - beside, height, inner, UPWARDS) for x in front[1:]))
+    stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
+    back = placed(fence.left - POST / 2, height, fence.rear - POST, TO_THE_BACK)
+    yield Occurrence(stop, (*(placement(x, height, outer) for x in _stations(front)), back))
+    reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
+    yield Occurrence(reset, (placement(front[-1], fence.floor + _RESET_HEIGHT, outer),))
+
+
+def _stations(front: tuple[float, ...]) -> Iterable[float]:
+    """Posts of the front that carry an emergency stop: both ends, and between them so many that none is far."""
+    number = math.ceil((front[-1] - front[0]) / _STOPS_APART)
+    return sorted({front[round(share * (len(front) - 1))] for share in np.linspace(0.0, 1.0, number + 1).tolist()})

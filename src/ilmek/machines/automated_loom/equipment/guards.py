@@ -1,0 +1,182 @@
+"""The guards round a loom: where its fence stands, how high it is, and why; ISO 13857, ISO 13855, ISO 14120.
+
+A fence of welded mesh stands round all that moves, at least as far away as an arm reaches through its openings
+[`elements.safety_distances`], and outside of all that stands. Its front consists of doors with interlocks, as far away
+as a body comes while the loom still moves. The rear stands at the ends of the rear feet, to which its posts are bolted,
+and ends at the cabinet of the control. It is as low as the table allows for the distances that are there.
+
+Axes of the scene: x to the right, y up from the fell, z to the front [m].
+"""
+
+import math
+from collections.abc import Iterator
+from functools import lru_cache
+from itertools import pairwise
+
+from ilmek.elements.safety_distances import FENCES, door, least_fence, over_span, through
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.stopping import StoppingTime, stopping_time
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Hazard, Surroundings, surroundings
+from ilmek.machines.automated_loom.frame import part_id
+from ilmek.records import record
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import format_quantity, mm
+
+PANEL, DOOR = part_id("guard-panel"), part_id("guard-door")
+"""Beginnings of the ids of panels and doors: each width and height is a part of its own."""
+
+POST = 40 * mm
+"""Side of a fence's posts [m]."""
+
+MESH, WIRE = 40 * mm, 3 * mm
+"""Pitch and thickness of the wires of the mesh [m]: EN 10223-8, welded mesh panels."""
+
+BOTTOM = 20 * mm
+"""Slot below the panels [m]; a hand reaches 120 mm through it: ISO 13857, table 4."""
+
+BESIDE = 20 * mm
+"""Least room between fence and loom [m]; assumed by this project."""
+
+LEAST_HEIGHT = 1400 * mm
+"""Lowest fence that ISO 13857 allows at a high risk [m]."""
+
+BAY = 1.0
+"""Greatest width of a panel or a door [m]; assumed by this project."""
+
+_CURE = "set a shorter shed_stop, a lower beat_speed, or higher accelerations"
+
+
+@record
+class Fence:
+    """The fence of a loom: inner faces of its posts [m], its height over the floor [m], what it keeps away from.
+
+    left, right    x of the inner faces at the sides      rear, front  z of them
+    height         of the upper edge over the floor       floor  height of the floor over the fell
+    """
+
+    left: float
+    right: float
+    rear: float
+    front: float
+    height: float
+    floor: float
+    hazards: tuple[Hazard, ...]
+    stopping: StoppingTime
+
+    @property
+    def top(self) -> float:
+        """Upper edge over the fell [m]."""
+        return self.floor + self.height
+
+    def distance(self, one: Hazard) -> float:
+        """Horizontal distance of a hazard from the nearest side of the fence [m]."""
+        return min(_distances(self.left, self.right, self.rear, self.front, one))
+
+    def needed(self, one: Hazard) -> float:
+        """Distance at which a hazard is not reached over the fence [m]."""
+        return over_span(*_heights(self.floor, one), self.height)
+
+
+@lru_cache(maxsize=4)
+def fence_of(loom: LoomDesign) -> Fence:
+    """The fence of a loom."""
+    near, stopping, floor = surroundings(loom), stopping_time(loom), loom.side.floor
+    (stands_low, stands_high), (moves_low, moves_high) = near.standing, near.moving
+    reach = through(MESH - WIRE)
+    left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach)
+    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach)
+    rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
+    front = max(float(stands_high[2]) + BESIDE, float(moves_high[2]) + door(stopping.whole))
+    hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
+    return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
+
+
+def _heights(floor: float, one: Hazard) -> tuple[float, float]:
+    return max(float(one.low[1]) - floor, 0.0), float(one.high[1]) - floor
+
+
+def _distances(left: float, right: float, rear: float, front: float, one: Hazard) -> Iterator[float]:
+    yield float(one.low[0]) - left
+    yield right - float(one.high[0])
+    yield float(one.low[2]) - rear
+    yield front - float(one.high[2])
+
+
+def side_posts(fence: Fence) -> tuple[float, ...]:
+    """Middles of the posts of a side, z, from the rear to the front [m]."""
+    return bays(fence.rear - POST / 2, fence.front + POST / 2)
+
+
+def rear_feet(near: Surroundings) -> tuple[float, ...]:
+    """Middles of the rear feet at whose ends posts stand, those beside the cabinet left out [m]."""
+    (control,) = near.of(CONTROL)
+    feet = near.of(part_id("rear-foot"))
+    clear = (one for one in feet if one.high[0] <= control.low[0] - POST or one.low[0] >= control.high[0] + POST)
+    return tuple(float(one.low[0] + one.high[0]) / 2 for one in clear)
+
+
+def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """Reaching through the mesh and over the fence, and the distance of the doors; stopping time of the loom."""
+    fence = fence_of(loom)
+    nearest = min(fence.hazards, key=fence.distance)
+    worst = min(fence.hazards, key=lambda one: fence.distance(one) - fence.needed(one))
+    moved = max(float(one.high[2]) for one in fence.hazards)
+    height, opening = format_quantity(fence.height, "m", 3), format_quantity(MESH - WIRE, "mm")
+    stops = format_quantity(fence.stopping.whole, "s", 3)
+    return (
+        at_least(
+            f"guards: reaching through, to the {_named(nearest)}",
+            fence.distance(nearest),
+            through(MESH - WIRE),
+            "mm",
+            f"ISO 13857, table 4: square openings of {opening}",
+            cure="set a larger margin",
+            parts=(PANEL,),
+        ),
+        at_least(
+            f"guards: reaching over, to the {_named(worst)}",
+            fence.distance(worst),
+            fence.needed(worst),
+            "mm",
+            f"ISO 13857, table 2, high risk: fence of {height}",
+            cure="set a narrower lift or a lower tension: the loom is to be lower",
+            parts=(PANEL,),
+        ),
+        at_least(
+            "guards: distance of the doors",
+            fence.front - moved,
+            door(fence.stopping.whole),
+            "mm",
+            f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after a door opens",
+            cure=_CURE,
+            parts=(DOOR, signals.INTERLOCK, signals.RELAY),
+        ),
+        at_most(
+            "guards: height",
+            fence.height,
+            FENCES[-1],
+            "m",
+            "highest fence of ISO 13857, table 2",
+            cure="set a lower tension or a smaller lift",
+            parts=(PANEL,),
+        ),
+    )
+
+
+def _named(one: Hazard) -> str:
+    return one.body.rpartition("/")[2]
+
+
+def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[float, ...]:
+    """Middles of the posts from one to another [m], at most `BAY` apart, some at given stations between.
+
+    >>> bays(0.0, 1.5), bays(0.0, 1.0, (0.4,))
+    ((0.0, 0.75, 1.5), (0.0, 0.4, 1.0))
+    """
+    ends = (begin, *sorted(one for one in stations if begin + POST < one < end - POST), end)
+    posts = [begin]
+    for first, then in pairwise(ends):
+        number = math.ceil((then - first) / BAY - 1e-9)
+        posts += [*(first + k / number * (then - first) for k in range(1, number)), then]
+    return tuple(posts)

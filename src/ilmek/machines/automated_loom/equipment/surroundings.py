@@ -1,0 +1,106 @@
+"""The room that a loom takes, with all its motions, for what is placed round it and on it."""
+
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.errors import LoomError
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, half_width
+from ilmek.machines.weaver.tree import head_tree
+from ilmek.part.extents import Corner, Extent, around, extents
+from ilmek.part.part import Part
+from ilmek.part.placement import Placement
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.records import record
+from ilmek.units import mm
+
+CONTROL = part_id("control")
+"""The cabinet of the control: the guards end at it."""
+
+GAP = 3 * mm
+"""Room that is kept between what is added to a loom and its parts [m]; assumed by this project."""
+
+
+@record
+class Hazard:
+    """A body that moves: its name, and least and greatest x, y, z of what it sweeps [m]."""
+
+    body: str
+    low: Corner
+    high: Corner
+
+
+@record
+class Surroundings:
+    """The tree of a loom's machines, and the boxes of all its pieces."""
+
+    tree: Tree
+    extents: tuple[Extent, ...]
+    hazards: tuple[Hazard, ...]
+
+    def of(self, part: str) -> tuple[Extent, ...]:
+        """The boxes of the pieces of a part, from left to right. Raises LoomError where the loom has none."""
+        pieces = sorted((one for one in self.extents if one.part == part), key=lambda one: float(one.low[0]))
+        if not pieces:
+            raise LoomError(f"no part {part!r} in the loom", allowed="a part of its tree")
+        return tuple(pieces)
+
+    @property
+    def standing(self) -> tuple[Corner, Corner]:
+        """Corners of the box about all that stands, but the cabinet of the control [m]."""
+        return around(one for one in self.extents if not one.moving and one.part != CONTROL)
+
+    @property
+    def moving(self) -> tuple[Corner, Corner]:
+        """Corners of the box about all that moves [m]."""
+        return np.min([one.low for one in self.hazards], axis=0), np.max([one.high for one in self.hazards], axis=0)
+
+    def occurrence(self, parts: Iterable[str]) -> tuple[RigidBody, Part, Placement]:
+        """The body that has the first of some parts, the part, and where it lies first in that body.
+
+        Raises LoomError where the loom has none of them.
+        """
+        wanted = tuple(parts)
+        for name in wanted:
+            for body, own in self._occurrences():
+                if own.part.id == name:
+                    return body, own.part, own.positions[0]
+        raise LoomError(f"none of the parts {', '.join(wanted)} in the loom", allowed="parts of its tree")
+
+    def _occurrences(self) -> Iterator[tuple[RigidBody, Occurrence]]:
+        return ((body, own) for body in self.tree.bodies for own in body.occurrences)
+
+    def free(self, low: Corner, high: Corner, *, but: str = "") -> bool:
+        """Whether a box has room in the loom, over all motions; `but`: the part that carries it is not looked at."""
+        return not any(one.meets(low, high, GAP) for one in self.extents if one.part != but)
+
+
+@lru_cache(maxsize=4)
+def surroundings(loom: LoomDesign) -> Surroundings:
+    """The room of a loom; heads travel along the whole row, which no turn of a drive shows."""
+    tree = joined(machine_branches(loom))
+    found = extents(tree, (ROW, KNOT))
+    bodies: dict[str, list[Extent]] = {}
+    for one in found:
+        if one.moving:
+            bodies.setdefault(one.body, []).append(one)
+    row = half_width(loom) + loom.head_width / 2
+    hazards = [Hazard(name, *around(pieces)) for name, pieces in bodies.items()]
+    riding = [name for name, pieces in bodies.items() if any(one.part in _riding(loom) for one in pieces)]
+    hazards = [_widened(one, row) if one.body in riding else one for one in hazards]
+    return Surroundings(tree, found, tuple(hazards))
+
+
+def _riding(loom: LoomDesign) -> frozenset[str]:
+    """Ids of the parts of the heads."""
+    return frozenset(part.id for part, _ in head_tree(loom.weaver).occurrences())
+
+
+def _widened(one: Hazard, half: float) -> Hazard:
+    low, high = one.low.copy(), one.high.copy()
+    low[0], high[0] = min(low[0], -half), max(high[0], half)
+    return Hazard(one.body, low, high)

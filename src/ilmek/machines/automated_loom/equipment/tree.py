@@ -1,0 +1,56 @@
+"""The equipment of a loom as bodies, its parts list, and its checks."""
+
+from dataclasses import replace
+from functools import lru_cache
+
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.circuit import circuit, circuit_checks
+from ilmek.machines.automated_loom.equipment.creel_parts import creel_trees
+from ilmek.machines.automated_loom.equipment.guard_parts import guards
+from ilmek.machines.automated_loom.equipment.guards import guard_checks
+from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
+from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
+from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
+from ilmek.part.bill import line_of
+from ilmek.part.tree import Tree
+from ilmek.report import BillLine, Check
+
+_NAME = "automated-loom"
+
+
+@lru_cache(maxsize=2)
+def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
+    """The trees of the equipment, on bodies of the machines or on the floor."""
+    return (
+        *sensors(loom),
+        MachineTree(_NAME, guards(loom)),
+        MachineTree(_NAME, circuit(loom)),
+        *creel_trees(loom),
+    )
+
+
+def equipment_trees(loom: LoomDesign) -> tuple[Tree, ...]:
+    """The trees alone."""
+    return tuple(branch.tree for branch in equipment(loom))
+
+
+def whole_list(loom: LoomDesign) -> PartsList:
+    """The parts list of a loom with its equipment. Raises ParameterError for unreadable prices."""
+    listed = parts_of_loom(loom)
+    return replace(listed, parts=(*listed.parts, *_lines(loom)))
+
+
+@lru_cache(maxsize=4)
+def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
+    """Lines of the equipment: of what is on a head as many as there are heads."""
+    branches = equipment(loom)
+    own = {part.id for tree in equipment_trees(loom) for part, _ in tree.occurrences()}
+    whole = joined((*machine_branches(loom), *branches))
+    return tuple(line_of(part, number) for part, number in whole.occurrences() if part.id in own)
+
+
+def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """The checks of guards, sensors, circuit and yarn path."""
+    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *yarn_checks(loom))
