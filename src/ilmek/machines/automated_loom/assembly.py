@@ -8,8 +8,9 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, nearest_parts
 from ilmek.machines.automated_loom.report import LoomVerdict
-from ilmek.part.clearances import DEVIATION, Approach
-from ilmek.part.contacts import TouchingParts, groups
+from ilmek.part.clearances import Approach
+from ilmek.part.colliders import DEVIATION
+from ilmek.part.contacts import Contacts, TouchingParts, contacts
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, results_of
 from ilmek.units import deg, format_quantity
@@ -22,12 +23,13 @@ NEAREST = 10
 class LoomAssembly:
     """The parts of a loom against each other.
 
-    nearest  least distances of parts, the nearest first        groups  of parts that touch, the largest first
+    nearest   least distances of parts that move against each other, the nearest first
+    contacts  what touches, and what is through each other at all angles
     """
 
     loom: LoomDesign
     nearest: tuple[Approach, ...]
-    groups: tuple[TouchingParts, ...]
+    contacts: Contacts
 
     clashes = computed(
         "1",
@@ -44,22 +46,27 @@ class LoomAssembly:
 
     @computed("", "the nearest pairs of parts that move against each other", shown=False)
     def nearest_pairs(self) -> list[Json]:
-        return [_as_json(pair) for pair in self.nearest if pair.moving][:NEAREST]
+        return [_as_json(pair) for pair in self.nearest[:NEAREST]]
+
+    @property
+    def groups(self) -> tuple[TouchingParts, ...]:
+        """Groups of parts that touch, the largest first."""
+        return self.contacts.groups
 
     @property
     def through(self) -> tuple[Approach, ...]:
         """Pairs of parts that are through each other: of each two parts the worst."""
         worst: dict[frozenset[str], Approach] = {}
-        for pair in self.nearest:
-            if pair.distance < 0:
-                worst.setdefault(frozenset(pair.parts), pair)
+        every = (*(pair for pair in self.nearest if pair.distance < 0), *self.contacts.through)
+        for pair in sorted(every, key=lambda pair: pair.distance):
+            worst.setdefault(frozenset(pair.parts), pair)
         return tuple(worst.values())
 
 
 @lru_cache(maxsize=4)
 def assembly(loom: LoomDesign) -> LoomAssembly:
     """The parts of a loom against each other; takes seconds."""
-    return LoomAssembly(loom, nearest_parts(loom), groups(loom_tree(loom)))
+    return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
 
 
 def assembly_checks(found: LoomAssembly) -> tuple[Check, ...]:
@@ -96,7 +103,7 @@ def _too_near(found: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ..
     least: dict[frozenset[str], Approach] = {}
     for pair in found.nearest:
         both = frozenset(machines[body] for body in pair.bodies)
-        if len(both) == 2 and pair.moving and pair.distance > 0:
+        if len(both) == 2 and pair.distance > 0:
             least.setdefault(both, pair)
     return tuple(
         at_least(
@@ -127,7 +134,7 @@ def with_assembly(loom: LoomDesign, report: Report) -> Report:
 
 def _nearest_table(found: LoomAssembly) -> Table:
     """The nearest pairs of parts; below 0 they are through each other, by the mean depth of what they share."""
-    titles, apart = _titles(found.loom), (pair for pair in found.nearest if pair.moving and pair.distance >= 0)
+    titles, apart = _titles(found.loom), (pair for pair in found.nearest if pair.distance >= 0)
     rows = tuple(
         (titles[pair.parts[0]], titles[pair.parts[1]], pair.distance, pair.drive, pair.angle)
         for pair in (*found.through, *apart)[: 3 * NEAREST]
@@ -150,7 +157,7 @@ def _worst(through: tuple[Approach, ...], titles: Mapping[str, str]) -> str:
 
 
 def _where(pair: Approach) -> str:
-    return f"at {pair.angle / deg:.1f} deg of a {pair.drive}"
+    return f"at {pair.angle / deg:.1f} deg of a {pair.drive}" if pair.drive else "at all angles"
 
 
 def _as_json(pair: Approach) -> Json:

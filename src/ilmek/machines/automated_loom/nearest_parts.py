@@ -37,7 +37,7 @@ def nearest_parts(loom: LoomDesign) -> tuple[Approach, ...]:
         return 0.0 if machine[first] == machine[other] else loom.params.clearance
 
     row = approaches(tree, ROW, HORIZON, row_windows(loom.row_cyclogram, loom.beat.path), required)
-    knot = approaches(tree, KNOT, HORIZON, TURN, required, moving=True)
+    knot = approaches(tree, KNOT, HORIZON, TURN, required)
     least: dict[tuple[str, ...], Approach] = {}
     for pair in (*row, *knot):
         key = (*pair.parts, *pair.bodies)
