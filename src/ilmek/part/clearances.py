@@ -23,7 +23,8 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, IntArray
 from ilmek.part.colliders import MANY, Collider, Common, collider, distances, inside, pose_key, row
 from ilmek.part.placement import IDENTITY, Placement
-from ilmek.part.poses import Chain, ChainTravel, chains, drive_angles, poses
+from ilmek.part.poses import Chain, ChainTravel, Extent, chains, drive_angles, poses
+from ilmek.part.shapes import Shape, Sum
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.units import mm, turn
@@ -79,9 +80,9 @@ class _Piece:
     few: Collider | None = None
 
     @cached_property
-    def corners(self) -> Float[np.ndarray, "points 3"]:
+    def extent(self) -> Extent:
         """Corners of its convex hull in the body's axes [m]."""
-        return self.position.points(self.collider.corners)
+        return Extent(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +104,7 @@ class _Carried:
 
     @cached_property
     def reaches(self) -> Float[np.ndarray, "pieces links"]:
-        return self.travel.reaches([piece.corners for piece in self.pieces])
+        return self.travel.reaches([piece.extent for piece in self.pieces])
 
     def moved(self, number: int, shared: int) -> FloatArray:
         """Travel of a piece at the angles, by the links of its chain after the shared ones [m]."""
@@ -124,9 +125,9 @@ class _Carried:
         size = len(self.pieces), len(self.ends), 2, 3
         if not any(self.travel.moves[shared:]):
             here = poses(chain, drive, np.zeros(1))
-            still = [here.points(piece.corners)[0] for piece in self.pieces]
+            still = [here.points(piece.extent.points)[0] for piece in self.pieces]
             return np.broadcast_to(np.array([[own.min(0), own.max(0)] for own in still])[:, None], size)
-        corners = np.concatenate([_box_corners(piece.corners) for piece in self.pieces])
+        corners = np.concatenate([_box_corners(piece.extent.points) for piece in self.pieces])
         at = poses(chain, drive, self.ends.ravel()).points(corners)
         at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
         low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
@@ -173,15 +174,28 @@ def approaches(
 
 
 def _pieces(chain: Chain) -> Iterator[_Piece]:
-    """Each piece of each part of the last body; of one that is in it `MANY` times all as one."""
+    """The pieces of the parts of the last body, of a sum its members; of what is in it `MANY` times all as one."""
     for occurrence in chain[-1].body.occurrences:
         part = occurrence.part
         if part.shape is None:
             continue
         if len(occurrence.positions) >= MANY:
             yield _Piece(part.id, IDENTITY, *row(occurrence))
-        else:
-            yield from (_Piece(part.id, position, collider(part)) for position in occurrence.positions)
+            continue
+        members = tuple(_members(part.shape))
+        if len(members) >= MANY:
+            members = ((part.shape, IDENTITY),)
+        for position in occurrence.positions:
+            yield from (_Piece(part.id, position.after(own), collider(shape)) for shape, own in members)
+
+
+def _members(shape: Shape) -> Iterator[tuple[Shape, Placement]]:
+    if not isinstance(shape, Sum):
+        yield shape, IDENTITY
+        return
+    for member in shape.members:
+        inner = tuple(_members(member.shape))
+        yield from ((own, position.after(at)) for position in member.positions for own, at in inner)
 
 
 def _intervals(windows: tuple[Window, ...]) -> Float[np.ndarray, "intervals samples"]:
@@ -285,7 +299,9 @@ class _Pair:
             return None
         if all(own.convex for own in self.colliders):
             return _Where(hulls.angle, hulls.least)
-        if hulls.least >= self.enough > 0 or (hulls.least > 0 and self.enough == 0):
+        if hulls.least >= self.enough and hulls.least > 0 and any(own.large for own in self.colliders):
+            return _Where(hulls.angle, hulls.least)
+        if hulls.least >= self.enough and hulls.least > 0:
             distance = yield _Asked(exact=True, angles=np.array([hulls.angle]))
             where = _Where(hulls.angle, float(distance[0]))
         else:

@@ -5,6 +5,7 @@ its surface S of V / S <= t / 2: parts whose boxes share less than `DEPTH` need 
 """
 
 import hashlib
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -14,8 +15,7 @@ import numpy as np
 from manifold3d import Manifold, Mesh
 from scipy.spatial import ConvexHull
 
-from ilmek.arrays import Float
-from ilmek.part.part import Part
+from ilmek.arrays import Float, Int
 from ilmek.part.placement import Placement
 from ilmek.part.shapes import Shape, Turned
 from ilmek.part.tree import Occurrence
@@ -33,6 +33,9 @@ MANY, FINE = 40, 500
 
 DEPTH, VOLUME = 0.1 * mm, 50 * mm**3
 """Mean depth and volume in common below which parts touch: facets of a pin in those of its bore."""
+
+LARGE = 20_000
+"""Triangles above which a mesh is searched near the other part only."""
 
 _CONVEX = 1e-9
 """Share of a mesh's volume that its convex hull may have more, by rounding."""
@@ -82,6 +85,19 @@ class Collider:
         """Whether the mesh is its own convex hull."""
         return bool(self._hull.volume <= volume(self.solid) * (1 + _CONVEX))
 
+    @property
+    def large(self) -> bool:
+        """Whether it has so many triangles that a search of all takes long."""
+        return len(self.solid.triangles) > LARGE
+
+    def near(self, points: Points, gap: float) -> fcl.CollisionObject | None:
+        """Its triangles that are within a gap of the box about points [m]; None where there are none."""
+        low, high = points.min(0) - gap, points.max(0) + gap
+        corners = self.solid.points[self.solid.triangles]
+        within = ((corners.max(1) >= low) & (corners.min(1) <= high)).all(1)
+        triangles = self.solid.triangles[within]
+        return fcl.CollisionObject(_triangle_tree(self.solid.points, triangles)) if len(triangles) else None
+
     @cached_property
     def digest(self) -> bytes:
         """The same for solids of the same points and triangles."""
@@ -103,10 +119,7 @@ class Collider:
         """The solid itself twice, as `outer`."""
         if self.convex:
             return self.outer
-        model = fcl.BVHModel()
-        model.beginModel(len(self.solid.triangles), len(self.solid.points))
-        model.addSubModel(self.solid.points, self.solid.triangles)
-        model.endModel()
+        model = _triangle_tree(self.solid.points, self.solid.triangles)
         return fcl.CollisionObject(model), fcl.CollisionObject(model)
 
     def manifold(self) -> Manifold:
@@ -114,10 +127,17 @@ class Collider:
         return Manifold(Mesh(self.solid.points.astype(np.float32), self.solid.triangles.astype(np.uint32)))
 
 
+def _triangle_tree(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> fcl.BVHModel:
+    model = fcl.BVHModel()
+    model.beginModel(len(triangles), len(points))
+    model.addSubModel(points, triangles)
+    model.endModel()
+    return model
+
+
 @lru_cache(maxsize=1024)
-def collider(part: Part) -> Collider:
-    """A part that has a shape."""
-    shape = _shape(part)
+def collider(shape: Shape) -> Collider:
+    """A shape."""
     detailed = isinstance(shape, Turned) and len(shape.profile.outline.points) >= FINE
     return Collider(lambda: shape.mesh(COARSE if detailed else DEVIATION), isinstance(shape, Turned))
 
@@ -125,15 +145,11 @@ def collider(part: Part) -> Collider:
 @lru_cache(maxsize=64)
 def row(occurrence: Occurrence) -> tuple[Collider, Collider]:
     """A part that is in its body `MANY` times, in the body's axes: all of them, and the first, the middle, the last."""
-    positions, shape = occurrence.positions, _shape(occurrence.part)
+    positions, shape = occurrence.positions, occurrence.part.shape
+    assert shape is not None
     mesh = lru_cache(lambda: shape.mesh(COARSE))
     three = positions[0], positions[len(positions) // 2], positions[-1]
     return Collider(lambda: _repeated(mesh(), positions)), Collider(lambda: _repeated(mesh(), three))
-
-
-def _shape(part: Part) -> Shape:
-    assert part.shape is not None
-    return part.shape
 
 
 def _repeated(mesh: Solid, positions: Iterable[Placement]) -> Solid:
@@ -179,8 +195,15 @@ _MEASURED: dict[tuple[bytes, ...], tuple[float, float]] = {}
 """Mean depths and volumes in common by `pose_key`: looms that differ elsewhere share them."""
 
 
-def pose_key(first: Collider, other: Collider, turned: Rotation, moved: Vector) -> tuple[bytes, ...]:
-    """The same for two colliders that lie alike; a body of revolution may be turned about its axis."""
+def pose_key(
+    first: Collider, other: Collider, turned: Rotation, moved: Vector, along: Vector | None = None
+) -> tuple[bytes, ...]:
+    """The same for two colliders that lie alike; a body of revolution may be turned about its axis.
+
+    along  direction in the first one's axes in which one of them may be elsewhere; default: none
+    """
+    if along is not None:
+        moved = moved - along * (along @ moved)
     kept = turned[:, 2] if other.spun else turned
     if first.spun and not other.spun:
         moved, kept = -turned.T @ moved, turned[2]
@@ -229,6 +252,21 @@ def distances(
         its.setTransform(fcl.Transform(rotation, origin))
         apart[number] = fcl.distance(own, its, _REQUEST, fcl.DistanceResult())
     return np.maximum(apart, 0.0)
+
+
+def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vector, most: float) -> float:
+    """The distance of two colliders as of `distances` [m]; inf or more than `most` where it is above that."""
+    if not (first.large or other.large):
+        return float(distances(first, other, turned[None], moved[None])[0])
+    if first.large and other.large:
+        return math.inf
+    if other.large:
+        return gap_between(other, first, turned.T, -turned.T @ moved, most)
+    own, its = first.near(other.corners @ turned.T + moved, most), other.exact[1]
+    if own is None:
+        return math.inf
+    its.setTransform(fcl.Transform(turned, moved))
+    return max(float(fcl.distance(own, its, _REQUEST, fcl.DistanceResult())), 0.0)
 
 
 _REQUEST = fcl.DistanceRequest()

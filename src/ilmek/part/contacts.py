@@ -14,7 +14,7 @@ from scipy.sparse.csgraph import connected_components
 
 from ilmek.arrays import BoolArray, Float, Int, IntArray
 from ilmek.part.clearances import Approach
-from ilmek.part.colliders import Collider, Common, collider, distances, inside, pose_key
+from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.tree import Tree
@@ -49,13 +49,17 @@ class Contacts:
 
 @dataclass(frozen=True, eq=False)
 class _Piece:
-    """A piece of a part where it stands; rigid: names all that moves with it."""
+    """A piece of a part where it stands.
+
+    rigid  names all that moves with it        along  direction in which `MANY` of it follow each other
+    """
 
     part: str
     body: str
     position: Placement
     collider: Collider
     rigid: tuple[tuple[str, int], ...]
+    along: Float[np.ndarray, " 3"] | None = None
 
     @cached_property
     def box(self) -> Float[np.ndarray, "2 3"]:
@@ -85,15 +89,20 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
         body, rigid = Placement(here.origin[0], here.rotation[0]), _rigid(chain)
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
-                own = collider(occurrence.part)
-                for position in occurrence.positions:
-                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid)
+                own, positions = collider(occurrence.part.shape), occurrence.positions
+                along = _unit(body.rotation @ (positions[-1].origin - positions[0].origin)) if len(positions) >= MANY else None
+                for position in positions:
+                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, along)
 
 
 def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
     """The chain up to its last link that moves with any drive."""
     moving = [number for number, link in enumerate(chain) if link.body.joint.motion is not None]
     return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
+
+
+def _unit(vector: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _near(boxes: Float[np.ndarray, "pieces 2 3"], gap: float) -> Int[np.ndarray, "pairs 2"]:
@@ -118,17 +127,22 @@ def _measured(
     first, other = pairs.T
     back = rotation[first].swapaxes(1, 2)
     turned, moved = back @ rotation[other], (back @ (origin[other] - origin[first])[:, :, None])[:, :, 0]
-    once, alike = _alike(pieces, pairs, turned, moved)
-    touch, depth, volume = np.zeros(len(once), bool), np.zeros(len(once)), np.zeros(len(once))
+    touch, depth, volume = np.zeros(len(pairs), bool), np.zeros(len(pairs)), np.zeros(len(pairs))
     common = Common({})
-    for number, k in enumerate(once.tolist()):
-        own, its = pieces[pairs[k, 0]], pieces[pairs[k, 1]]
-        apart = distances(own.collider, its.collider, turned[k : k + 1], moved[k : k + 1])[0]
-        touch[number] = apart <= gap
+
+    def measure(k: int) -> tuple[bool, float, float]:
+        own, its = (pieces[number] for number in pairs[k])
         lies = own.collider, its.collider, turned[k], moved[k]
-        if own.rigid == its.rigid and (apart <= 0 or inside(*lies)):
-            depth[number], volume[number] = common.depth(*lies)
-    return touch[alike], depth[alike], volume[alike]
+        apart = gap_between(*lies, gap)
+        together = own.rigid == its.rigid and (apart <= 0 or inside(*lies))
+        return apart <= gap, *(common.depth(*lies) if together else (0.0, 0.0))
+
+    for alike, in_rows in _alike(pieces, pairs, turned, moved):
+        some = {alike[0], alike[len(alike) // 2], alike[-1]} if in_rows else {alike[0]}
+        tried = [measure(k) for k in some]
+        every = tried[:1] * len(alike) if len(set(tried)) == 1 else [measure(k) for k in alike]
+        touch[alike], depth[alike], volume[alike] = np.array(every).T
+    return touch, depth, volume
 
 
 def _alike(
@@ -136,18 +150,16 @@ def _alike(
     pairs: Int[np.ndarray, "pairs 2"],
     turned: Float[np.ndarray, "pairs 3 3"],
     moved: Float[np.ndarray, "pairs 3"],
-) -> tuple[IntArray, IntArray]:
-    """The first of each kind of pairs that lie alike, and of each pair the number of its kind."""
-    keys: dict[object, int] = {}
-    once, alike = [], []
+) -> Iterator[tuple[list[int], bool]]:
+    """Pairs that lie alike, and whether they are of rows of many and lie alike but for their places along these."""
+    kinds: dict[tuple[bool, bool, tuple[bytes, ...]], list[int]] = {}
     for k, (first, other) in enumerate(pairs.tolist()):
         own, its = pieces[first], pieces[other]
-        key = own.rigid == its.rigid, pose_key(own.collider, its.collider, turned[k], moved[k])
-        if key not in keys:
-            keys[key] = len(once)
-            once.append(k)
-        alike.append(keys[key])
-    return np.array(once, dtype=int), np.array(alike, dtype=int)
+        row = own.along if own.along is not None else its.along
+        along = None if row is None else own.position.rotation.T @ row
+        key = own.rigid == its.rigid, row is None, pose_key(own.collider, its.collider, turned[k], moved[k], along)
+        kinds.setdefault(key, []).append(k)
+    return ((alike, not key[1]) for key, alike in kinds.items())
 
 
 def _groups(pieces: Sequence[_Piece], links: Int[np.ndarray, "links 2"]) -> tuple[TouchingParts, ...]:

@@ -124,6 +124,23 @@ def _rotations(axis: Sequence[float], angle: FloatArray) -> Float[np.ndarray, "n
     return np.asarray(np.eye(3) + np.sin(turned) * across + (1 - np.cos(turned)) * (across @ across))
 
 
+@record
+class Extent:
+    """Points of a body [m]; of a body of revolution also where its axis lies, along which z points.
+
+    A body of revolution stays where it is when it turns about its own axis: its reach is then that of its axis.
+    """
+
+    points: Points
+    axis: Placement | None = None
+
+    def across(self, axis: FloatArray) -> float:
+        """Largest distance from an axis through the origin [m]."""
+        if self.axis is not None and np.abs(np.cross(self.axis.rotation[:, 2], axis)).max() < _PARALLEL:
+            return float(np.linalg.norm(np.cross(self.axis.origin, axis)))
+        return float(np.linalg.norm(np.cross(self.points, axis), axis=1).max())
+
+
 @dataclass(frozen=True, eq=False)
 class ChainTravel:
     """How far points of the last body of a chain move over the turn of a drive.
@@ -179,12 +196,12 @@ class ChainTravel:
                 pivot = own
         return whole
 
-    def reaches(self, points: Sequence[Points]) -> Float[np.ndarray, "n links"]:
-        """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each set."""
+    def reaches(self, extents: Sequence[Extent]) -> Float[np.ndarray, "n links"]:
+        """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each extent."""
         # From the last link to the first: the points' distance from the axis, their distance from the origin, the axis.
         axis = _unit(self.chain[-1].body.joint.axis)
-        across = np.array([np.linalg.norm(np.cross(own, axis), axis=1).max() for own in points])
-        farthest = np.array([np.linalg.norm(own, axis=1).max() for own in points])
+        across = np.array([extent.across(axis) for extent in extents])
+        farthest = np.array([np.linalg.norm(extent.points, axis=1).max() for extent in extents])
         reaches = [across]
         for link, beyond in zip(self.chain[-2::-1], self.chain[::-1], strict=False):
             own, offset = _unit(link.body.joint.axis), beyond.position.origin
