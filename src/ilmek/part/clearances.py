@@ -299,12 +299,12 @@ class _Pair:
             return None
         if all(own.convex for own in self.colliders):
             return _Where(hulls.angle, hulls.least)
-        if hulls.least >= self.enough and hulls.least > 0 and any(own.large for own in self.colliders):
+        proven = hulls.least >= self.enough and hulls.least > 0
+        if proven and any(own.large for own in self.colliders):
             return _Where(hulls.angle, hulls.least)
-        if hulls.least >= self.enough and hulls.least > 0:
-            distance = yield _Asked(exact=True, angles=np.array([hulls.angle]))
-            where = _Where(hulls.angle, float(distance[0]))
-        else:
+        distance = yield _Asked(exact=True, angles=np.array([hulls.angle]))
+        where = _Where(hulls.angle, float(distance[0]))
+        if not proven and where.distance > 0:
             left = hulls.bound < self.enough
             left = left if left.any() else hulls.bound <= hulls.bound.min()
             meshes = yield from self._halved(hulls.ends[left], hulls.bound[left], exact=True)
