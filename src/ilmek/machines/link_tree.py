@@ -17,12 +17,12 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.linkage.model import GROUND, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
-from ilmek.part.link_motion import carriers, link_motions, resting
+from ilmek.part.link_motion import carriers, closures, link_motions, resting
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, bar
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
@@ -197,7 +197,14 @@ def linkage_tree(
     """
     fixed = (*_fixed(parts, motion.plan.mechanism, GROUND), *others.get(GROUND, ()))
     ground = RigidBody(body_id(parts.machine, GROUND), fixed, joint=Joint(JointKind.MISSING))
-    return Tree((ground, *linkage_bodies(parts, motion, others, angle)))
+    bodies = linkage_bodies(parts, motion, others, angle)
+    return Tree((ground, *bodies), linkage_closures(parts.machine, motion.plan.mechanism))
+
+
+def linkage_closures(machine: str, mechanism: Mechanism, suffix: str = "") -> tuple[Closure, ...]:
+    """The joints that close the loops of the bodies of `linkage_bodies`."""
+    ids = {body: body_id(machine, body) + suffix for body in mechanism.moving}
+    return closures(mechanism, {GROUND: body_id(machine, GROUND), **ids})
 
 
 def linkage_bodies(

@@ -1,7 +1,9 @@
 """Convex bodies that contain a shape, for distances: of polygons, of prisms over them, of turned profiles."""
 
+import cmath
 import itertools
 import math
+from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -44,23 +46,50 @@ def circumscribed(contour: Contour, deviation: float) -> ComplexArray:
     return np.array(corners)
 
 
-def convex_pieces(corners: Complex[np.ndarray, " corners"]) -> tuple[ComplexArray, ...]:
-    """Convex polygons that together are a counter-clockwise polygon [m].
+def convex_pieces(
+    outline: Complex[np.ndarray, " corners"], holes: Sequence[ComplexArray] = ()
+) -> tuple[ComplexArray, ...]:
+    """Convex polygons that together are a polygon, counter-clockwise, with holes, clockwise [m].
 
-    Its triangles, two joined along a common edge as long as the whole stays convex.
-    [Hertel and Mehlhorn 1983: at most four times as many as the fewest]
+    Its triangles, two joined across a common edge where the whole stays convex at both ends of the edge.
+    [Hertel and Mehlhorn 1983: without holes at most four times as many as the fewest]
 
     >>> ell = np.array([0, 2, 2 + 1j, 1 + 1j, 1 + 2j, 2j])
     >>> len(convex_pieces(ell)), len(convex_pieces(ell[:3]))
     (2, 1)
     """
-    if len(corners) == 3 or _is_convex(corners):
-        return (corners,)
-    faces: list[list[int]] = triangles(corners).tolist()
-    while (pair := _joinable(corners, faces)) is not None:
-        first, other, whole = pair
-        faces = [face for k, face in enumerate(faces) if k not in {first, other}] + [whole]
-    return tuple(corners[face] for face in faces)
+    if not holes and (len(outline) == 3 or _is_convex(outline)):
+        return (outline,)
+    corners = np.concatenate([outline, *holes]).tolist()
+    faces: dict[int, list[int]] = dict(enumerate(triangles(outline, holes).tolist()))
+    beside = {edge: number for number, face in faces.items() for edge in _edges(face)}
+    for begin, end in [edge for edge in beside if edge[0] < edge[1] and edge[::-1] in beside]:
+        first, other = beside[begin, end], beside[end, begin]
+        if first == other:
+            continue
+        face, rest = _turned(faces[first], end), _turned(faces[other], begin)  # from `end` round to `begin`, and back
+        if _turns_left(corners, face[-2:], rest[1]) and _turns_left(corners, rest[-2:], face[1]):
+            faces[first] = [*face, *rest[1:-1]]
+            del faces[other]
+            beside |= dict.fromkeys(_edges(faces[first]), first)
+    return tuple(np.array([corners[corner] for corner in face]) for face in faces.values())
+
+
+def _edges(face: list[int]) -> Iterator[tuple[int, int]]:
+    return zip(face[-1:] + face[:-1], face, strict=True)
+
+
+def _turned(face: list[int], first: int) -> list[int]:
+    """The corners of a face from one of them on."""
+    begin = face.index(first)
+    return face[begin:] + face[:begin]
+
+
+def _turns_left(corners: list[complex], edge: list[int], beyond: int) -> bool:
+    """Whether the way along an edge and on to a corner turns left, or goes straight on."""
+    before, middle = (corners[corner] for corner in edge)
+    turn = cmath.phase((corners[beyond] - middle) / (middle - before))
+    return -_IN_LINE < turn < math.pi - _IN_LINE
 
 
 def _is_convex(corners: ComplexArray) -> bool:
@@ -72,20 +101,6 @@ def _is_convex(corners: ComplexArray) -> bool:
 
 _IN_LINE = 1e-9
 """Turn to the right that counts as rounding [rad]."""
-
-
-def _joinable(corners: ComplexArray, faces: list[list[int]]) -> tuple[int, int, list[int]] | None:
-    """Numbers of two faces that are convex together, and the face that they make; None: there are none."""
-    beside = {(face[j - 1], face[j]): (k, j) for k, face in enumerate(faces) for j in range(len(face))}
-    for (begin, end), (k, j) in beside.items():
-        if (end, begin) in beside:
-            other, i = beside[end, begin]
-            face = [*faces[k][j:], *faces[k][:j]]  # from `end` round to `begin`
-            rest = [*faces[other][i:], *faces[other][:i]]  # from `begin` round to `end`
-            whole = [*face, *rest[1:-1]]
-            if _is_convex(corners[whole]):
-                return k, other, whole
-    return None
 
 
 def prism_corners(section: ComplexArray, length: float) -> Points:

@@ -14,6 +14,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.motion import Motion
 from ilmek.part.placement import Placement, placement
+from ilmek.part.tree import Closure, JointKind
 from ilmek.report.scene import SceneMotion
 
 _ROUNDING = 1e-9
@@ -40,6 +41,26 @@ def carriers(mechanism: Mechanism) -> dict[str, tuple[str, int]]:
         carried |= reached
         level = set(reached)
     return carried
+
+
+def closures(mechanism: Mechanism, ids: Mapping[str, str]) -> tuple[Closure, ...]:
+    """The pins that close the loops of a mechanism, and its couplings, between bodies of a tree by their ids."""
+    carrying = {number for _, number in carriers(mechanism).values()}
+    pins = (
+        Closure(
+            JointKind.PIN,
+            (ids[joint.bodies[0]], ids[joint.bodies[1]]),
+            placement(point.real, point.imag),
+        )
+        for number, joint in enumerate(mechanism.joints)
+        if number not in carrying
+        for point in [mechanism.body(joint.bodies[0]).points[joint.name]]
+    )
+    coupled = (
+        Closure(JointKind.ROLLING, (ids[one.first[0]], ids[one.second[0]]), ratio=one.ratio)
+        for one in mechanism.couplings
+    )
+    return (*pins, *coupled)
 
 
 def resting(motion: Motion, body: str, parent: str) -> Placement:

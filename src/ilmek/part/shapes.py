@@ -58,7 +58,7 @@ class Shape(Protocol):
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """Corners of convex bodies that together contain the shape, and exceed it by `deviation` [m] at most beside the
-        holes and the hollows, which they fill.
+        bores of turned shapes, which they fill. Of a smooth outline they lie within the deviation on both sides.
         """
 
 
@@ -95,9 +95,12 @@ class Prism:
         return extruded([_fewer(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
-        """Prisms over convex pieces of the outline, without its holes."""
-        corners = circumscribed(counter_clockwise(self.section.outline), deviation)
-        return tuple(prism_corners(piece, self.length) for piece in convex_pieces(corners))
+        """Prisms over convex pieces of the section."""
+        outline, *holes = self.section.contours
+        around = circumscribed(outline, deviation)
+        around = _fewer(around, deviation) if self.section.smooth else around
+        pieces = convex_pieces(around, [along(hole, deviation) for hole in holes])
+        return tuple(prism_corners(piece, self.length) for piece in pieces)
 
 
 @record

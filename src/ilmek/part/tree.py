@@ -85,13 +85,31 @@ class RigidBody:
 
 
 @record
-class Tree:
-    """The bodies of a machine, each after its parent.
+class Closure:
+    """A joint that closes a loop: it holds two bodies together, and carries neither.
 
-    Raises ParameterError for an id that is there twice, and for a parent that does not come before its body.
+    kind    pin; fixed; or rolling: the second body turns against its parent `ratio` times as far as the first
+    bodies  ids: those there as often as one another are held one to one, one is held to all of many, and of a body with
+            itself the first to all others
+    position  of the joint's frame in the first body's
+    """
+
+    kind: JointKind
+    bodies: tuple[str, str]
+    position: Placement = IDENTITY
+    ratio: float = 1.0
+
+
+@record
+class Tree:
+    """The bodies of a machine, each after its parent, and the joints that close their loops.
+
+    Raises ParameterError for an id that is there twice, for a parent that does not come before its body, and for a
+    closure of unknown bodies.
     """
 
     bodies: tuple[RigidBody, ...] = ()
+    closures: tuple[Closure, ...] = ()
 
     def __post_init__(self) -> None:
         ids: set[str] = {GROUND}
@@ -101,6 +119,9 @@ class Tree:
             if body.parent not in ids:
                 raise ParameterError(f"body {body.id!r} on {body.parent!r}", allowed="a body before it, or the ground")
             ids.add(body.id)
+        for name in (name for closure in self.closures for name in closure.bodies):
+            if name not in ids - {GROUND}:
+                raise ParameterError(f"a loop closed at {name!r}", allowed="bodies of the tree")
         parts: dict[str, Part] = {}
         for body in self.bodies:
             for occurrence in body.occurrences:
@@ -141,7 +162,8 @@ class Tree:
             tuple(
                 replace(body, joint=replace(body.joint, motion=motions[body.id])) if body.id in motions else body
                 for body in self.bodies
-            )
+            ),
+            self.closures,
         )
 
     def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
@@ -152,7 +174,7 @@ class Tree:
             else body
             for body in tree.bodies
         )
-        return Tree((*self.bodies, *carried))
+        return Tree((*self.bodies, *carried), (*self.closures, *tree.closures))
 
 
 def mated(own: Seat, other: Seat) -> Placement:

@@ -13,6 +13,7 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.linkage.model import GROUND
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up.beam import BeatBeam
 from ilmek.machines.beat_up.beater import Beater
@@ -41,10 +42,10 @@ from ilmek.machines.beat_up.parts import link_parts, pin_part
 from ilmek.machines.beat_up.travel import slide_length, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.link_tree import GAP, JOURNAL
-from ilmek.part.link_motion import carriers
+from ilmek.part.link_motion import carriers, closures
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
 
 CARRIAGE = "beat-up/carriage"
@@ -83,7 +84,7 @@ def travelling(
     block = _in_loom(design, Occurrence(slide_block()), on_block, plate_begin(design) - BLOCK_LENGTH)
     parts = (*on_slide(design, high, start_parts(use.start)), block)
     carriage = RigidBody(CARRIAGE, parts, rail.id, Joint(JointKind.SLIDE, _Z), (placement(z=start - shift),))
-    bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=across.beater)))
+    bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=across.beater)), loops(design))
     return bodies.moving(motions or {})
 
 
@@ -150,6 +151,11 @@ def crank_rockers(
             *struck,
         ),
     )
+
+
+def loops(design: BeatUp) -> tuple[Closure, ...]:
+    """The joints that close the loops of `crank_rockers`."""
+    return closures(design.plan.mechanism, {**PART_IDS, GROUND: CARRIAGE})
 
 
 def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:

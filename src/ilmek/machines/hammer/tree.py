@@ -15,8 +15,8 @@ from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.carriage import beam_corner
-from ilmek.machines.beat_up.links import layer
-from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, on_rocker, rocker_position
+from ilmek.machines.beat_up.links import PART_IDS, layer
+from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, loops, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import bracket
@@ -28,7 +28,7 @@ from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
@@ -140,7 +140,12 @@ def _on_crank_rockers(hammer: Hammer) -> Tree:
             crank_frame(one, linkage.beam, linkage.start, stations),
             *crank_rockers(one, CARRIAGE, stations),
             comb,
-        )
+        ),
+        (
+            *loops(one),
+            Closure(JointKind.FIXED, (COMB, PART_IDS["rocker"])),
+            *([Closure(JointKind.ROLLING, (PART_IDS["crank"],) * 2)] if len(stations) > 1 else []),
+        ),
     )
 
 

@@ -175,12 +175,10 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
     )
 
 
-def sprung_bar(
-    parts: CompensatorParts, name: str, motion: SceneMotion | None, position: Placement = IDENTITY
-) -> RigidBody:
-    """What turns about the levers' pivots: a bar with its levers, saddles and rollers.
+def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -> RigidBody:
+    """What turns about the levers' pivots on what stands: a bar with its levers, saddles and rollers.
 
-    position  of the parity's axes in those of the compensator      motion  of the lever; None: it stands at rest
+    motion  of the lever; None: it stands at rest
     """
     at, thick = parts.supports, parts.supports.params.lever_thickness
     saddle = at.saddle(at.bar, -at.bar)
@@ -197,7 +195,7 @@ def sprung_bar(
             Occurrence(parts.eye, _places([at.reach], _spring_stations(at), turned=-at.along)),
         ),
         joint=Joint(JointKind.PIN, motion=motion),
-        positions=(position.after(_along(at.sprung.lever.pivot)),),
+        positions=(_along(at.sprung.lever.pivot),),
     )
 
 

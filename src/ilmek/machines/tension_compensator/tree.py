@@ -1,6 +1,7 @@
 """The compensator as a tree of bodies: the parts of each parity, the odd one turned half round about the warps."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -23,8 +24,8 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
     turned = {EVEN: half, ODD: placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(half)}
     bodies: list[RigidBody] = []
     for parity in (EVEN, ODD)[: design.bars]:
-        bodies.append(standing(parts, parity, turned[parity]))
-        bodies.append(sprung_bar(parts, parity, (motions or {}).get(parity), turned[parity]))
+        stand = standing(parts, parity, turned[parity])
+        bodies += (stand, replace(sprung_bar(parts, parity, (motions or {}).get(parity)), parent=stand.id))
     return Tree(tuple(bodies))
 
 

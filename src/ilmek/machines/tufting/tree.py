@@ -15,7 +15,7 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.elements.reducers import DIRECT
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
-from ilmek.machines.link_tree import TURN, body_id, linkage_bodies
+from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.links import NAME, WALL, driven_shaft, mechanism_depth, needle_parts, shaft_part
 from ilmek.machines.tufting.model import move
@@ -26,7 +26,7 @@ from ilmek.part.part import Part, Seat
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, turn
@@ -57,14 +57,17 @@ def tree(design: Tufting) -> Tree:
     main = shaft_part("main-shaft", "main shaft", sizes.main, params.bars * pitch + 2 * sizes.main)
     turned = Joint(JointKind.PIN, motion=_turning())
     start = placement(z=low - thick - sizes.main)
+    loops: list[Closure] = []
     bodies = [frame, RigidBody(f"{NAME}/main-shaft", (Occurrence(main, (start,)),), frame.id, turned)]
     parts, shaft = needle_parts(params, sizes), driven_shaft(params, sizes)
     for station in stations:
         suffix = "" if params.bars == 1 else f" {station + 1}"
         moved = _motion(design, station)
         own = linkage_bodies(parts, moved, {"rocker": (shaft,)}, z=station * pitch, suffix=suffix)
-        bodies += (_keyed(body) if body.id.startswith(body_id(NAME, "arm")) else body for body in own)
-    return Tree(tuple(bodies))
+        keyed = {body_id(NAME, "arm") + suffix: None, body_id(NAME, "crank") + suffix: bodies[1]}
+        bodies += (_keyed(body, keyed[body.id]) if body.id in keyed else body for body in own)
+        loops += linkage_closures(NAME, moved.plan.mechanism, suffix)
+    return Tree(tuple(bodies), tuple(loops))
 
 
 def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
@@ -72,9 +75,14 @@ def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
     return Occurrence(part, tuple(plate.after(placement(x)) for plate in plates))
 
 
-def _keyed(arm: RigidBody) -> RigidBody:
-    """The arm, which is keyed on the driven shaft as the rocker is."""
-    return replace(arm, joint=replace(arm.joint, kind=JointKind.FIXED, motion=None))
+def _keyed(body: RigidBody, shaft: RigidBody | None) -> RigidBody:
+    """A crank, keyed on its shaft; or the arm, which is keyed on the driven shaft as the rocker is, its parent."""
+    joint = replace(body.joint, kind=JointKind.FIXED, motion=None)
+    if shaft is None:
+        return replace(body, joint=joint)
+    (on_shaft,) = shaft.positions
+    positions = tuple(on_shaft.inverse.after(position) for position in body.positions)
+    return replace(body, joint=joint, parent=shaft.id, positions=positions)
 
 
 def _turning() -> SceneMotion:

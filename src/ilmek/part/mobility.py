@@ -1,0 +1,227 @@
+"""The coordinates by which the bodies of a tree move, those that its closures leave free, and those that drive it.
+
+A pin turns about a point p of its body, a slide shifts along a direction d. What a body's motion shows decides:
+
+    shift(q) = p - R(rotation(q)) p:    one turn about p            else:   slides, then a turn about the origin
+
+Velocities of what two bodies share in a closure are equal: J(q) dq = 0. The degrees of freedom are the coordinates less
+the rank of J at a generic pose; of the coordinates in loops the first, in the order of the tree, drive the others.
+                                                                          [Angeles, Spatial Kinematic Chains, 4]
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ilmek.arrays import Float, FloatArray
+from ilmek.errors import ParameterError
+from ilmek.part.placement import Placement
+from ilmek.part.poses import Chain, chains, poses
+from ilmek.part.tree import Axis, Closure, Joint, JointKind, RigidBody, Tree
+from ilmek.records import record
+from ilmek.report.scene import SceneMotion
+
+_ROUNDING = 1e-9
+"""Shift [m], or share of a column of the Jacobian, that counts as rounding."""
+
+_PIVOT = 1e-6
+"""How far a body may be from turning about a point [m]."""
+
+_GENERIC = (0.7, 2.1, 3.9)
+"""Angles of the drives at which the rank is taken, the largest of them [rad]."""
+
+_UNITS = np.eye(3)
+
+
+@record
+class Coordinate:
+    """One way in which a body moves in its parent: it turns about an axis [rad], or shifts along it [m].
+
+    turns   whether it turns       axis  unit vector in the body's frame       point  on the axis of a turn [m]
+    motion  that it has part in; None: nothing moves it     value  of the coordinate at the samples of the motion
+    """
+
+    turns: bool
+    axis: Axis
+    point: Axis = (0.0, 0.0, 0.0)
+    motion: SceneMotion | None = None
+    value: FloatArray | None = None
+
+    def at(self, drive: str, angle: float) -> float:
+        """Its value at an angle of a drive [rad], all other drives at 0."""
+        if self.motion is None or self.value is None:
+            return 0.0
+        return float(np.interp(angle if self.motion.drive == drive else 0.0, self.motion.angle, self.value))
+
+
+def coordinates(body: RigidBody) -> tuple[Coordinate, ...]:
+    """The coordinates of a body in its parent, slides first; by its joint where no motion moves it."""
+    motion = body.joint.motion
+    if motion is None or not (motion.rotation.any() or np.abs(motion.shift).max() > _ROUNDING):
+        return tuple(_at_rest(body.joint))
+    turn = tuple(_turn(body.joint, motion))
+    if turn and turn[0].point != (0.0, 0.0, 0.0):
+        return turn
+    return (*_slides(motion), *turn)
+
+
+def _at_rest(joint: Joint) -> Iterator[Coordinate]:
+    axis = _unit(np.array(joint.axis))
+    if joint.kind in {JointKind.SLIDE, JointKind.SCREW}:
+        yield Coordinate(False, axis)
+    if joint.kind in {JointKind.PIN, JointKind.SCREW}:
+        yield Coordinate(True, axis)
+
+
+def _turn(joint: Joint, motion: SceneMotion) -> Iterator[Coordinate]:
+    """The turn of a motion, about the point that it leaves where it is, if there is one."""
+    if not motion.rotation.any():
+        return
+    axis = _unit(np.array(joint.axis))
+    point = _pivot(np.array(axis), motion)
+    yield Coordinate(True, axis, (0.0, 0.0, 0.0) if point is None else _triple(point), motion, motion.rotation)
+
+
+def _pivot(axis: FloatArray, motion: SceneMotion) -> Float[np.ndarray, " 3"] | None:
+    """The point of a body, nearest to its origin, that a motion does not move; None where it moves all."""
+    across = np.array([np.cross(axis, unit) for unit in _UNITS]).T
+    sine, cosine = np.sin(motion.rotation)[:, None, None], np.cos(motion.rotation)[:, None, None]
+    left = -sine * across - (1 - cosine) * (across @ across)
+    point = np.linalg.lstsq(left.reshape(-1, 3), motion.shift.reshape(-1), rcond=1e-9)[0]
+    point = np.where(np.abs(point) > _ROUNDING, point, 0.0)
+    return point if np.abs(left @ point - motion.shift).max() <= _PIVOT and point.any() else None
+
+
+def _slides(motion: SceneMotion) -> Iterator[Coordinate]:
+    """Slides along the line of a motion, else along the axes that it goes along."""
+    _, sizes, lines = np.linalg.svd(motion.shift, full_matrices=False)
+    number = int(np.sum(sizes > _ROUNDING * max(float(sizes[0]), 1.0)))
+    if number == 1:
+        line = lines[0] * np.sign(lines[0][np.argmax(np.abs(lines[0]))])
+        yield Coordinate(False, _unit(line), motion=motion, value=motion.shift @ line)
+    elif number > 1:
+        for axis, unit in enumerate(_UNITS):
+            if np.abs(motion.shift[:, axis]).max() > _ROUNDING:
+                yield Coordinate(False, _unit(unit), motion=motion, value=motion.shift[:, axis])
+
+
+def _unit(vector: FloatArray) -> Axis:
+    return _triple(vector / np.linalg.norm(vector))
+
+
+def _triple(vector: FloatArray) -> Axis:
+    x, y, z = vector.tolist()
+    return x, y, z
+
+
+@dataclass(frozen=True)
+class Mobility:
+    """The coordinates of a tree, one for each place of its body, with the chain of the body."""
+
+    tree: Tree
+
+    @cached_property
+    def coordinates(self) -> tuple[tuple[Chain, Coordinate], ...]:
+        """All coordinates, in the order of the bodies."""
+        own = {body.id: coordinates(body) for body in self.tree.bodies}
+        return tuple((chain, one) for chain in chains(self.tree) for one in own[chain[-1].name])
+
+    @cached_property
+    def _columns(self) -> Mapping[Chain, tuple[int, ...]]:
+        columns: dict[Chain, list[int]] = {}
+        for number, (chain, _) in enumerate(self.coordinates):
+            columns.setdefault(chain, []).append(number)
+        return {chain: tuple(numbers) for chain, numbers in columns.items()}
+
+    @cached_property
+    def closed(self) -> tuple[tuple[Closure, Chain, Chain], ...]:
+        """The closures, one for each two places of bodies that it holds together."""
+        places: dict[str, list[Chain]] = {body.id: [] for body in self.tree.bodies}
+        for chain in chains(self.tree):
+            places[chain[-1].name].append(chain)
+        return tuple(
+            (closure, *pair) for closure in self.tree.closures for pair in _pairs(*(places[of] for of in closure.bodies))
+        )
+
+    @cached_property
+    def driven(self) -> tuple[int, ...]:
+        """Numbers of the coordinates that the closures leave free: the others follow."""
+        following: list[int] = []
+        for jacobian in self._jacobians():
+            moved = [column for column in reversed(range(jacobian.shape[1])) if np.abs(jacobian[:, column]).max() > 0]
+            dependent: list[int] = []
+            for column in moved:
+                if np.linalg.matrix_rank(jacobian[:, [*dependent, column]], tol=_ROUNDING * 1e2) > len(dependent):
+                    dependent.append(column)
+            following = max(following, dependent, key=len)
+        return tuple(number for number in range(len(self.coordinates)) if number not in following)
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number of coordinates less the rank of the closures."""
+        return len(self.driven)
+
+    def _jacobians(self) -> Iterator[Float[np.ndarray, "rows coordinates"]]:
+        """What the closures require of the velocities, at generic poses."""
+        if not self.closed:
+            return
+        drives = {one.motion.drive for _, one in self.coordinates if one.motion is not None} or {""}
+        for drive in sorted(drives):
+            for angle in _GENERIC:
+                at = _Pose(self, drive, angle)
+                yield np.concatenate([at.rows(*closed) for closed in self.closed])
+
+
+def _pairs(first: list[Chain], second: list[Chain]) -> Iterator[tuple[Chain, Chain]]:
+    if first == second:
+        return ((first[0], other) for other in first[1:])
+    most = max(len(first), len(second))
+    if {len(first), len(second)} - {1, most}:
+        raise ParameterError(f"{len(first)} bodies closed with {len(second)}", allowed="as many, or one with many")
+    return zip(first * (most // len(first)), second * (most // len(second)), strict=True)
+
+
+@dataclass(frozen=True)
+class _Pose:
+    """The tree at an angle of a drive [rad]."""
+
+    mobility: Mobility
+    drive: str
+    angle: float
+
+    def place(self, chain: Chain) -> Placement:
+        here = poses(chain, self.drive, np.array([self.angle]))
+        return Placement(here.origin[0], here.rotation[0])
+
+    def rows(self, closure: Closure, first: Chain, second: Chain) -> Float[np.ndarray, "rows coordinates"]:
+        """Velocities of the second body less those of the first, over those of the coordinates."""
+        if closure.kind == JointKind.ROLLING:
+            row = np.zeros((1, len(self.mobility.coordinates)))
+            row[0, self._turning(second)], row[0, self._turning(first)] = 1.0, -closure.ratio
+            return row
+        point = self.place(first).points(closure.position.origin)
+        moved = self._velocities(second, point) - self._velocities(first, point)
+        return moved if closure.kind == JointKind.FIXED else moved[:3]
+
+    def _turning(self, chain: Chain) -> int:
+        all_of_them = self.mobility.coordinates
+        (number,) = (number for number in self.mobility._columns[chain] if all_of_them[number][1].turns)
+        return number
+
+    def _velocities(self, chain: Chain, point: FloatArray) -> Float[np.ndarray, "6 coordinates"]:
+        """Velocity of a body at a point, and its angular velocity, for a unit velocity of each coordinate."""
+        velocities = np.zeros((6, len(self.mobility.coordinates)))
+        for length in range(1, len(chain) + 1):
+            part = chain[:length]
+            before = self.place(part[:-1]).rotation @ part[-1].position.rotation if length > 1 else part[-1].position.rotation
+            for number in self.mobility._columns.get(part, ()):
+                one = self.mobility.coordinates[number][1]
+                axis = before @ np.array(one.axis)
+                if one.turns:
+                    arm = point - self.place(part).points(np.array(one.point))
+                    velocities[:3, number], velocities[3:, number] = np.cross(axis, arm), axis
+                else:
+                    velocities[:3, number] = axis
+        return velocities
