@@ -151,8 +151,13 @@ def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 
     return np.array([np.where(chosen, high, low) for chosen in np.ndindex(2, 2, 2)])
 
 
-def approaches(
-    tree: Tree, drive: str, horizon: float, windows: tuple[Window, ...] = TURN, required: Required = _nothing_in_common
+def approaches(  # noqa: PLR0917
+    tree: Tree,
+    drive: str,
+    horizon: float,
+    windows: tuple[Window, ...] = TURN,
+    required: Required = _nothing_in_common,
+    some: frozenset[str] = frozenset(),
 ) -> tuple[Approach, ...]:
     """The least distance of every two parts that move against each other with a drive, and come nearer than the horizon
     [m]; the nearest first. Parts without a shape are left out.
@@ -160,6 +165,7 @@ def approaches(
     windows   angles of the turn that are looked at [rad]
     required  distance of two bodies, by their ids, above which there is no need of the exact one [m]; None: may do as
               they like. Default: 0
+    some      ids of bodies that are compared with all others, and nothing else is; default: all with each other
     """
     angles, ends = drive_angles(tree, drive), _intervals(windows)
     carried = [
@@ -167,7 +173,8 @@ def approaches(
         for chain in chains(tree)
         if (pieces := tuple(_pieces(chain)))
     ]
-    pairs = [pair for first, other in combinations(carried, 2) for pair in _near(first, other, horizon, required)]
+    both = (pair for pair in combinations(carried, 2) if not some or sum(one.body in some for one in pair) == 1)
+    pairs = [pair for first, other in both for pair in _near(first, other, horizon, required)]
     common = Common({})
     nearest = (_approach(pair, where, common) for pair, where in zip(pairs, _searched(pairs), strict=True) if where)
     return tuple(sorted(nearest, key=lambda pair: pair.distance))

@@ -11,6 +11,7 @@ from dataclasses import replace
 from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
 from ilmek.machines.arrangement.side_view import SideView
+from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
@@ -61,7 +62,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList, LoomAssembly),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),
@@ -72,6 +73,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     pieces=lambda loom: pieces_of(own_tree(loom)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
+    assembly=assembly,
     verdict=LoomVerdict,
     headline=("weaves", "row_pitch_left"),
 )

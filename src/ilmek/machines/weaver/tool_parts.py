@@ -206,7 +206,6 @@ class ToolBodies:
             part_id("pile handler and knife"),
             (Occurrence(arm, (pivot,)), Occurrence(knife, (below,))),
             parent,
-            Joint(JointKind.MISSING),
         )
 
 

@@ -64,6 +64,7 @@ def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
 
 
+@lru_cache(maxsize=4)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
     whole = Tree()
