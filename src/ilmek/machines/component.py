@@ -26,7 +26,7 @@ from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, WorkPiece, results_of
+from ilmek.report import BUILDABLE, BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, WorkPiece, results_of
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -174,7 +174,7 @@ class Component(Generic[P, D, A]):
             parts=self.parts(design),
             children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
             choices=self.choices(design),
-            headline=self.headline,
+            headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
         made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
         return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made

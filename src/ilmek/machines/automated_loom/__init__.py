@@ -33,6 +33,7 @@ from ilmek.machines.automated_loom.selection import design
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.part.plates import pieces_of
+from ilmek.report import BUILDABLE
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -75,5 +76,5 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
     assembly=assembly,
     verdict=LoomVerdict,
-    headline=("weaves", "row_pitch_left"),
+    headline=("weaves", BUILDABLE, "row_pitch_left"),
 )

@@ -56,9 +56,14 @@ class LoomAssembly:
     )
     driven_axes = computed("1", "axes that a motor drives", lambda it: parts_of_loom(it.loom).axes)
 
-    @computed("", "the nearest pairs of parts that move against each other", shown=False)
+    @computed("", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False)
     def nearest_pairs(self) -> list[Json]:
-        return [_as_json(near) for near in self.nearest[:NEAREST]]
+        return [_as_json(near) for near in self.apart[:NEAREST]]
+
+    @property
+    def apart(self) -> tuple[NearParts, ...]:
+        """What is through each other, then what moves against each other and does not touch, the nearest first."""
+        return (*self.through, *(near for near in self.nearest if near.approach.distance > 0))
 
     @property
     def holds(self) -> bool:
@@ -82,11 +87,11 @@ class LoomAssembly:
 
     @property
     def tables(self) -> tuple[Table, ...]:
-        """The nearest pairs of parts; below 0 they are through each other, by the mean depth of what they share."""
-        titles, apart = _titles(self.loom), (near for near in self.nearest if near.approach.distance >= 0)
+        """The pairs that come nearest; below 0 they are through each other, by the mean depth of what they share."""
+        titles = _titles(self.loom)
         rows = tuple(
             (titles[pair.parts[0]], titles[pair.parts[1]], pair.distance, pair.drive, pair.angle, near.heads)
-            for near in (*self.through, *apart)[: 3 * NEAREST]
+            for near in self.apart[: 3 * NEAREST]
             for pair in [near.approach]
         )
         heads = columns("part", "and", "least [mm]", "cyclogram", "at [deg]", "heads")
