@@ -97,7 +97,7 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
 
 def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
     """The chain up to its last link that moves with any drive."""
-    moving = [number for number, link in enumerate(chain) if link.body.joint.motion is not None]
+    moving = [number for number, link in enumerate(chain) if link.moves]
     return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
 
 

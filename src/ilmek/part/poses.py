@@ -44,6 +44,12 @@ class ChainLink:
         """Its position in the body before it."""
         return self.body.positions[self.index]
 
+    @property
+    def moves(self) -> bool:
+        """Whether it moves with any drive."""
+        motion = self.body.joint.motion
+        return motion is not None and bool(np.ptp(motion.shift, axis=0).any() or np.ptp(motion.rotation))
+
     def turns(self, drive: str) -> bool:
         """Whether it turns with a drive."""
         motion = self.body.joint.motion
