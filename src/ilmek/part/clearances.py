@@ -14,7 +14,7 @@ Of a part that is in its body `MANY` times the first, the middle and the last st
 
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import combinations, pairwise
 from typing import TypeAlias
 
@@ -23,9 +23,9 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, IntArray
 from ilmek.part.colliders import MANY, Collider, Common, collider, distances, inside, pose_key, row
 from ilmek.part.placement import IDENTITY, Placement
-from ilmek.part.poses import Chain, ChainTravel, Extent, chains, drive_angles, poses
+from ilmek.part.poses import Chain, ChainLink, ChainTravel, Extent, chains, drive_angles, poses
 from ilmek.part.shapes import Shape, Sum
-from ilmek.part.tree import Tree
+from ilmek.part.tree import RigidBody, Tree
 from ilmek.records import record
 from ilmek.units import mm, turn
 
@@ -167,17 +167,23 @@ def approaches(  # noqa: PLR0917
               they like. Default: 0
     some      ids of bodies that are compared with all others, and nothing else is; default: all with each other
     """
-    angles, ends = drive_angles(tree, drive), _intervals(windows)
-    carried = [
-        _Carried(pieces, ChainTravel(chain, drive, angles), ends)
-        for chain in chains(tree)
-        if (pieces := tuple(_pieces(chain)))
-    ]
+    angles = tuple(drive_angles(tree, drive).tolist())
+    every = (_carried(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree))
+    carried = [one for one in every if one.pieces]
     both = (pair for pair in combinations(carried, 2) if not some or sum(one.body in some for one in pair) == 1)
     pairs = [pair for first, other in both for pair in _near(first, other, horizon, required)]
     common = Common({})
     nearest = (_approach(pair, where, common) for pair, where in zip(pairs, _searched(pairs), strict=True) if where)
     return tuple(sorted(nearest, key=lambda pair: pair.distance))
+
+
+@lru_cache(maxsize=512)
+def _carried(
+    links: tuple[tuple[RigidBody, int], ...], drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]
+) -> _Carried:
+    """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
+    chain = tuple(ChainLink(body, body.id, index) for body, index in links)
+    return _Carried(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), _intervals(windows))
 
 
 def _pieces(chain: Chain) -> Iterator[_Piece]:

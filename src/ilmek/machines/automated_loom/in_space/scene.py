@@ -59,6 +59,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     )
 
 
+@lru_cache(maxsize=4)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom, each after what carries it."""
     return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
