@@ -96,7 +96,7 @@ def test_what_two_cubes_have_in_common(depth):
 
 @pytest.mark.parametrize("run", [None, 0.0, 5 * mm])
 def test_a_part_wholly_inside_another_is_through_it(run):
-    """Its surface is nowhere near that of the other: only the volume in common tells; so it does of what is to move by 0."""
+    """Its surface is nowhere near that of the other: only the volume in common tells."""
     small, large = cube("a/small"), cube("b/large", side=100 * mm)
     shift = None if run is None else sliding((0, 0, 0), (0, 0, run))
     tree = Tree((body("small", small, at=(0.0, 0.0, 40 * mm), motion=shift), body("large", large)))
@@ -128,7 +128,7 @@ def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_fou
 @settings(max_examples=15, deadline=None)
 @given(gap=st.floats(0.3, 6.0), eccentric=st.floats(0.0, 30.0))
 def test_a_roller_that_turns_beside_a_wall_comes_as_near_as_its_eccentricity(gap, eccentric):
-    """A disc of radius r about an axis e beside its own reaches r + e; a cube beside it in the same body does not hide."""
+    """A disc of radius r about an axis e beside its own reaches r + e."""
     roller = Part("a/roller", "roller", "turned part", "", bar(40 * mm, 20 * mm), STEEL)
     wall = Part("b/wall", "wall", "machined link", "", box(10 * mm, 400 * mm, 400 * mm), STEEL)
     turned = Joint(JointKind.PIN, Z, turning())

@@ -26,7 +26,20 @@ from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import BUILDABLE, BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, WorkPiece, results_of
+from ilmek.report import (
+    BUILDABLE,
+    BillLine,
+    CamTable,
+    Check,
+    Choice,
+    Figure,
+    Plate,
+    Report,
+    Table,
+    Work,
+    WorkPiece,
+    results_of,
+)
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -138,9 +151,7 @@ class Component(Generic[P, D, A]):
         progress(0.0)
         return self.long_design(params, progress) if self.long_design else self.design(params)
 
-    def report(
-        self, design: D, *, in_a_loom: bool = False, illustrated: bool = True, assembled: bool = True
-    ) -> Report:
+    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True, assembled: bool = True) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
@@ -165,7 +176,9 @@ class Component(Generic[P, D, A]):
                 *(test for test in tests if not test.ok),
             ),
             self_tests=tests,
-            tables=(*self.tables(analysis), *(table for parts in whole for table in parts.tables)) if illustrated else (),
+            tables=(*self.tables(analysis), *(table for parts in whole for table in parts.tables))
+            if illustrated
+            else (),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),
             plates=self.plates(design),

@@ -13,27 +13,23 @@ Of a part that is in its body `MANY` times the first, the middle and the last st
 """
 
 from collections.abc import Callable, Generator, Iterator, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property, lru_cache
-from itertools import combinations, pairwise
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
 from typing import TypeAlias
 
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, IntArray
-from ilmek.part.colliders import MANY, Collider, Common, collider, distances, inside, pose_key, row
-from ilmek.part.placement import IDENTITY, Placement
-from ilmek.part.poses import Chain, ChainLink, ChainTravel, Extent, chains, drive_angles, poses
-from ilmek.part.shapes import Shape, Sum
-from ilmek.part.tree import RigidBody, Tree
+from ilmek.part.colliders import Collider, Common, distances, inside, pose_key
+from ilmek.part.poses import chains, drive_angles, poses
+from ilmek.part.swept import INTERVALS, SAMPLES, TURN, Carried, Piece, Window, box_gaps, carried_on
+from ilmek.part.tree import Tree
 from ilmek.records import record
-from ilmek.units import mm, turn
+from ilmek.units import mm
 
 TOLERANCE = 0.5 * mm
 """How far the least distance that is reported may be above that of the meshes [m]."""
-
-INTERVALS, SAMPLES = 24, 8
-"""Intervals of a turn that are compared by boxes, and samples of each."""
 
 POSES = 8
 """Poses in a window at which parts that touch are looked at."""
@@ -41,11 +37,7 @@ POSES = 8
 _SHORTEST = 1e-6
 """Interval that is not halved further [rad]."""
 
-Window = tuple[float, float]
-TURN: tuple[Window, ...] = ((0.0, turn),)
-
 Required = Callable[[str, str], float | None]
-Boxes = Float[np.ndarray, "pieces intervals 2 3"]
 Relative: TypeAlias = tuple[Float[np.ndarray, "angles 3 3"], Float[np.ndarray, "angles 3"]]
 """Rotation and origin [m] of a part in the axes of another."""
 
@@ -70,87 +62,6 @@ class Approach:
     angle: float
 
 
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """A part in a body, or of many all as one; few: of many three."""
-
-    part: str
-    position: Placement
-    collider: Collider
-    few: Collider | None = None
-
-    @cached_property
-    def extent(self) -> Extent:
-        """Corners of its convex hull in the body's axes [m]."""
-        return Extent(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
-
-
-@dataclass(frozen=True, eq=False)
-class _Carried:
-    """The pieces of a body at the end of a chain, over the turn of a drive."""
-
-    pieces: tuple[_Piece, ...]
-    travel: ChainTravel
-    ends: Float[np.ndarray, "intervals samples"]
-    seen: dict[int, Boxes] = field(default_factory=dict)
-
-    @property
-    def chain(self) -> Chain:
-        return self.travel.chain
-
-    @property
-    def body(self) -> str:
-        return self.chain[-1].name
-
-    @cached_property
-    def reaches(self) -> Float[np.ndarray, "pieces links"]:
-        return self.travel.reaches([piece.extent for piece in self.pieces])
-
-    def moved(self, number: int, shared: int) -> FloatArray:
-        """Travel of a piece at the angles, by the links of its chain after the shared ones [m]."""
-        by_turns = self.reaches[number, shared:] @ self.travel.turns[shared:]
-        return np.asarray(self.travel.shifts[shared:].sum(0) + by_turns)
-
-    def boxes(self, shared: int = 0) -> Boxes:
-        """Boxes that contain the pieces over the intervals, seen from a body of the chain: least, largest x, y, z [m].
-
-        shared  number of the links to that body; default: seen from the ground
-        """
-        if shared not in self.seen:
-            self.seen[shared] = self._boxes(shared)
-        return self.seen[shared]
-
-    def _boxes(self, shared: int) -> Boxes:
-        chain, drive = self.chain[shared:], self.travel.drive
-        size = len(self.pieces), len(self.ends), 2, 3
-        if not any(self.travel.moves[shared:]):
-            here = poses(chain, drive, np.zeros(1))
-            still = [here.points(piece.extent.points)[0] for piece in self.pieces]
-            return np.broadcast_to(np.array([[own.min(0), own.max(0)] for own in still])[:, None], size)
-        corners = np.concatenate([_box_corners(piece.extent.points) for piece in self.pieces])
-        at = poses(chain, drive, self.ends.ravel()).points(corners)
-        at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
-        low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
-        along = ChainTravel(chain, drive, self.travel.angles).along_axes(self.reaches[:, shared:])
-        # Between two samples a point leaves the box of its ends by half of its travel at most.
-        steps = np.diff(_interpolated(self.ends, self.travel.angles, along), axis=-1).max(-1) / 2
-        margin = steps.swapaxes(1, 2)
-        return np.stack([low - margin, high + margin], axis=2)
-
-
-def _interpolated(at: FloatArray, angles: FloatArray, values: Float[np.ndarray, "*n angles"]) -> FloatArray:
-    """Values along the last axis at angles of any shape [*n, *at]."""
-    after = np.clip(np.searchsorted(angles, at), 1, len(angles) - 1)
-    share = (at - angles[after - 1]) / (angles[after] - angles[after - 1])
-    return np.asarray(values[..., after - 1] * (1 - share) + values[..., after] * share)
-
-
-def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 3"]:
-    """Corners of the box about points in their own frame."""
-    low, high = points.min(0), points.max(0)
-    return np.array([np.where(chosen, high, low) for chosen in np.ndindex(2, 2, 2)])
-
-
 def approaches(  # noqa: PLR0917
     tree: Tree,
     drive: str,
@@ -168,7 +79,9 @@ def approaches(  # noqa: PLR0917
     some      ids of bodies that are compared with all others, and nothing else is; default: all with each other
     """
     angles = tuple(drive_angles(tree, drive).tolist())
-    every = (_carried(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree))
+    every = (
+        carried_on(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
+    )
     carried = [one for one in every if one.pieces]
     both = (pair for pair in combinations(carried, 2) if not some or sum(one.body in some for one in pair) == 1)
     pairs = [pair for first, other in both for pair in _near(first, other, horizon, required)]
@@ -177,51 +90,7 @@ def approaches(  # noqa: PLR0917
     return tuple(sorted(nearest, key=lambda pair: pair.distance))
 
 
-@lru_cache(maxsize=512)
-def _carried(
-    links: tuple[tuple[RigidBody, int], ...], drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]
-) -> _Carried:
-    """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
-    chain = tuple(ChainLink(body, body.id, index) for body, index in links)
-    return _Carried(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), _intervals(windows))
-
-
-def _pieces(chain: Chain) -> Iterator[_Piece]:
-    """The pieces of the parts of the last body, of a sum its members; of what is in it `MANY` times all as one."""
-    for occurrence in chain[-1].body.occurrences:
-        part = occurrence.part
-        if part.shape is None:
-            continue
-        if len(occurrence.positions) >= MANY:
-            yield _Piece(part.id, IDENTITY, *row(occurrence))
-            continue
-        members = tuple(_members(part.shape))
-        if len(members) >= MANY:
-            members = ((part.shape, IDENTITY),)
-        for position in occurrence.positions:
-            yield from (_Piece(part.id, position.after(own), collider(shape)) for shape, own in members)
-
-
-def _members(shape: Shape) -> Iterator[tuple[Shape, Placement]]:
-    if not isinstance(shape, Sum):
-        yield shape, IDENTITY
-        return
-    for member in shape.members:
-        inner = tuple(_members(member.shape))
-        yield from ((own, position.after(at)) for position in member.positions for own, at in inner)
-
-
-def _intervals(windows: tuple[Window, ...]) -> Float[np.ndarray, "intervals samples"]:
-    """Angles of the intervals of the windows [rad]: both ends of each, and samples between them."""
-    rows = []
-    for begin, end in windows:
-        number = max(round((end - begin) / turn * INTERVALS), 1)
-        edges = np.linspace(begin, end, number + 1)
-        rows += [np.linspace(low, high, SAMPLES + 1) for low, high in pairwise(edges.tolist())]
-    return np.array(rows)
-
-
-def _near(first: _Carried, other: _Carried, horizon: float, required: Required) -> Iterator["_Pair"]:
+def _near(first: Carried, other: Carried, horizon: float, required: Required) -> Iterator["_Pair"]:
     """The pairs of pieces of two bodies whose boxes come nearer than the horizon."""
     shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
     if not any((*first.travel.moves[shared:], *other.travel.moves[shared:])):
@@ -229,18 +98,11 @@ def _near(first: _Carried, other: _Carried, horizon: float, required: Required) 
     enough = required(first.body, other.body)
     if enough is None:
         return
-    gaps = _gaps(first.boxes(), other.boxes())
+    gaps = box_gaps(first.boxes(), other.boxes())
     if (gaps < horizon).any() and any(first.travel.moves[:shared]):
-        gaps = np.maximum(gaps, _gaps(first.boxes(shared), other.boxes(shared)))
+        gaps = np.maximum(gaps, box_gaps(first.boxes(shared), other.boxes(shared)))
     for number, its in np.argwhere((gaps < horizon).any(2)).tolist():
         yield _Pair((first, other), (number, its), shared, gaps[number, its], horizon, enough)
-
-
-def _gaps(boxes: Boxes, others: Boxes) -> Float[np.ndarray, "n m intervals"]:
-    """Distances of boxes [m]."""
-    own, its = boxes[:, None], others[None]
-    apart = np.maximum(own[..., 0, :] - its[..., 1, :], its[..., 0, :] - own[..., 1, :])
-    return np.asarray(np.linalg.norm(np.maximum(apart, 0.0), axis=-1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,7 +138,7 @@ class _Pair:
     shared  number of the links that both chains begin with      gaps  distances of their boxes in the intervals [m]
     """
 
-    carried: tuple[_Carried, _Carried]
+    carried: tuple[Carried, Carried]
     numbers: tuple[int, int]
     shared: int
     gaps: FloatArray
@@ -284,7 +146,7 @@ class _Pair:
     enough: float
 
     @cached_property
-    def pieces(self) -> tuple[_Piece, _Piece]:
+    def pieces(self) -> tuple[Piece, Piece]:
         first, other = (own.pieces[number] for own, number in zip(self.carried, self.numbers, strict=True))
         return first, other
 
@@ -361,8 +223,7 @@ def _half_travelled(angles: FloatArray, moved: FloatArray, ends: Float[np.ndarra
 
 
 def _searched(pairs: Sequence[_Pair]) -> tuple[_Where | None, ...]:
-    """Where each pair is nearest. All are searched together: the poses of a body are computed once for all its pieces.
-    """
+    """Where each pair is nearest. All are searched together: the poses of a body are computed once for all its pieces."""
     results: list[_Where | None] = [None] * len(pairs)
     searches = [pair.search() for pair in pairs]
     asked = {number: next(search) for number, search in enumerate(searches)}
@@ -390,7 +251,7 @@ def _relative_poses(pairs: Sequence[_Pair], angles: Sequence[FloatArray]) -> Ite
 
 def _placed_at(pairs: Sequence[_Pair], side: int, counts: IntArray, angle: FloatArray) -> Relative:
     """Rotations and origins [m] of a piece of each pair in the scene, at its angles."""
-    rows: dict[_Carried, list[int]] = {}
+    rows: dict[Carried, list[int]] = {}
     for number, pair in enumerate(pairs):
         rows.setdefault(pair.carried[side], []).append(number)
     begins = np.cumsum(counts) - counts

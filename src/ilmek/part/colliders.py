@@ -270,4 +270,3 @@ def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vecto
 
 
 _REQUEST = fcl.DistanceRequest()
-

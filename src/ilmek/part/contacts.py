@@ -12,7 +12,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ilmek.arrays import BoolArray, Float, Int, IntArray
+from ilmek.arrays import BoolArray, Float, Int
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
@@ -90,7 +90,11 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 own, positions = collider(occurrence.part.shape), occurrence.positions
-                along = _unit(body.rotation @ (positions[-1].origin - positions[0].origin)) if len(positions) >= MANY else None
+                along = (
+                    _unit(body.rotation @ (positions[-1].origin - positions[0].origin))
+                    if len(positions) >= MANY
+                    else None
+                )
                 for position in positions:
                     yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, along)
 

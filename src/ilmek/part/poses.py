@@ -203,7 +203,7 @@ class ChainTravel:
         return whole
 
     def reaches(self, extents: Sequence[Extent]) -> Float[np.ndarray, "n links"]:
-        """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each extent."""
+        """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each."""
         # From the last link to the first: the points' distance from the axis, their distance from the origin, the axis.
         axis = _unit(self.chain[-1].body.joint.axis)
         across = np.array([extent.across(axis) for extent in extents])

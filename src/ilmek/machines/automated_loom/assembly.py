@@ -56,7 +56,9 @@ class LoomAssembly:
     )
     driven_axes = computed("1", "axes that a motor drives", lambda it: parts_of_loom(it.loom).axes)
 
-    @computed("", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False)
+    @computed(
+        "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
+    )
     def nearest_pairs(self) -> list[Json]:
         return [_as_json(near) for near in self.apart[:NEAREST]]
 

@@ -20,8 +20,9 @@ from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import branches_of, loom_tree
 from ilmek.machines.beat import BeatPath
 from ilmek.machines.weaver.tree import HEAD
-from ilmek.part.clearances import TURN, Approach, Window, approaches
+from ilmek.part.clearances import Approach, approaches
 from ilmek.part.placement import placement
+from ilmek.part.swept import TURN, Window
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
