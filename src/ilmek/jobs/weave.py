@@ -180,8 +180,8 @@ def weave_results(woven: WeaveResult) -> dict[str, Any]:
     }
 
 
-_OF_THE_PARTS = tuple(one.name for one in declared_results(LoomAssembly))
-"""Results of the loom's parts against each other."""
+_OF_THE_PARTS = (*(one.name for one in declared_results(LoomAssembly)), "driven_axes")
+"""Results of the loom's parts against each other, and how many of its axes are driven."""
 
 
 def weave_json(woven: WeaveResult) -> dict[str, Json]:

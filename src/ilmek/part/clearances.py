@@ -223,7 +223,7 @@ def _half_travelled(angles: FloatArray, moved: FloatArray, ends: Float[np.ndarra
 
 
 def _searched(pairs: Sequence[_Pair]) -> tuple[_Where | None, ...]:
-    """Where each pair is nearest. All are searched together: the poses of a body are computed once for all its pieces."""
+    """Where each pair is nearest: all are searched together, the poses of a body once for all its pieces."""
     results: list[_Where | None] = [None] * len(pairs)
     searches = [pair.search() for pair in pairs]
     asked = {number: next(search) for number, search in enumerate(searches)}

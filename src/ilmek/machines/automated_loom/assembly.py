@@ -6,7 +6,6 @@ from functools import lru_cache
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
-from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import Contacts, contacts
@@ -54,7 +53,6 @@ class LoomAssembly:
         "ways in which the bodies move, less those that closed loops take: of what cams and warps move, too",
         lambda it: Mobility(loom_tree(it.loom)).degrees_of_freedom,
     )
-    driven_axes = computed("1", "axes that a motor drives", lambda it: parts_of_loom(it.loom).axes)
 
     @computed(
         "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
