@@ -14,7 +14,7 @@ from scipy.spatial.transform import Rotation
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.part.clearances import TOLERANCE, approaches
-from ilmek.part.contacts import groups
+from ilmek.part.contacts import contacts, groups
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -60,7 +60,6 @@ def test_a_cube_that_passes_another_comes_as_near_as_its_track(gap, run):
     )
     (near,) = approaches(tree, "row", 10 * mm, required=lambda *_: 10 * mm)
     assert near.distance == pytest.approx(gap * mm, abs=TOLERANCE)
-    assert near.moving
     assert abs(near.angle / turn - 0.5) < 0.6 * 20 * mm / run
 
 
@@ -83,15 +82,61 @@ def test_a_bar_that_turns_comes_as_near_as_its_end(gap):
 
 
 @settings(max_examples=20, deadline=None)
-@given(depth=st.floats(0.6, 10.0), drive=st.sampled_from(["row", "knot"]))
-def test_what_two_cubes_have_in_common(depth, drive):
+@given(depth=st.floats(0.6, 10.0))
+def test_what_two_cubes_have_in_common(depth):
     """V = s² d, mean depth 2 V / A with A = 2 s² + 4 s d."""
     side, deep = 20 * mm, depth * mm
     tree = Tree((body("one", cube("a/one")), body("two", cube("b/two"), at=(side - deep, 0.0, 0.0))))
-    (near,) = approaches(tree, drive, 10 * mm)
-    assert not near.moving
+    assert approaches(tree, "row", 10 * mm) == ()
+    (near,) = contacts(tree).through
+    assert near.drive == ""
     assert near.volume == pytest.approx(side**2 * deep, rel=1e-4)
     assert -near.distance == pytest.approx(2 * side**2 * deep / (2 * side**2 + 4 * side * deep), rel=1e-4)
+
+
+@pytest.mark.parametrize("run", [None, 0.0, 5 * mm])
+def test_a_part_wholly_inside_another_is_through_it(run):
+    """Its surface is nowhere near that of the other: only the volume in common tells."""
+    small, large = cube("a/small"), cube("b/large", side=100 * mm)
+    shift = None if run is None else sliding((0, 0, 0), (0, 0, run))
+    tree = Tree((body("small", small, at=(0.0, 0.0, 40 * mm), motion=shift), body("large", large)))
+    (near,) = approaches(tree, "row", 10 * mm) if run else contacts(tree).through
+    assert near.volume == pytest.approx((20 * mm) ** 3, rel=1e-4)
+
+
+@settings(max_examples=10, deadline=None)
+@given(moved=st.integers(0, 59), out=st.floats(1.0, 4.0), across=st.booleans())
+def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_found(moved, out, across):
+    """Sixty discs on a round bar with 1 mm between them: each lies alike to the bar but for its place along it."""
+    disc = Prism(Profile(circle(0j, 30 * mm), (circle(0j, 10 * mm),)), 5 * mm)
+    part, rod = Part("a/disc", "disc", "laser-cut part", "", disc, STEEL), bar(20 * mm, 400 * mm)
+    places = [[0.0, 0.0, 6 * mm * k] for k in range(60)]
+
+    def through():
+        discs = Occurrence(part, tuple(placement(*at) for at in places))
+        long = Occurrence(Part("b/bar", "bar", "turned part", "", rod, STEEL), (placement(z=-20 * mm),))
+        return {pair.parts for pair in contacts(Tree((RigidBody("shaft", (long, discs)),))).through}
+
+    assert through() == set()
+    places[moved][0 if across else 2] += (out if across else 1.0 + out) * mm
+    if across:
+        assert through() == {("b/bar", "a/disc")}
+    elif moved < 59:
+        assert through() == {("a/disc", "a/disc")}
+
+
+@settings(max_examples=15, deadline=None)
+@given(gap=st.floats(0.3, 6.0), eccentric=st.floats(0.0, 30.0))
+def test_a_roller_that_turns_beside_a_wall_comes_as_near_as_its_eccentricity(gap, eccentric):
+    """A disc of radius r about an axis e beside its own reaches r + e."""
+    roller = Part("a/roller", "roller", "turned part", "", bar(40 * mm, 20 * mm), STEEL)
+    wall = Part("b/wall", "wall", "machined link", "", box(10 * mm, 400 * mm, 400 * mm), STEEL)
+    turned = Joint(JointKind.PIN, Z, turning())
+    shaft = RigidBody("shaft", (Occurrence(roller, (placement(eccentric * mm),)),), joint=turned)
+    far = 20 * mm + eccentric * mm + gap * mm + 5 * mm
+    tree = Tree((shaft, body("wall", wall, at=(far, 0.0, -200 * mm))))
+    (near,) = approaches(tree, "row", 10 * mm, required=lambda *_: 10 * mm)
+    assert near.distance == pytest.approx(gap * mm, abs=TOLERANCE)
 
 
 def test_a_pin_in_its_bore_touches_and_a_part_moved_by_a_millimetre_is_found():
@@ -116,7 +161,7 @@ def test_a_pin_in_its_bore_touches_and_a_part_moved_by_a_millimetre_is_found():
 
 @settings(max_examples=5, deadline=None)
 @given(
-    turns=st.tuples(st.integers(-2, 2), st.integers(-2, 2)),
+    turns=st.tuples(st.integers(-2, 2), st.integers(-2, 2)).filter(any),
     arm=st.floats(30.0, 80.0),
     height=st.floats(150.0, 250.0),
 )

@@ -89,7 +89,7 @@ NUMBERS: dict[str, tuple[Callable[[], float], Callable[[], float]]] = {
     "energy of the shuttle": (lambda: energy("shuttle"), shuttle_passages),
     "energy of what stands by": (
         lambda: results("automated-loom")["power_shares"]["standing by"],
-        lambda: 10.0 * results("automated-loom")["axes"],
+        lambda: 10.0 * results("automated-loom")["driven_axes"],
     ),
     "power in all": (
         lambda: results("automated-loom")["power_mean"],

@@ -135,7 +135,6 @@ def command(  # noqa: PLR0917 - click calls it by name
             order.machine,
             order.settings,
             WorkshopOrder(parts_to, tolerance) if parts_to else None,
-            in_space=space_to is not None,
             outputs=call.outputs,
             progress=call.progress,
         )

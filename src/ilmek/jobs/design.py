@@ -92,14 +92,12 @@ def design_machine(
     settings: Mapping[str, Setting],
     workshop: WorkshopOrder | None = None,
     *,
-    in_space: bool = False,
     outputs: Outputs | None = None,
     progress: Progress = SILENT,
 ) -> DesignResult:
     """Design a machine of the catalogue, report it, and write its workshop files if they are ordered.
 
     settings  values of parameters by name: texts with units, or numbers in SI
-    in_space  whether the parts of a loom are compared with each other in space, as checks; takes seconds
     outputs   of the caller, who commits them; default: committed here
     Of a synthesis without a solution no workshop files are written.
     Raises ParameterError for an unknown machine, parameter or tolerance and for a value out of bounds; OutputError,
@@ -114,7 +112,6 @@ def design_machine(
         report = machine.report(designed)
         if report.machine == LOOM:
             report = _with_nearest(report, params, progress.part(0.7, 0.8))
-            report = _with_assembly(designed, report) if in_space else report
         progress.part(0.8, 1.0, "files")
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
@@ -122,13 +119,6 @@ def design_machine(
         files = write(report) if write is not None and made_of_links else None
         tree = None if machine.tree is None else machine.tree(designed)
         return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
-
-
-def _with_assembly(loom: "LoomDesign", report: Report) -> Report:
-    """A loom's report with its parts against each other; what compares them is imported only for one."""
-    from ilmek.machines.automated_loom.assembly import with_assembly
-
-    return with_assembly(loom, report)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

@@ -31,7 +31,7 @@ from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Check, Report, Result, at_most, must
+from ilmek.report import BUILDABLE, Check, Report, Result, at_most, must
 from ilmek.report.json import Json
 
 
@@ -313,6 +313,7 @@ def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:
     check = must("the loom can be designed", False, error.given, cure=cure or "take another quality, size or knot")
     results = (
         Result("weaves", False, "", "every check of the loom and of its machines holds"),
+        Result(BUILDABLE, False, "", "the parts of the loom make one machine"),
         Result("row_pitch_left", None, "mm", "distance of the rows that the beat leaves; null: no loom"),
     )
     headline = tuple(result.name for result in results)

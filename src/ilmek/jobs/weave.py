@@ -17,9 +17,10 @@ from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import Programme
+from ilmek.machines.automated_loom.assembly import LoomAssembly
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import NEAREST, Check, Json, Report, must, verdict_json
+from ilmek.report import NEAREST, Check, Json, Report, declared_results, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import counted, format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
@@ -157,10 +158,12 @@ def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tu
 def weave_results(woven: WeaveResult) -> JsonObject:
     """The results of the job by their JSON names, SI; those of the loom are null where it cannot be designed."""
     programme, made = woven.loomed.programme, woven.loomed.design
+    of_loom = {result.name: result.value for result in woven.loom.results}
     return {
         "weaves": woven.weaves,
         "row_pitch_left": woven.loomed.row_pitch_left,
         "nearest": woven.loom[NEAREST] if woven.loom_order.existing is None else [],
+        **{name: of_loom.get(name) for name in _OF_THE_PARTS},
         **chart_results(woven.charted),
         "heads": programme and programme.heads,
         "heads_max": made and made.heads_max,
@@ -175,6 +178,10 @@ def weave_results(woven: WeaveResult) -> JsonObject:
         "warps": made and made.warps,
         "warp_pitch": made and made.task.cloth.warp_pitch,
     }
+
+
+_OF_THE_PARTS = (*(one.name for one in declared_results(LoomAssembly)), "driven_axes")
+"""Results of the loom's parts against each other, and how many of its axes are driven."""
 
 
 def weave_json(woven: WeaveResult) -> dict[str, Json]:

@@ -14,7 +14,7 @@ what the analysis returns. Machines of all types together, as in the catalogue, 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, Generic, TypeAlias, TypeVar
+from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.machines.beat import PlannedBeat
@@ -26,7 +26,20 @@ from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
-from ilmek.report import BillLine, CamTable, Check, Choice, Figure, Plate, Report, Table, Work, WorkPiece, results_of
+from ilmek.report import (
+    BUILDABLE,
+    BillLine,
+    CamTable,
+    Check,
+    Choice,
+    Figure,
+    Plate,
+    Report,
+    Table,
+    Work,
+    WorkPiece,
+    results_of,
+)
 from ilmek.report.left_out import LazyFigure, made_figures
 from ilmek.timing.cyclogram import Cyclogram, Track
 
@@ -46,6 +59,18 @@ def _nothing(_item: object) -> tuple[()]:
 
 def _parameters(design: MachineDesign) -> Params:
     return design.params
+
+
+class Assembly(Protocol):
+    """The parts of a machine against each other, a record with declared results."""
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether they have room, and make one machine."""
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """Which come nearest."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +98,7 @@ class Component(Generic[P, D, A]):
     fit         loom's task -> parameters, for a machine that can be in a loom
     beat        loom's task, kind of beat -> its planned beat, for a machine that can beat (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
+    assembly    design -> its parts against each other in space; takes about a second
     verdict     report -> a record with results that follow from all checks, of the machines in it too
     headline    names of results that stand at the top level of the JSON too
     """
@@ -105,6 +131,7 @@ class Component(Generic[P, D, A]):
     fit: Callable[[LoomTask], P] | None = None
     beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
+    assembly: Callable[[D], Assembly] | None = None
     verdict: Callable[[Report], object] | None = None
     headline: tuple[str, ...] = ()
     long_design: Callable[[P, Progress], D] | None = None
@@ -124,26 +151,34 @@ class Component(Generic[P, D, A]):
         progress(0.0)
         return self.long_design(params, progress) if self.long_design else self.design(params)
 
-    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True) -> Report:
+    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True, assembled: bool = True) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
 
         in_a_loom    True: without the figures that only the machine's own page shows
         illustrated  False: without tables and figures, which take as long as all the rest
+        assembled    False: without its parts against each other in space
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
+        whole = (self.assembly(design),) if self.assembly and assembled else ()
         figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated else ((), ())
         tests = self.self_tests(analysis)
         made = Report(
             machine=self.name,
             title=self.title,
             parameters=self.parameters(design).as_dict(),
-            results=results_of(*(records if isinstance(records, tuple) else (records,))),
-            checks=(*self.checks(analysis), *(test for test in tests if not test.ok)),
+            results=results_of(*(records if isinstance(records, tuple) else (records,)), *whole),
+            checks=(
+                *self.checks(analysis),
+                *(check for parts in whole for check in parts.checks),
+                *(test for test in tests if not test.ok),
+            ),
             self_tests=tests,
-            tables=self.tables(analysis) if illustrated else (),
+            tables=(*self.tables(analysis), *(table for parts in whole for table in parts.tables))
+            if illustrated
+            else (),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),
             plates=self.plates(design),
@@ -152,7 +187,7 @@ class Component(Generic[P, D, A]):
             parts=self.parts(design),
             children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
             choices=self.choices(design),
-            headline=self.headline,
+            headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
         made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
         return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made

@@ -1,18 +1,22 @@
-"""Which parts of a tree touch: the groups that stand together, with every drive at angle 0."""
+"""What touches, and what is through each other, of the parts of a tree with every drive at angle 0.
+
+Pieces of like parts that lie alike to each other are measured once.
+"""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
-import fcl
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from ilmek.arrays import Float
-from ilmek.part.clearances import DEVIATION, triangle_tree
+from ilmek.arrays import BoolArray, Float, Int
+from ilmek.part.clearances import Approach
+from ilmek.part.colliders import DEVIATION, MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
-from ilmek.part.poses import chains, poses
+from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import is_closed
 from ilmek.records import record
@@ -20,9 +24,6 @@ from ilmek.units import mm
 
 TOUCHING = 0.1 * mm
 """Distance within which parts touch [m]."""
-
-_ROUNDED = 7
-"""Digits of the relative positions [m] that are compared: pairs of like parts that lie alike are measured once."""
 
 
 @record
@@ -37,21 +38,136 @@ class TouchingParts:
         return sum(self.parts.values())
 
 
-@dataclass(frozen=True)
+@record
+class Contacts:
+    """The groups of parts that touch, the largest first; the parts through each other of those that stand to each other
+    at all angles, the deepest first.
+    """
+
+    groups: tuple[TouchingParts, ...]
+    through: tuple[Approach, ...]
+
+
+@dataclass(frozen=True, eq=False)
 class _Piece:
+    """A piece of a part where it stands.
+
+    rigid  names all that moves with it        along  direction in which `MANY` of it follow each other
+    """
+
     part: str
+    body: str
     position: Placement
-    collider: fcl.BVHModel
-    low: Float[np.ndarray, " 3"]
-    high: Float[np.ndarray, " 3"]
+    collider: Collider
+    rigid: tuple[tuple[str, int], ...]
+    along: Float[np.ndarray, " 3"] | None = None
+
+    @cached_property
+    def box(self) -> Float[np.ndarray, "2 3"]:
+        """Least and largest x, y, z [m]."""
+        points = self.position.points(self.collider.corners)
+        return np.stack([points.min(0), points.max(0)])
 
 
 def groups(tree: Tree, gap: float = TOUCHING) -> tuple[TouchingParts, ...]:
     """The groups of parts that touch within a gap [m], the largest first; parts without a shape are left out."""
+    return contacts(tree, gap).groups
+
+
+def contacts(tree: Tree, gap: float = TOUCHING) -> Contacts:
+    """What touches within a gap [m], and what is through each other; parts without a shape are left out."""
     pieces = tuple(_pieces(tree))
     if not pieces:
-        return ()
-    links = np.array(list(_touching(pieces, gap)), dtype=int).reshape(-1, 2)
+        return Contacts((), ())
+    pairs = _near(np.array([piece.box for piece in pieces]), gap)
+    touch, depth, volume = _measured(pieces, pairs, gap)
+    return Contacts(_groups(pieces, pairs[touch]), _through(pieces, pairs, depth, volume))
+
+
+def _pieces(tree: Tree) -> Iterator[_Piece]:
+    for chain in chains(tree):
+        here = poses(chain, "", np.zeros(1))
+        body, rigid = Placement(here.origin[0], here.rotation[0]), _rigid(chain)
+        for occurrence in chain[-1].body.occurrences:
+            if occurrence.part.shape is not None:
+                own, positions = collider(occurrence.part.shape), occurrence.positions
+                along = (
+                    _unit(body.rotation @ (positions[-1].origin - positions[0].origin))
+                    if len(positions) >= MANY
+                    else None
+                )
+                for position in positions:
+                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, along)
+
+
+def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
+    """The chain up to its last link that moves with any drive."""
+    moving = [number for number, link in enumerate(chain) if link.moves]
+    return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
+
+
+def _unit(vector: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def _near(boxes: Float[np.ndarray, "pieces 2 3"], gap: float) -> Int[np.ndarray, "pairs 2"]:
+    """Numbers of two pieces whose boxes are within the gap."""
+    order = np.argsort(boxes[:, 0, 0])
+    low, high = boxes[order, 0], boxes[order, 1] + gap
+    ends = np.searchsorted(low[:, 0], high[:, 0], side="right")
+    every = []
+    for first, end in enumerate(ends.tolist()):
+        near = (low[first + 1 : end, 1:] <= high[first, 1:]) & (low[first, 1:] <= high[first + 1 : end, 1:])
+        others = first + 1 + np.flatnonzero(near.all(1))
+        every.append(np.stack([np.full(len(others), first), others], axis=1))
+    return np.asarray(np.sort(order[np.concatenate(every)], axis=1))
+
+
+def _measured(
+    pieces: Sequence[_Piece], pairs: Int[np.ndarray, "pairs 2"], gap: float
+) -> tuple[BoolArray, Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]]:
+    """Of each pair whether it touches, and mean depth [m] and volume [m³] in common where it stands to each other."""
+    rotation = np.array([piece.position.rotation for piece in pieces])
+    origin = np.array([piece.position.origin for piece in pieces])
+    first, other = pairs.T
+    back = rotation[first].swapaxes(1, 2)
+    turned, moved = back @ rotation[other], (back @ (origin[other] - origin[first])[:, :, None])[:, :, 0]
+    touch, depth, volume = np.zeros(len(pairs), bool), np.zeros(len(pairs)), np.zeros(len(pairs))
+    common = Common({})
+
+    def measure(k: int) -> tuple[bool, float, float]:
+        own, its = (pieces[number] for number in pairs[k])
+        lies = own.collider, its.collider, turned[k], moved[k]
+        apart = gap_between(*lies, gap)
+        together = own.rigid == its.rigid and (apart <= 0 or inside(*lies))
+        return apart <= gap, *(common.depth(*lies) if together else (0.0, 0.0))
+
+    for alike, in_rows in _alike(pieces, pairs, turned, moved):
+        some = {alike[0], alike[len(alike) // 2], alike[-1]} if in_rows else {alike[0]}
+        tried = [measure(k) for k in some]
+        every = tried[:1] * len(alike) if len(set(tried)) == 1 else [measure(k) for k in alike]
+        touch[alike], depth[alike], volume[alike] = np.array(every).T
+    return touch, depth, volume
+
+
+def _alike(
+    pieces: Sequence[_Piece],
+    pairs: Int[np.ndarray, "pairs 2"],
+    turned: Float[np.ndarray, "pairs 3 3"],
+    moved: Float[np.ndarray, "pairs 3"],
+) -> Iterator[tuple[list[int], bool]]:
+    """Pairs that lie alike, and whether they are of rows of many and lie alike but for their places along these."""
+    kinds: dict[tuple[bool, bool, tuple[bytes, ...]], list[int]] = {}
+    for k, (first, other) in enumerate(pairs.tolist()):
+        own, its = pieces[first], pieces[other]
+        row = own.along if own.along is not None else its.along
+        along = None if row is None else own.position.rotation.T @ row
+        key = own.rigid == its.rigid, row is None, pose_key(own.collider, its.collider, turned[k], moved[k], along)
+        kinds.setdefault(key, []).append(k)
+    return ((alike, not key[1]) for key, alike in kinds.items())
+
+
+def _groups(pieces: Sequence[_Piece], links: Int[np.ndarray, "links 2"]) -> tuple[TouchingParts, ...]:
     graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(len(pieces), len(pieces)))
     _, labels = connected_components(graph, directed=False)
     members: dict[int, Counter[str]] = {}
@@ -60,68 +176,21 @@ def groups(tree: Tree, gap: float = TOUCHING) -> tuple[TouchingParts, ...]:
     return tuple(sorted((TouchingParts(parts) for parts in members.values()), key=lambda group: -group.pieces))
 
 
+def _through(
+    pieces: Sequence[_Piece],
+    pairs: Int[np.ndarray, "pairs 2"],
+    depth: Float[np.ndarray, " pairs"],
+    volume: Float[np.ndarray, " pairs"],
+) -> tuple[Approach, ...]:
+    deepest = np.argsort(-depth)[: int((depth > 0).sum())].tolist()
+    both = ((k, pieces[pairs[k, 0]], pieces[pairs[k, 1]]) for k in deepest)
+    return tuple(
+        Approach((own.part, its.part), (own.body, its.body), -float(depth[k]), float(volume[k]), "", 0.0)
+        for k, own, its in both
+    )
+
+
 def open_parts(tree: Tree) -> tuple[str, ...]:
     """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
     shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)
     return tuple(name for name, shape in shaped if not is_closed(shape.mesh(DEVIATION)))
-
-
-def _pieces(tree: Tree) -> Iterator[_Piece]:
-    models: dict[str, fcl.BVHModel] = {}
-    corners: dict[str, Float[np.ndarray, "points 3"]] = {}
-    for chain in chains(tree):
-        here = poses(chain, "", np.zeros(1))
-        body = Placement(here.origin[0], here.rotation[0])
-        for occurrence in chain[-1].body.occurrences:
-            part = occurrence.part
-            if part.shape is None:
-                continue
-            if part.id not in models:
-                mesh = part.shape.mesh(DEVIATION)
-                models[part.id], corners[part.id] = triangle_tree(mesh), mesh.points
-            for own in occurrence.positions:
-                position = body.after(own)
-                points = position.points(corners[part.id])
-                yield _Piece(part.id, position, models[part.id], points.min(0), points.max(0))
-
-
-def _touching(pieces: tuple[_Piece, ...], gap: float) -> Iterator[tuple[int, int]]:
-    """Numbers of two pieces that touch; of those that others join already, not all."""
-    low, high = np.array([piece.low for piece in pieces]), np.array([piece.high for piece in pieces])
-    measured: dict[tuple[object, ...], bool] = {}
-    roots = list(range(len(pieces)))
-
-    def root(number: int) -> int:
-        while roots[number] != number:
-            roots[number] = roots[roots[number]]
-            number = roots[number]
-        return number
-
-    for first, piece in enumerate(pieces):
-        near = (low[first + 1 :] <= high[first] + gap) & (low[first] <= high[first + 1 :] + gap)
-        for offset in np.flatnonzero(near.all(1)).tolist():
-            other = first + 1 + offset
-            ends = root(first), root(other)
-            if ends[0] == ends[1]:
-                continue
-            relative = piece.position.inverse.after(pieces[other].position)
-            key = (
-                piece.part,
-                pieces[other].part,
-                relative.origin.round(_ROUNDED).tobytes(),
-                relative.rotation.round(_ROUNDED).tobytes(),
-            )
-            if key not in measured:
-                measured[key] = _distance(piece, pieces[other], relative) <= gap
-            if measured[key]:
-                roots[ends[0]] = ends[1]
-                yield first, other
-
-
-def _distance(first: _Piece, other: _Piece, relative: Placement) -> float:
-    return float(
-        fcl.distance(
-            fcl.CollisionObject(first.collider),
-            fcl.CollisionObject(other.collider, fcl.Transform(relative.rotation, relative.origin)),
-        )
-    )

@@ -44,6 +44,12 @@ class ChainLink:
         """Its position in the body before it."""
         return self.body.positions[self.index]
 
+    @property
+    def moves(self) -> bool:
+        """Whether it moves with any drive."""
+        motion = self.body.joint.motion
+        return motion is not None and bool(np.ptp(motion.shift, axis=0).any() or np.ptp(motion.rotation))
+
     def turns(self, drive: str) -> bool:
         """Whether it turns with a drive."""
         motion = self.body.joint.motion
@@ -86,85 +92,135 @@ class Poses:
 
 def poses(chain: Chain, drive: str, angle: FloatArray) -> Poses:
     """The poses of the last body of a chain at angles of a drive [rad]; all other drives stand at 0."""
-    rotation, origin = np.eye(3)[None], np.zeros((1, 3))
+    rotation, origin = np.eye(3), np.zeros(3)
     for link in chain:
         origin = origin + rotation @ link.position.origin
         rotation = rotation @ link.position.rotation
         motion = link.body.joint.motion
         if motion is not None:
-            shift, turned = _moved(link.body, motion, angle if motion.drive == drive else np.zeros(1))
-            origin = origin + (rotation @ shift[:, :, None])[:, :, 0]
-            rotation = rotation @ turned
+            shift, turned = _moved(motion, angle if motion.drive == drive else _START)
+            if shift.any():
+                origin = origin + (rotation @ shift[:, :, None])[:, :, 0]
+            if turned.any():
+                rotation = rotation @ _rotations(link.body.joint.axis, turned)
     shape = len(angle), 3
     return Poses(np.broadcast_to(rotation, (*shape, 3)), np.broadcast_to(origin, shape))
 
 
-def _moved(
-    body: RigidBody, motion: SceneMotion, angle: FloatArray
-) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3 3"]]:
-    """Shift [m] and rotation of a motion at angles of its drive [rad]: Rodrigues' formula."""
-    shift = np.stack([np.interp(angle, motion.angle, motion.shift[:, axis]) for axis in range(3)], axis=1)
-    turned = np.interp(angle, motion.angle, motion.rotation)[:, None, None]
-    x, y, z = _unit(body.joint.axis).tolist()
-    across = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return shift, np.eye(3) + np.sin(turned) * across + (1 - np.cos(turned)) * (across @ across)
+_START = np.zeros(1)
 
 
-@dataclass(frozen=True)
-class MovingPoints:
-    """Points of the last body of a chain [m], over the turn of a drive."""
+def _moved(motion: SceneMotion, angle: FloatArray) -> tuple[Float[np.ndarray, "n 3"], FloatArray]:
+    """Shift [m] and rotation [rad] of a motion at angles of its drive [rad]."""
+    after = np.clip(np.searchsorted(motion.angle, angle), 1, len(motion.angle) - 1)
+    before = after - 1
+    begin = motion.angle[before]
+    share = np.clip((angle - begin) / (motion.angle[after] - begin), 0.0, 1.0)
+    shift, turned = motion.shift, motion.rotation
+    return (
+        shift[before] + share[:, None] * (shift[after] - shift[before]),
+        turned[before] + share * (turned[after] - turned[before]),
+    )
+
+
+def _rotations(axis: Sequence[float], angle: FloatArray) -> Float[np.ndarray, "n 3 3"]:
+    """Rotations about an axis: Rodrigues' formula."""
+    x, y, z = _unit(axis).tolist()
+    across, turned = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]]), angle[:, None, None]
+    return np.asarray(np.eye(3) + np.sin(turned) * across + (1 - np.cos(turned)) * (across @ across))
+
+
+@record
+class Extent:
+    """Points of a body [m]; of a body of revolution also where its axis lies, along which z points.
+
+    A body of revolution stays where it is when it turns about its own axis: its reach is then that of its axis.
+    """
+
+    points: Points
+    axis: Placement | None = None
+
+    def across(self, axis: FloatArray) -> float:
+        """Largest distance from an axis through the origin [m]."""
+        if self.axis is not None and np.abs(np.cross(self.axis.rotation[:, 2], axis)).max() < _PARALLEL:
+            return float(np.linalg.norm(np.cross(self.axis.origin, axis)))
+        return float(np.linalg.norm(np.cross(self.points, axis), axis=1).max())
+
+
+@dataclass(frozen=True, eq=False)
+class ChainTravel:
+    """How far points of the last body of a chain move over the turn of a drive.
+
+    The travel by a link is that of its shift, and its rotation times the reach: the distance of a point from its axis.
+    angles  of the drive, between which every motion is straight [rad]
+    """
 
     chain: Chain
-    points: Points
     drive: str
+    angles: FloatArray
 
-    def travel(self, angle: FloatArray) -> tuple[FloatArray, ...]:
-        """How far a point has moved at most from angle 0 on [m], by the motion of each link of the chain."""
-        return tuple(
-            _travelled(link, self.drive, angle, lambda shift: np.linalg.norm(shift, axis=1), reach)
-            for link, reach in zip(self.chain, self.reaches, strict=True)
-        )
+    @cached_property
+    def moves(self) -> tuple[bool, ...]:
+        """Whether each link moves with the drive."""
+        return tuple(bool(shift[-1] + turned[-1]) for shift, turned in zip(self.shifts, self.turns, strict=True))
 
-    def travel_along_axes(self, angle: FloatArray) -> Float[np.ndarray, "3 angles"]:
-        """The same by all links, along x, y and z of the frame in which the chain begins [m].
+    @cached_property
+    def shifts(self) -> Float[np.ndarray, "links angles"]:
+        """Lengths of the shifts of each link from angle 0 on [m]."""
+        return self._summed(lambda motion: np.linalg.norm(np.diff(motion.shift, axis=0), axis=1))
+
+    @cached_property
+    def turns(self) -> Float[np.ndarray, "links angles"]:
+        """Sums of the rotations of each link from angle 0 on, whatever their sense [rad]."""
+        return self._summed(lambda motion: np.abs(np.diff(motion.rotation)))
+
+    def _summed(self, steps: Callable[[SceneMotion], FloatArray]) -> Float[np.ndarray, "links angles"]:
+        return np.stack([self._along(link, steps) for link in self.chain])
+
+    def _along(self, link: ChainLink, steps: Callable[[SceneMotion], FloatArray]) -> FloatArray:
+        motion = link.body.joint.motion
+        if motion is None or motion.drive != self.drive:
+            return np.zeros(len(self.angles))
+        return np.asarray(np.interp(self.angles, motion.angle, np.concatenate([[0.0], np.cumsum(steps(motion))])))
+
+    def along_axes(self, reaches: Float[np.ndarray, "n links"]) -> Float[np.ndarray, "n 3 angles"]:
+        """Travel of points by all links along x, y and z of the frame in which the chain begins [m].
 
         No point moves along an axis by turning about it. Behind a rotation about p a shift s moves along the axis i by
         |s.p| |p_i| + |s x p| sqrt(1 - p_i²) at most; behind rotations about several axes, by |s|.
         """
-        whole, turned, pivot = np.zeros((3, len(angle))), np.eye(3), _Pivot()
-        for link, reach in zip(self.chain, self.reaches, strict=True):
+        whole, turned, pivot = np.zeros((len(reaches), 3, len(self.angles))), np.eye(3), _Pivot()
+        for number, link in enumerate(self.chain):
             turned = turned @ link.position.rotation
             about = turned @ _unit(link.body.joint.axis)
             own = pivot.joined(about)
-            across = np.ones(3) if own.several else np.sqrt(np.maximum(1 - about**2, 0.0))
-            for axis in range(3):
-                shifted = partial(pivot.along, axis, turned)
-                whole[axis] += _travelled(link, self.drive, angle, shifted, reach * float(across[axis]))
+            if self.moves[number]:
+                across = np.ones(3) if own.several else np.sqrt(np.maximum(1 - about**2, 0.0))
+                shifted = np.stack([self._along(link, partial(_shifted, pivot, axis, turned)) for axis in range(3)])
+                whole += shifted + across[:, None] * self.turns[number] * reaches[:, number, None, None]
             if link.turns(self.drive):
                 pivot = own
         return whole
 
-    @cached_property
-    def reaches(self) -> tuple[float, ...]:
-        """Largest distance of a point from the axis of each link's joint [m]."""
-        reaches: list[float] = []
+    def reaches(self, extents: Sequence[Extent]) -> Float[np.ndarray, "n links"]:
+        """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each."""
         # From the last link to the first: the points' distance from the axis, their distance from the origin, the axis.
-        across = farthest = 0.0
-        axis = np.zeros(3)
-        for number, link in enumerate(reversed(self.chain)):
-            own = _unit(link.body.joint.axis)
-            if number == 0:
-                across = float(np.linalg.norm(np.cross(self.points, own), axis=1).max())
-                farthest = float(np.linalg.norm(self.points, axis=1).max())
-            else:
-                beyond = self.chain[len(self.chain) - number]
-                offset, moved = beyond.position.origin, _largest_shift(beyond.body.joint.motion)
-                parallel = np.abs(np.cross(beyond.position.rotation @ axis, own)).max() < _PARALLEL
-                across = float(np.linalg.norm(np.cross(offset, own))) + moved + (across if parallel else farthest)
-                farthest += float(np.linalg.norm(offset)) + moved
-            axis = own
+        axis = _unit(self.chain[-1].body.joint.axis)
+        across = np.array([extent.across(axis) for extent in extents])
+        farthest = np.array([np.linalg.norm(extent.points, axis=1).max() for extent in extents])
+        reaches = [across]
+        for link, beyond in zip(self.chain[-2::-1], self.chain[::-1], strict=False):
+            own, offset = _unit(link.body.joint.axis), beyond.position.origin
+            moved = _largest_shift(beyond.body.joint.motion)
+            parallel = np.abs(np.cross(beyond.position.rotation @ axis, own)).max() < _PARALLEL
+            across = float(np.linalg.norm(np.cross(offset, own))) + moved + (across if parallel else farthest)
+            farthest, axis = farthest + float(np.linalg.norm(offset)) + moved, own
             reaches.append(across)
-        return tuple(reversed(reaches))
+        return np.stack(reaches[::-1], axis=1)
+
+
+def _shifted(pivot: "_Pivot", axis: int, turned: Float[np.ndarray, "3 3"], motion: SceneMotion) -> FloatArray:
+    return pivot.along(axis, turned, np.diff(motion.shift, axis=0))
 
 
 @record
@@ -200,17 +256,3 @@ def _unit(axis: Sequence[float]) -> FloatArray:
 
 def _largest_shift(motion: SceneMotion | None) -> float:
     return 0.0 if motion is None else float(np.linalg.norm(motion.shift, axis=1).max())
-
-
-def _travelled(
-    link: ChainLink,
-    drive: str,
-    angle: FloatArray,
-    length: Callable[[Float[np.ndarray, "n 3"]], FloatArray],
-    reach: float,
-) -> FloatArray:
-    motion = link.body.joint.motion
-    if motion is None or motion.drive != drive:
-        return np.zeros(len(angle))
-    steps = length(np.diff(motion.shift, axis=0)) + np.abs(np.diff(motion.rotation)) * reach
-    return np.asarray(np.interp(angle, motion.angle, np.concatenate([[0.0], np.cumsum(steps)])))

@@ -14,7 +14,7 @@ from manifold3d import Manifold, Mesh
 from scipy.spatial import ConvexHull
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
-from ilmek.part.clearances import MANY
+from ilmek.part.colliders import MANY
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import Chain, Poses, chains, poses

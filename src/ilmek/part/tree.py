@@ -6,7 +6,7 @@
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from enum import StrEnum
 
@@ -158,13 +158,22 @@ class Tree:
 
     def moving(self, motions: Mapping[str, SceneMotion]) -> "Tree":
         """The tree with motions of bodies by their ids."""
-        return Tree(
-            tuple(
-                replace(body, joint=replace(body.joint, motion=motions[body.id])) if body.id in motions else body
-                for body in self.bodies
-            ),
-            self.closures,
+        return self.replaced(
+            replace(body, joint=replace(body.joint, motion=motions[body.id])) if body.id in motions else body
+            for body in self.bodies
         )
+
+    def replaced(self, bodies: Iterable[RigidBody]) -> "Tree":
+        """The tree with other bodies, its loops closed alike."""
+        return Tree(tuple(bodies), self.closures)
+
+    def carried_by(self, name: str) -> tuple[str, ...]:
+        """Ids of a body and of all that it carries."""
+        carried = [name]
+        for body in self.bodies:
+            if body.parent in carried:
+                carried.append(body.id)
+        return tuple(carried)
 
     def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
         """The tree with another on one of its bodies: the ground of the other at a position in that body's frame."""

@@ -8,7 +8,7 @@ from ilmek.records import DeclaredResult, computed, declared_results, group, rec
 from ilmek.report.bill import NOT_WEIGHED, BillLine, Work
 from ilmek.report.check import Check, at_least, at_most, in_words, must, shown_value, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
-from ilmek.report.document import NEAREST, Report
+from ilmek.report.document import BUILDABLE, NEAREST, Report
 from ilmek.report.figure import (
     Animation,
     Axis,
@@ -40,6 +40,7 @@ from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid, WorkPiece
 
 __all__ = [
+    "BUILDABLE",
     "NEAREST",
     "NOT_WEIGHED",
     "Alternative",

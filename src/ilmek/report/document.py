@@ -16,6 +16,9 @@ from ilmek.report.table import Table
 from ilmek.report.verdict import Reason, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Plate, WorkPiece
 
+BUILDABLE = "buildable"
+"""Result of a machine whose parts are compared with each other in space: whether they make one machine."""
+
 NEAREST = "nearest"
 """Name of a result: the nearest tasks that the machine could do, each a wish and its value."""
 

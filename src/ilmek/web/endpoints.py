@@ -83,6 +83,13 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/machines/{name}/space",
+        "studio.machine.view:in_space",
+        "The same with the parts of the machine against each other in space.",
+        affinity="nearest",
+    ),
+    Endpoint(
+        "POST",
         "/machines/{name}/nearest",
         "studio.machine.view:nearest",
         "The nearest carpets that a loom could weave, where it cannot weave what is required.",

@@ -600,6 +600,7 @@ export interface DesignRequest {
  * A design of a machine as the studio shows it.
  *
  *     parameters  in force by name, those that the design chose too
+ *     pending     whether its parts are still to be compared with each other in space: `in_space` does
  *     failed      number of checks that do not hold          seconds  that the design and its report took [s]
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -619,6 +620,7 @@ export interface DesignView {
     [k: string]: ForceValue;
   };
   seconds: number;
+  pending: boolean;
 }
 /**
  * Why the machine does not do its work, and what would cure it; texts as of a check.

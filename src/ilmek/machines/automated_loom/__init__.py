@@ -11,6 +11,7 @@ from dataclasses import replace
 from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
 from ilmek.machines.arrangement.side_view import SideView
+from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
@@ -34,6 +35,7 @@ from ilmek.machines.automated_loom.selection import design
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.part.plates import pieces_of
+from ilmek.report import BUILDABLE
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -63,7 +65,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, YarnPath, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, YarnPath, PartsList, LoomAssembly),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),
@@ -74,6 +76,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     pieces=lambda loom: tuple(piece for tree in (own_tree(loom), *equipment_trees(loom)) for piece in pieces_of(tree)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
+    assembly=assembly,
     verdict=LoomVerdict,
-    headline=("weaves", "row_pitch_left"),
+    headline=("weaves", BUILDABLE, "row_pitch_left"),
 )

@@ -1,34 +1,41 @@
-"""Whether the parts of a loom make one machine: what is through each other, what is too near, what stands apart."""
+"""Whether the parts of a loom make one machine: what is through each other, what is too near, what nothing holds."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, nearest_parts
-from ilmek.machines.automated_loom.report import LoomVerdict
-from ilmek.part.clearances import DEVIATION, Approach
-from ilmek.part.contacts import TouchingParts, groups, open_parts
+from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
+from ilmek.part.clearances import Approach
+from ilmek.part.colliders import DEVIATION
+from ilmek.part.contacts import Contacts, contacts, open_parts
+from ilmek.part.mobility import Mobility
+from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
-from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, results_of
+from ilmek.report import Check, Json, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity
 
 NEAREST = 10
 """Pairs of parts that are reported."""
+
+_STANDING = "at all angles"
 
 
 @record
 class LoomAssembly:
     """The parts of a loom against each other.
 
-    nearest  least distances of parts, the nearest first        groups  of parts that touch, the largest first
+    nearest   least distances of parts that move against each other, the nearest first
+    contacts  what touches, and what is through each other at all angles
     """
 
     loom: LoomDesign
-    nearest: tuple[Approach, ...]
-    groups: tuple[TouchingParts, ...]
+    nearest: tuple[NearParts, ...]
+    contacts: Contacts
 
+    buildable = computed(
+        "", "no part through or too near to another, none in the air, each held by a joint", lambda it: it.holds
+    )
     clashes = computed(
         "1",
         "pairs of parts that are through each other at an angle of a row or a knot",
@@ -38,57 +45,113 @@ class LoomAssembly:
     number_of_groups = computed(
         "1",
         "groups of parts that touch: 1 where nothing hangs in the air",
-        lambda it: len(it.groups),
+        lambda it: len(it.contacts.groups),
         name="assembly_groups",
     )
+    degrees_of_freedom = computed(
+        "1",
+        "ways in which the bodies move, less those that closed loops take: of what cams and warps move, too",
+        lambda it: Mobility(loom_tree(it.loom)).degrees_of_freedom,
+    )
 
-    @computed("", "the nearest pairs of parts that move against each other", shown=False)
+    @computed(
+        "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
+    )
     def nearest_pairs(self) -> list[Json]:
-        return [_as_json(pair) for pair in self.nearest if pair.moving][:NEAREST]
+        return [_as_json(near) for near in self.apart[:NEAREST]]
 
     @property
-    def through(self) -> tuple[Approach, ...]:
+    def apart(self) -> tuple[NearParts, ...]:
+        """What is through each other, then what moves against each other and does not touch, the nearest first."""
+        return (*self.through, *(near for near in self.nearest if near.approach.distance > 0))
+
+    @property
+    def holds(self) -> bool:
+        """Whether every check of it holds."""
+        return all(check.ok for check in self.checks)
+
+    @property
+    def through(self) -> tuple[NearParts, ...]:
         """Pairs of parts that are through each other: of each two parts the worst."""
-        worst: dict[frozenset[str], Approach] = {}
-        for pair in self.nearest:
-            if pair.distance < 0:
-                worst.setdefault(frozenset(pair.parts), pair)
+        worst: dict[frozenset[str], NearParts] = {}
+        standing = (NearParts(pair, _STANDING) for pair in self.contacts.through)
+        moving = (near for near in self.nearest if near.approach.distance < 0)
+        for near in sorted((*moving, *standing), key=lambda near: near.approach.distance):
+            worst.setdefault(frozenset(near.approach.parts), near)
         return tuple(worst.values())
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Parts through each other, in the air, or without a joint; parts of two machines that come too near."""
+        return _checks(self)
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """The pairs that come nearest; below 0 they are through each other, by the mean depth of what they share."""
+        titles = _titles(self.loom)
+        rows = tuple(
+            (titles[pair.parts[0]], titles[pair.parts[1]], pair.distance, pair.drive, pair.angle, near.heads)
+            for near in self.apart[: 3 * NEAREST]
+            for pair in [near.approach]
+        )
+        heads = columns("part", "and", "least [mm]", "cyclogram", "at [deg]", "heads")
+        return (Table("loom-nearest-parts", "Nearest parts", heads, rows),)
 
 
 @lru_cache(maxsize=4)
 def assembly(loom: LoomDesign) -> LoomAssembly:
-    """The parts of a loom against each other; takes seconds."""
-    return LoomAssembly(loom, nearest_parts(loom), groups(loom_tree(loom)))
+    """The parts of a loom against each other; takes about a second."""
+    return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
 
 
-def assembly_checks(found: LoomAssembly) -> tuple[Check, ...]:
-    """Parts through each other, parts of two machines that come too near, and parts that nothing holds."""
-    titles = _titles(found.loom)
-    through = tuple(dict.fromkeys(part for pair in found.through for part in pair.parts))
-    loose = tuple(dict.fromkeys(part for group in found.groups[1:] for part in group.parts))
+@lru_cache(maxsize=4)
+def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
+    titles, groups = _titles(whole.loom), whole.contacts.groups
+    through = (part for near in whole.through for part in near.approach.parts)
+    loose = (part for group in groups[1:] for part in group.parts)
     return (
         at_most(
             "parts through each other",
-            len(found.through),
+            len(whole.through),
             0,
             "1",
-            _worst(found.through, titles) or "meshes of all parts over both cyclograms",
+            _worst(whole.through, titles) or "meshes of all parts over both cyclograms",
             cure="change the arrangement so that the parts named have room",
-            parts=through,
+            parts=tuple(dict.fromkeys(through)),
         ),
         at_most(
             "groups of parts that touch",
-            len(found.groups),
+            len(groups),
             1,
             "1",
             "meshes of all parts at the start of a row, within 0.1 mm; more than one: parts that nothing holds",
             cure="give the parts named supports",
-            parts=loose,
+            parts=tuple(dict.fromkeys(loose)),
         ),
-        _closed(found.loom),
-        *_too_near(found, titles),
+        _joints(whole.loom),
+        _closed(whole.loom),
+        *_too_near(whole, titles),
     )
+
+
+def _joints(loom: LoomDesign) -> Check:
+    """Every body is held by a joint, and what moves by one that lets it move."""
+    without = [body for body in loom_tree(loom).bodies if _is_without_joint(body)]
+    parts = (occurrence.part.id for body in without for occurrence in body.occurrences)
+    return at_most(
+        "bodies without a joint",
+        len(without),
+        0,
+        "1",
+        ", ".join(body.id for body in without) or "joints of all bodies to what carries them",
+        cure="give the bodies named bearings, guides or fasteners",
+        parts=tuple(dict.fromkeys(parts)),
+    )
+
+
+def _is_without_joint(body: RigidBody) -> bool:
+    joint = body.joint
+    return joint.kind == JointKind.MISSING or (joint.kind == JointKind.FIXED and joint.motion is not None)
 
 
 def _closed(loom: LoomDesign) -> Check:
@@ -97,74 +160,58 @@ def _closed(loom: LoomDesign) -> Check:
     return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
 
 
-def _too_near(found: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:
+def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:
     """The least clearance of the parts of each two machines that move against each other, and do not touch."""
-    machines, limit = machines_of_bodies(found.loom), found.loom.params.clearance
-    least: dict[frozenset[str], Approach] = {}
-    for pair in found.nearest:
-        both = frozenset(machines[body] for body in pair.bodies)
-        if len(both) == 2 and pair.moving and pair.distance > 0:
-            least.setdefault(both, pair)
+    machines, limit = machines_of_bodies(whole.loom), whole.loom.params.clearance
+    least: dict[frozenset[str], NearParts] = {}
+    for near in whole.nearest:
+        both = frozenset(machines[body] for body in near.approach.bodies)
+        if len(both) == 2 and near.approach.distance > 0:
+            least.setdefault(both, near)
     return tuple(
         at_least(
-            f"clearance in space: {titles[pair.parts[0]]} and {titles[pair.parts[1]]}",
-            pair.distance,
+            f"clearance in space: {titles[near.approach.parts[0]]} and {titles[near.approach.parts[1]]}",
+            near.approach.distance,
             limit - DEVIATION,
             "mm",
-            f"parameter clearance, assumed by this project, less the meshes' deviation; {_where(pair)}",
+            f"parameter clearance, assumed by this project, less the meshes' deviation; {_where(near)}",
             cure="set a larger clearance",
-            parts=pair.parts,
+            parts=near.approach.parts,
         )
-        for pair in least.values()
+        for near in least.values()
     )
-
-
-def with_assembly(loom: LoomDesign, report: Report) -> Report:
-    """The report of a loom with its parts against each other: results, checks, the nearest pairs, and the verdict."""
-    found = assembly(loom)
-    verdict = {result.name for result in results_of(LoomVerdict(report))}
-    whole = replace(
-        report,
-        checks=(*report.checks, *assembly_checks(found)),
-        results=(*(result for result in report.results if result.name not in verdict), *results_of(found)),
-        tables=(*report.tables, _nearest_table(found)),
-    )
-    return replace(whole, results=(*results_of(LoomVerdict(whole)), *whole.results))
-
-
-def _nearest_table(found: LoomAssembly) -> Table:
-    """The nearest pairs of parts; below 0 they are through each other, by the mean depth of what they share."""
-    titles, apart = _titles(found.loom), (pair for pair in found.nearest if pair.moving and pair.distance >= 0)
-    rows = tuple(
-        (titles[pair.parts[0]], titles[pair.parts[1]], pair.distance, pair.drive, pair.angle)
-        for pair in (*found.through, *apart)[: 3 * NEAREST]
-    )
-    heads = columns("part", "and", "least [mm]", "cyclogram", "at [deg]")
-    return Table("loom-nearest-parts", "Nearest parts", heads, rows)
 
 
 def _titles(loom: LoomDesign) -> dict[str, str]:
     return {part.id: part.title for part, _ in loom_tree(loom).occurrences()}
 
 
-def _worst(through: tuple[Approach, ...], titles: Mapping[str, str]) -> str:
+def _worst(through: tuple[NearParts, ...], titles: Mapping[str, str]) -> str:
     """The deepest three in words."""
-    deepest = (
-        (titles[pair.parts[0]], titles[pair.parts[1]], format_quantity(-pair.distance, "mm", 2), _where(pair))
-        for pair in through[:3]
-    )
-    return "; ".join(f"{first} in {other} by {depth}, {where}" for first, other, depth, where in deepest)
+
+    def named(near: NearParts) -> str:
+        first, other = (titles[part] for part in near.approach.parts)
+        return f"{first} in {other} by {format_quantity(-near.approach.distance, 'mm', 2)}, {_where(near)}"
+
+    return "; ".join(named(near) for near in through[:3])
 
 
-def _where(pair: Approach) -> str:
-    return f"at {pair.angle / deg:.1f} deg of a {pair.drive}"
+def _where(near: NearParts) -> str:
+    pair: Approach = near.approach
+    if near.heads == _STANDING:
+        return _STANDING
+    heads = "" if near.heads == MIDDLE else f", the heads {near.heads} of their shares"
+    return f"at {pair.angle / deg:.1f} deg of a {pair.drive}{heads}"
 
 
-def _as_json(pair: Approach) -> Json:
+def _as_json(near: NearParts) -> Json:
+    pair = near.approach
     return {
         "parts": list(pair.parts),
+        "bodies": list(pair.bodies),
         "distance": pair.distance,
         "volume": pair.volume,
         "cyclogram": pair.drive,
         "angle": pair.angle,
+        "heads": near.heads,
     }

@@ -2,7 +2,8 @@
 
 One wish is relaxed at a time, all others are kept: a coarser quality, a narrower carpet, the other knot, a later
 deadline. Quality and width are searched on a ladder of shares of what is required, by bisection: what fits at a share
-is taken to fit at every smaller one.
+is taken to fit at every smaller one. The parts of what is named have room in space; those of the other shares are not
+compared.
 """
 
 from collections.abc import Callable, Iterator
@@ -12,6 +13,7 @@ from ilmek.carpet.quality import COARSEST
 from ilmek.carpet.sizes import SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import IlmekError
+from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.machines.automated_loom.selection import design
@@ -41,10 +43,14 @@ def nearest_fits(params: AutomatedLoomParams, progress: Progress = SILENT) -> tu
     return tuple(found)
 
 
-def weaves(params: AutomatedLoomParams) -> bool:
-    """Whether every check of the loom for these wishes holds; False where it cannot be designed."""
+def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:
+    """Whether every check of the loom for these wishes holds; False where it cannot be designed.
+
+    in_space  False: without its parts against each other
+    """
     try:
-        return all(check.ok for check in all_checks(design(params)))
+        loom = design(params)
+        return all(check.ok for check in all_checks(loom)) and (not in_space or assembly(loom).holds)
     except IlmekError:
         return False
 
@@ -81,6 +87,6 @@ def _largest(scaled: Callable[[float], AutomatedLoomParams | None]) -> Iterator[
     while low < high:
         middle = (low + high) // 2
         tried = scaled(SHARES[middle])
-        low, high = (low, middle) if tried is not None and weaves(tried) else (middle + 1, high)
-    if low < len(SHARES):
+        low, high = (low, middle) if tried is not None and weaves(tried, in_space=False) else (middle + 1, high)
+    if low < len(SHARES) and (fits := scaled(SHARES[low])) is not None and weaves(fits):
         yield SHARES[low]

@@ -3,9 +3,13 @@
 Parts of one machine must not be through each other; those of two machines that move against each other keep the
 parameter `clearance`. A beat that travels along the row strikes many times over the same path: of the strokes between
 the first and the last `STATIONS` are looked at, evenly along the row.
+
+The heads stand in the middle of their shares of the row. What is on them is compared with all else also where they
+stand at both ends of these, over the row and over the knot, and, with their tools at rest, everywhere between.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,7 +19,13 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import branches_of, loom_tree
 from ilmek.machines.beat import BeatPath
-from ilmek.part.clearances import TURN, Approach, Window, approaches
+from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.clearances import Approach, approaches
+from ilmek.part.placement import placement
+from ilmek.part.swept import TURN, Window
+from ilmek.part.tree import Tree
+from ilmek.records import record
+from ilmek.report.scene import SceneMotion
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import mm, turn
 
@@ -24,26 +34,62 @@ HORIZON = 10 * mm
 
 STATIONS = 3
 
+ALONG = "share"
+"""Drive that takes the heads from one end of their shares to the other, their tools at rest."""
+
+LEFT, MIDDLE, RIGHT, BETWEEN = "at the left end", "in the middle", "at the right end", "between the ends"
+"""Where the heads stand in their shares."""
+
 _AT_FELL = 1e-9
 """Distance from the fell that counts as rounding [m]."""
 
 
+@record
+class NearParts:
+    """Two parts that come near to each other, and where the heads stand in their shares of the row."""
+
+    approach: Approach
+    heads: str
+
+
 @lru_cache(maxsize=4)
-def nearest_parts(loom: LoomDesign) -> tuple[Approach, ...]:
-    """The least distance of every two parts that come near, of both cyclograms the least; the nearest first."""
+def nearest_parts(loom: LoomDesign) -> tuple[NearParts, ...]:
+    """The least distance of every two parts that move against each other and come near; the nearest first."""
+    least: dict[tuple[str, ...], NearParts] = {}
+    for near in (NearParts(pair, heads) for heads, pairs in _passes(loom) for pair in pairs):
+        key = (*near.approach.parts, *near.approach.bodies)
+        if key not in least or near.approach.distance < least[key].approach.distance:
+            least[key] = near
+    return tuple(sorted(least.values(), key=lambda near: near.approach.distance))
+
+
+def _passes(loom: LoomDesign) -> Iterator[tuple[str, tuple[Approach, ...]]]:
+    """The approaches over each cyclogram, and where the heads stand."""
     tree, machine = loom_tree(loom), machines_of_bodies(loom)
+    windows = row_windows(loom.row_cyclogram, loom.beat.path)
 
     def required(first: str, other: str) -> float:
         return 0.0 if machine[first] == machine[other] else loom.params.clearance
 
-    row = approaches(tree, ROW, HORIZON, row_windows(loom.row_cyclogram, loom.beat.path), required)
-    knot = approaches(tree, KNOT, HORIZON, TURN, required, moving=True)
-    least: dict[tuple[str, ...], Approach] = {}
-    for pair in (*row, *knot):
-        key = (*pair.parts, *pair.bodies)
-        if key not in least or pair.distance < least[key].distance:
-            least[key] = pair
-    return tuple(sorted(least.values(), key=lambda pair: pair.distance))
+    yield MIDDLE, approaches(tree, ROW, HORIZON, windows, required)
+    yield MIDDLE, approaches(tree, KNOT, HORIZON, TURN, required)
+    on_heads = frozenset(tree.carried_by(HEAD))
+    range_ = loom.task.cloth.width / loom.heads - loom.knot_pitch
+    for heads, shift in ((LEFT, -range_ / 2), (RIGHT, range_ / 2)):
+        moved = _shifted(tree, shift)
+        yield heads, approaches(moved, ROW, HORIZON, windows, required, on_heads)
+        yield heads, approaches(moved, KNOT, HORIZON, TURN, required, on_heads)
+    run = SceneMotion(ALONG, np.array([0.0, turn]), np.outer([-range_ / 2, range_ / 2], (1.0, 0.0, 0.0)), np.zeros(2))
+    yield BETWEEN, approaches(tree.moving({HEAD: run}), ALONG, HORIZON, TURN, required, on_heads)
+
+
+def _shifted(tree: Tree, shift: float) -> Tree:
+    """The tree with the heads moved along the row [m]."""
+    aside = placement(shift)
+    return tree.replaced(
+        replace(body, positions=tuple(aside.after(own) for own in body.positions)) if body.id == HEAD else body
+        for body in tree.bodies
+    )
 
 
 def machines_of_bodies(loom: LoomDesign) -> Mapping[str, str]:

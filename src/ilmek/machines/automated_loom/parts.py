@@ -36,7 +36,7 @@ class PartsList:
     prices: Mapping[str, PriceRates]
     frame: LoomFrame = group()
 
-    axes = computed("1", "driven axes", lambda it: driven_axes(it.parts))
+    axes = computed("1", "axes that a motor drives", lambda it: driven_axes(it.parts), name="driven_axes")
     mass = computed(
         "kg",
         "mass of all parts but reducers, rails and control",

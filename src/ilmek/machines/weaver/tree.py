@@ -46,7 +46,7 @@ def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placemen
     motor = catalogue.motor(
         part_id("carriage-motor"), "motor of a carriage", smallest_motor(torque, turning), torque, turning
     )
-    drive = RigidBody(CARRIAGE, (Occurrence(motor),), joint=Joint(JointKind.MISSING), positions=tuple(drives))
+    drive = RigidBody(CARRIAGE, (Occurrence(motor),), positions=tuple(drives))
     return Tree((replace(first, positions=tuple(heads)), *others, drive))
 
 

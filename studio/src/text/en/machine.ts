@@ -25,6 +25,7 @@ export default {
   designing: "Designing",
   designed: "Designed in {time}",
   holds: "Every check holds",
+  pending: "Holds so far; the parts are being compared in space",
   fails: "{count} check fails|{count} checks fail",
   noDesign: "No design with these settings",
   keptBelow: "Below is the last design that worked.",

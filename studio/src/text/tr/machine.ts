@@ -28,6 +28,7 @@ export default {
   designing: "Tasarlanıyor",
   designed: "{time} içinde tasarlandı",
   holds: "Bütün denetimler sağlanıyor",
+  pending: "Şimdilik sağlanıyor; parçalar uzayda karşılaştırılıyor",
   fails: "{count} denetim sağlanmıyor|{count} denetim sağlanmıyor",
   noDesign: "Bu ayarlarla tasarım yok",
   keptBelow: "Aşağıda çalışan son tasarım var.",

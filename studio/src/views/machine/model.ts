@@ -222,10 +222,22 @@ export class MachineModel {
     this.nearest.value = "";
     this.comparison.value = null;
     if (this.failure.peek() !== null) return;
-    this.#findNearest(state);
+    if (this.view.peek()?.pending === true) this.#compareInSpace(state);
+    else this.#findNearest(state);
     this.#compare(state);
     if (this.figuresOfB.peek() === null) this.#drawB();
     this.#move(state);
+  }
+
+  /** The parts against each other in space take about a second: the view is whole when they are there. */
+  #compareInSpace(state: State): void {
+    post<DesignView>(path(state.machine, "space"), { settings: state.settings }, this.#later.signal).then(
+      (view) => {
+        this.view.value = view;
+        this.#findNearest(state);
+      },
+      () => undefined,
+    );
   }
 
   #findNearest(state: State): void {

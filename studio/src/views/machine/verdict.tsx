@@ -47,15 +47,18 @@ export function VerdictBadge({ model }: { model: MachineModel }) {
   const failure = model.failure.value;
   if (view === null && failure === null) return null;
   const good = view?.holds === true && failure === null;
+  const pending = good && view.pending;
   return (
     <span class="ui-row" role="status">
       <span class={`ui-badge machine-badge ${good ? "good" : "bad"}`}>
         <Icon name={good ? "good" : "error"} />
         {failure !== null || view === null
           ? t("machine.noDesign")
-          : good
-            ? t("machine.holds")
-            : t("machine.fails", { count: view.failed })}
+          : pending
+            ? t("machine.pending")
+            : good
+              ? t("machine.holds")
+              : t("machine.fails", { count: view.failed })}
       </span>
       <span class="ui-muted machine-time">
         {model.working.value

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.checks import ShownCheck
-from ilmek.jobs.studio.machine.view import DesignView, judged, shown
+from ilmek.jobs.studio.machine.view import DesignView, shown, whole
 from ilmek.params import Setting
 
 ROUNDING = 1e-9
@@ -59,7 +59,7 @@ def comparison(request: ComparisonRequest, context: Context) -> Comparison:
     """Compare two settings of a machine. Raises as `design_machine` does, for either."""
     a, b = (
         shown(report, params, 0.0)
-        for params, report in (judged(request.name, one, context.progress) for one in (request.a, request.b))
+        for params, report in (whole(request.name, one, context.progress) for one in (request.a, request.b))
     )
     return Comparison(a.failed, b.failed, _parameters(a, b), _results(a, b), _checks(a, b))
 

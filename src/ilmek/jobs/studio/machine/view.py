@@ -17,7 +17,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import Report, result_text
+from ilmek.report import BUILDABLE, Report, result_text
 from ilmek.units import si_unit
 from ilmek.viz.number_format import quantity
 
@@ -69,6 +69,7 @@ class DesignView:
     """A design of a machine as the studio shows it.
 
     parameters  in force by name, those that the design chose too
+    pending     whether its parts are still to be compared with each other in space: `in_space` does
     failed      number of checks that do not hold          seconds  that the design and its report took [s]
     """
 
@@ -83,6 +84,7 @@ class DesignView:
     warnings: tuple[str, ...]
     parameters: dict[str, ForceValue]
     seconds: float
+    pending: bool
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -94,28 +96,45 @@ class NearestTasks:
 
 
 def view(request: DesignRequest, context: Context) -> DesignView:
-    """Design a machine and show it without tables and figures. Raises as `design_machine` does."""
+    """Design a machine and show it without tables and figures, and without its parts against each other in space.
+
+    Raises as `design_machine` does.
+    """
     began = time.perf_counter()
     params, report = judged(request.name, request.settings, context.progress)
     return shown(report, params, time.perf_counter() - began)
 
 
+def in_space(request: DesignRequest, context: Context) -> DesignView:
+    """The same with its parts against each other in space: about a second of work."""
+    began = time.perf_counter()
+    params, report = whole(request.name, request.settings, context.progress)
+    return shown(report, params, time.perf_counter() - began)
+
+
 def nearest(request: DesignRequest, context: Context) -> NearestTasks:
     """The nearest carpets that a loom could weave, where it cannot weave what is required: some seconds of work."""
-    params, report = judged(request.name, request.settings, context.progress)
+    params, report = whole(request.name, request.settings, context.progress)
     found = with_nearest(report, params, context.progress)
     wishes: Any = found.results[-1].value if found is not report else ()
     return NearestTasks(found.nearest, tuple(wishes))
 
 
 def judged(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
-    """The parameters of a machine for settings, and the report of its design without tables and figures."""
+    """The parameters of a machine for settings, and the report of its design as of `report_for`."""
     params = find_machine(name).params.read(settings)
     return params, report_for(name, params, progress)
 
 
+def whole(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
+    """The same with its parts against each other in space."""
+    machine = find_machine(name)
+    params = machine.params.read(settings)
+    return params, machine.report(designed(name, params, progress), illustrated=False)
+
+
 def report_for(name: str, params: Params, progress: Progress = SILENT) -> Report:
-    """The report of a design without tables and figures. The last ones are kept."""
+    """The report of a design without tables, figures and its parts against each other. The last ones are kept."""
     return _kept(name, params, progress)[1]
 
 
@@ -129,7 +148,7 @@ def _kept(name: str, params: Params, progress: Progress) -> tuple[Any, Report]:
     if (found := _DESIGNS.get(key)) is None:
         machine = find_machine(name)
         design = machine.designed(params, progress)
-        found = _DESIGNS[key] = design, machine.report(design, illustrated=False)
+        found = _DESIGNS[key] = design, machine.report(design, illustrated=False, assembled=False)
         if len(_DESIGNS) > _MOST:
             del _DESIGNS[next(iter(_DESIGNS))]
     return found
@@ -157,6 +176,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         warnings=all_in_page(report.all_warnings),
         parameters=in_force(report, params),
         seconds=seconds,
+        pending=find_machine(report.machine).assembly is not None and BUILDABLE not in report.names(),
     )
 
 

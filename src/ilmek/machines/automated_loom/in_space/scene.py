@@ -76,13 +76,13 @@ def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
     return tuple(moved)
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom and of its equipment, each after what carries it."""
     return (*machine_branches(loom), *equipment(loom))
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
     return joined(branches_of(loom))

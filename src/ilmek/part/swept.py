@@ -1,0 +1,159 @@
+"""The parts of bodies over the turn of a drive, as pieces: the boxes that contain each in intervals of the turn."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property, lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from ilmek.arrays import Float, FloatArray
+from ilmek.part.colliders import MANY, Collider, collider, row
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.poses import Chain, ChainLink, ChainTravel, Extent, poses
+from ilmek.part.shapes import Shape, Sum
+from ilmek.part.tree import RigidBody
+from ilmek.units import turn
+
+INTERVALS, SAMPLES = 24, 8
+"""Intervals of a turn that are compared by boxes, and samples of each."""
+
+Window = tuple[float, float]
+TURN: tuple[Window, ...] = ((0.0, turn),)
+
+Boxes = Float[np.ndarray, "pieces intervals 2 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """A part in a body, or of many all as one; few: of many three."""
+
+    part: str
+    position: Placement
+    collider: Collider
+    few: Collider | None = None
+
+    @cached_property
+    def extent(self) -> Extent:
+        """Corners of its convex hull in the body's axes [m]."""
+        return Extent(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """The pieces of a body at the end of a chain, over the turn of a drive."""
+
+    pieces: tuple[Piece, ...]
+    travel: ChainTravel
+    ends: Float[np.ndarray, "intervals samples"]
+    seen: dict[int, Boxes] = field(default_factory=dict)
+
+    @property
+    def chain(self) -> Chain:
+        """Its chain."""
+        return self.travel.chain
+
+    @property
+    def body(self) -> str:
+        """Id of the body."""
+        return self.chain[-1].name
+
+    @cached_property
+    def reaches(self) -> Float[np.ndarray, "pieces links"]:
+        """Largest distances of the points of each piece from the axis of each link's joint [m]."""
+        return self.travel.reaches([piece.extent for piece in self.pieces])
+
+    def moved(self, number: int, shared: int) -> FloatArray:
+        """Travel of a piece at the angles, by the links of its chain after the shared ones [m]."""
+        by_turns = self.reaches[number, shared:] @ self.travel.turns[shared:]
+        return np.asarray(self.travel.shifts[shared:].sum(0) + by_turns)
+
+    def boxes(self, shared: int = 0) -> Boxes:
+        """Boxes that contain the pieces over the intervals, seen from a body of the chain: least, largest x, y, z [m].
+
+        shared  number of the links to that body; default: seen from the ground
+        """
+        if shared not in self.seen:
+            self.seen[shared] = self._boxes(shared)
+        return self.seen[shared]
+
+    def _boxes(self, shared: int) -> Boxes:
+        chain, drive = self.chain[shared:], self.travel.drive
+        size = len(self.pieces), len(self.ends), 2, 3
+        if not any(self.travel.moves[shared:]):
+            here = poses(chain, drive, np.zeros(1))
+            still = [here.points(piece.extent.points)[0] for piece in self.pieces]
+            return np.broadcast_to(np.array([[own.min(0), own.max(0)] for own in still])[:, None], size)
+        corners = np.concatenate([_box_corners(piece.extent.points) for piece in self.pieces])
+        at = poses(chain, drive, self.ends.ravel()).points(corners)
+        at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
+        low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
+        along = ChainTravel(chain, drive, self.travel.angles).along_axes(self.reaches[:, shared:])
+        # Between two samples a point leaves the box of its ends by half of its travel at most.
+        steps = np.diff(_interpolated(self.ends, self.travel.angles, along), axis=-1).max(-1) / 2
+        margin = steps.swapaxes(1, 2)
+        return np.stack([low - margin, high + margin], axis=2)
+
+
+def _interpolated(at: FloatArray, angles: FloatArray, values: Float[np.ndarray, "*n angles"]) -> FloatArray:
+    """Values along the last axis at angles of any shape [*n, *at]."""
+    after = np.clip(np.searchsorted(angles, at), 1, len(angles) - 1)
+    share = (at - angles[after - 1]) / (angles[after] - angles[after - 1])
+    return np.asarray(values[..., after - 1] * (1 - share) + values[..., after] * share)
+
+
+def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 3"]:
+    """Corners of the box about points in their own frame."""
+    low, high = points.min(0), points.max(0)
+    return np.array([np.where(chosen, high, low) for chosen in np.ndindex(2, 2, 2)])
+
+
+@lru_cache(maxsize=512)
+def carried_on(
+    links: tuple[tuple[RigidBody, int], ...], drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]
+) -> Carried:
+    """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
+    chain = tuple(ChainLink(body, body.id, index) for body, index in links)
+    return Carried(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), intervals(windows))
+
+
+def _pieces(chain: Chain) -> Iterator[Piece]:
+    """The pieces of the parts of the last body, of a sum its members; of what is in it `MANY` times all as one."""
+    for occurrence in chain[-1].body.occurrences:
+        part = occurrence.part
+        if part.shape is None:
+            continue
+        if len(occurrence.positions) >= MANY:
+            yield Piece(part.id, IDENTITY, *row(occurrence))
+            continue
+        members = tuple(_members(part.shape))
+        if len(members) >= MANY:
+            members = ((part.shape, IDENTITY),)
+        for position in occurrence.positions:
+            yield from (Piece(part.id, position.after(own), collider(shape)) for shape, own in members)
+
+
+def _members(shape: Shape) -> Iterator[tuple[Shape, Placement]]:
+    if not isinstance(shape, Sum):
+        yield shape, IDENTITY
+        return
+    for member in shape.members:
+        inner = tuple(_members(member.shape))
+        yield from ((own, position.after(at)) for position in member.positions for own, at in inner)
+
+
+def intervals(windows: tuple[Window, ...]) -> Float[np.ndarray, "intervals samples"]:
+    """Angles of the intervals of the windows [rad]: both ends of each, and samples between them."""
+    rows = []
+    for begin, end in windows:
+        number = max(round((end - begin) / turn * INTERVALS), 1)
+        edges = np.linspace(begin, end, number + 1)
+        rows += [np.linspace(low, high, SAMPLES + 1) for low, high in pairwise(edges.tolist())]
+    return np.array(rows)
+
+
+def box_gaps(boxes: Boxes, others: Boxes) -> Float[np.ndarray, "n m intervals"]:
+    """Distances of boxes [m]."""
+    own, its = boxes[:, None], others[None]
+    apart = np.maximum(own[..., 0, :] - its[..., 1, :], its[..., 0, :] - own[..., 1, :])
+    return np.asarray(np.linalg.norm(np.maximum(apart, 0.0), axis=-1))
