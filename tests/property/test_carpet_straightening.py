@@ -2,13 +2,14 @@
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import effort
 import numpy as np
 import photographs
 import pytest
-from carpet_photographs import kilim, medallion, random_photograph
+from carpet_photographs import WOODS, kilim, medallion, random_photograph
 from effort import examples
 from fitted_picture import fit_picture
 from hypothesis import given, settings
@@ -195,6 +196,42 @@ def test_the_stripes_at_the_ends_of_a_kilim_are_no_fringe(seed: int, wood: str, 
 @pytest.mark.parametrize("seed", [102, 524])
 def test_a_dark_frame_on_a_black_floor_is_found_or_refused(seed: int) -> None:
     taken = random_photograph(seed, (600, 800), wood="black", fringe="none")
+    try:
+        corners, _ = find_outline(taken.rgb)
+    except PictureError:
+        return
+    assert off(corners, taken.corners) < 2.0
+
+
+def divided(width: int) -> Rgb:
+    """A red carpet with light ends, and across it a stripe in the colour of a floor of mid wood."""
+    rgb = np.full((width * 3 // 2, width, 3), (150, 32, 38), dtype=np.uint8)
+    rgb[: width // 8] = rgb[-(width // 8) :] = (225, 210, 170)
+    rgb[int(0.45 * width) : int(0.84 * width)] = WOODS["mid"]
+    return rgb
+
+
+def framed_in_black(width: int) -> Rgb:
+    """The medallion in a frame that is nearly as dark as a black floor."""
+    rgb, frame = medallion(width).copy(), width // 24
+    for side in (np.s_[:frame], np.s_[-frame:], np.s_[:, :frame], np.s_[:, -frame:]):
+        rgb[side] = np.array(WOODS["black"]) + 4
+    return rgb
+
+
+@pytest.mark.parametrize(
+    ("carpet", "seed", "wood"),
+    [
+        (divided, 1, {"wood": "mid"}),
+        (divided, 2, {"wood": "mid"}),
+        (framed_in_black, 6, {"wood": "black", "fringe": "dense"}),
+    ],
+)
+def test_a_carpet_with_the_colour_of_the_floor_in_it_is_found_or_refused(
+    carpet: Callable[[int], Rgb], seed: int, wood: dict[str, str]
+) -> None:
+    """Of the divided carpet half was taken, of the frame one side left out, by 524 and 23 pixels."""
+    taken = random_photograph(seed, (900, 1200), carpet, **wood)
     try:
         corners, _ = find_outline(taken.rgb)
     except PictureError:

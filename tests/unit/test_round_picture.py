@@ -66,3 +66,14 @@ def test_the_knots_outside_are_a_failed_check(tmp_path: Path, options: tuple[str
     data = json.loads((tmp_path / "out" / "chart.json").read_text())
     failed = {check["name"]: check["value"] for check in data["checks"] if not check["ok"]}
     assert failed == ({"knots outside of the round picture": pytest.approx(CORNERS, abs=0.01)} if code else {})
+
+
+@pytest.mark.parametrize("mode", ["RGBA", "LA", "P"])
+def test_a_picture_of_nothing_is_an_error(tmp_path: Path, mode: str, capsys: pytest.CaptureFixture[str]) -> None:
+    Image.new("RGBA", (60, 40)).convert(mode).save(
+        tmp_path / "nothing.png", **({"transparency": 0} if mode == "P" else {})
+    )
+    with pytest.raises(SystemExit) as end:
+        main(["chart", str(tmp_path / "nothing.png"), "--out", str(tmp_path / "out")])
+    assert end.value.code == 2
+    assert "all 60 x 40 pixels are transparent" in capsys.readouterr().err

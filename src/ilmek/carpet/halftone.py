@@ -342,9 +342,10 @@ def _join(knots: Indices, rgb: Rgb, labs: FloatArray, first: int, stop: int) -> 
             own = knots[y, x]
             lightness, a, b = lab_of_light(LIGHT[rgb[y, x, 0]], LIGHT[rgb[y, x, 1]], LIGHT[rgb[y, x, 2]])
             least = ciede2000(lightness, a, b, labs[own, 0], labs[own, 1], labs[own, 2]) + SHOWN
-            for i, j in ((y - 1, x), (y + 1, x), (y, x - 1), (y, x + 1)):
-                if 0 <= i < rows and 0 <= j < columns:
-                    yarn = knots[i, j]
+            before = own
+            for i, j in ((y - 1, x), (y, x - 1), (y + 1, x), (y, x + 1)):
+                if 0 <= i < rows and 0 <= j < columns and knots[i, j] not in (before, knots[y, x]):
+                    before = yarn = knots[i, j]
                     far = ciede2000(lightness, a, b, labs[yarn, 0], labs[yarn, 1], labs[yarn, 2])
                     if far < least:
                         least = far

@@ -34,6 +34,7 @@ from ilmek.carpet.straight_edges import (
     fitted_line,
     sampled,
     share_like_floor,
+    share_unlike_beyond,
     sharp_step_outside,
     step_beside,
     step_outside,
@@ -96,7 +97,7 @@ _BEYOND, _GOES_ON = ((-0.2, -0.07), (1.07, 1.2)), 0.4
 """Where a line is looked at beyond its ends, in lengths of the side, and least step there of one that goes on."""
 
 _LIKE_FLOOR = 0.5
-"""Share of the band inside an edge that may look like the floor."""
+"""Share of the band inside an edge that may look like the floor, and of what lies outside its ends that may not."""
 
 _BETWEEN_THREADS = 0.03
 """Share of it between the threads of a fringe: of two opposite sides alone."""
@@ -168,6 +169,8 @@ def _sides(
         doubts.append(Sentence("picture.outline-fainter"))
     for strip, (step, distance) in zip(strips, wide, strict=True):
         if step > most and distance > _THIN and not _goes_on(lab, difference, strip, (reach, distance, step)):
+            doubts.append(Sentence("picture.outline-fainter-side"))
+        if share_unlike_beyond(difference, strip) > _LIKE_FLOOR:
             doubts.append(Sentence("picture.outline-fainter-side"))
         if unlike_in_any_light(strip, floor) > _ALIKE:
             doubts.append(Sentence("picture.outline-unlike"))

@@ -64,6 +64,9 @@ _SLOPES = 41
 _SHARP = 6
 """Distance across at which a sharp step has ended [samples]."""
 
+_OUTSIDE, _BEYOND = (4.0, 9.0), ((-0.035, -0.005), (1.005, 1.035))
+"""Where the fringe of other sides is looked for: outside a side [pixels], and beyond its ends [lengths of it]."""
+
 _CLEAR = 2.5
 """Distance from an edge at which its own blur has ended [pixels]."""
 
@@ -257,6 +260,22 @@ def share_like_floor(strip: SideStrip) -> float:
     """Share of what is just inside the middle line of a side that differs from the floor no more than its grain."""
     first = len(strip.across) // 2 + _FLANK
     return float(np.mean(strip.difference[:, first : first + 2 * _FLANK] < 1))
+
+
+def share_unlike_beyond(difference: FloatArray, strip: SideStrip) -> float:
+    """Share of what is just outside a side's line and beyond either end of it that is no floor, the lesser of both.
+
+    The fringe of the sides that meet it ends at that line: where it reaches farther, so does the carpet.
+    """
+    along = strip.end - strip.start
+    unit = along / np.hypot(*along)
+    across = np.arange(*_OUTSIDE)[:, None] * np.array([unit[1], -unit[0]])
+    shares = []
+    for end in _BEYOND:
+        places = strip.start + np.linspace(*end, 20)[:, None, None] * along + across - 0.5
+        unlike = scipy.ndimage.map_coordinates(difference, (places[..., 1], places[..., 0]), order=1, mode="nearest")
+        shares.append(float(np.mean(unlike > 1)))
+    return min(shares)
 
 
 def fitted_line(strip: SideStrip, edge: Edge, tolerance: float) -> tuple[FloatArray, float]:

@@ -13,6 +13,7 @@ from PIL import Image, ImageCms
 from ilmek.arrays import FloatArray, Rgb
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.picture_points import Colour, hex_colour
+from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 
 MOST_PROFILE = 4_000_000
@@ -50,15 +51,17 @@ def srgb_pixels(
     """The pixels of a loaded picture, the colour behind its transparent parts (None: it has none), and notes.
 
     ground  default: white, or DARK behind art that is nearly white
+    Raises PictureError for a picture that is transparent everywhere.
     """
     to_eight_bits, notes = _eight_bits(image)
     first = to_eight_bits(image.crop((0, 0, image.width, 1)))
     to_rgb, more = _in_srgb(_flat(first).mode, image.info.get("icc_profile"))
     out = np.empty((image.height, image.width, 3), dtype=np.uint8)
-    behind = None
+    behind, shows = None, False
     for top, bottom in _strips(image):
         strip = to_eight_bits(image.crop((0, top, image.width, bottom)))
         coloured, hiding = to_rgb(_flat(strip)), cover(strip)
+        shows = shows or hiding is None or hiding.getextrema() != (0, 0)
         if hiding is not None:
             behind = behind or ground or _contrasting(image, to_eight_bits, to_rgb)
             below = Image.new("RGB", strip.size, behind)
@@ -66,6 +69,8 @@ def srgb_pixels(
             coloured = below
         out[top:bottom] = np.asarray(coloured)
         progress(bottom / image.height)
+    if not shows:
+        raise PictureError(f"all {image.width} x {image.height} pixels are transparent", do="export it with its layers")
     return out, behind, (*notes, *more, *_about_the_ground(behind, ground))
 
 
