@@ -117,6 +117,7 @@ def command(  # noqa: PLR0917 - click calls it by name
             in_space=space_to is not None,
             outputs=call.outputs,
             progress=call.progress,
+            illustrated=not call.quiet or page_to is not None or animation_to is not None,
         )
         call.give_page("--report", made.report)
         call.give_animation("--animation", made.report, motion)
