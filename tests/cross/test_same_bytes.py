@@ -17,8 +17,10 @@ from ilmek.machines.catalogue import MACHINES
 def digest(data):
     return hashlib.sha256(data).hexdigest()
 
-names = some(MACHINES, 6)
-made = {name: digest(json.dumps(MACHINES[name].report_for({}).as_json()).encode()) for name in names}
+def reported(machine):  # without figures: those of two machines are in the files
+    return machine.report(machine.design(machine.params.read({})), illustrated=False).as_json()
+
+made = {name: digest(json.dumps(reported(MACHINES[name])).encode()) for name in some(MACHINES, 6)}
 for call in (
     "design cam --workshop cam",
     "chart ../noise.png --size 50x50cm --quality 25x25/dm --out chart",

@@ -4,7 +4,7 @@ Warnings are errors in the test run. Lengths that meet at change points and dead
 """
 
 import numpy as np
-from effort import examples
+from effort import examples, number
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -21,6 +21,9 @@ from ilmek.linkage.status import Status
 
 LENGTHS = st.sampled_from([0.1, 0.2, 0.3])
 """Few lengths, so that crank = rod, parallelograms and kites are drawn often."""
+
+TIME = number(0.02, 0.05)
+"""Of a run forward in time [s]."""
 
 Numbers = tuple[str, tuple[float, float, float, float], int, float, float, float]
 DESIGNS = st.tuples(
@@ -76,7 +79,7 @@ def test_random_machines_give_no_warnings(design: Numbers) -> None:
     assert np.isfinite(forces.effort("crank")[solved]).all()
     assert all(np.isfinite(force[solved]).all() for force in forces.reactions.values())
     coasting = (
-        ilmek.simulate(mechanism, inertias, 0.05, position=0.4, speed=6.0, loads=loads, every=0.01)
+        ilmek.simulate(mechanism, inertias, TIME, position=0.4, speed=6.0, loads=loads, every=0.01)
         if motion.ok
         else None
     )
@@ -89,7 +92,7 @@ def test_random_machines_give_no_warnings(design: Numbers) -> None:
         gravity=-9.81j,
         loads=tuple(NamedLoad(f"load {k}", load) for k, load in enumerate(loads)),
         frictions=frictions,
-        forward=ForwardTask(0.05, 0.4, 6.0, MotorDrive(2.0, 30.0)) if motion.status[5] == Status.OK else None,
+        forward=ForwardTask(TIME, 0.4, 6.0, MotorDrive(2.0, 30.0)) if motion.status[5] == Status.OK else None,
     )
     found = ilmek.run_machine(machine, speed="70rpm", steps=24)
     assert found.forces is not None

@@ -47,13 +47,13 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
 def test_loom_follows_the_chart() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="8mm")
     charted = make_charted(order)
-    loomed = make_loomed(read_loom_order(order), charted)
+    loomed = make_loomed(read_loom_order(order), charted, illustrated=False)
     params = loomed.design.params
     assert params.colours == charted.chart.colours <= 6
     assert params.cloth.warp_pitch == 0.0025
     # A longer pile takes more yarn a knot, which the handler must draw.
     deep = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="20mm")
-    assert make_loomed(read_loom_order(deep), make_charted(deep)).design.params.knot_yarn > params.knot_yarn + 0.02
+    assert params_for(read_loom_order(deep), make_charted(deep)).knot_yarn > params.knot_yarn + 0.02
 
 
 @pytest.mark.matrix(light=4)
@@ -71,7 +71,7 @@ def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, k
 
 def test_heads_are_as_many_as_fit_where_few_fit() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm")
-    loomed = make_loomed(read_loom_order(order), make_charted(order))
+    loomed = make_loomed(read_loom_order(order), make_charted(order), illustrated=False)
     assert loomed.programme.heads == loomed.design.heads_max < 4
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import ezdxf
 import numpy as np
 import pytest
+from default_machines import default_report
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
@@ -31,7 +32,7 @@ from ilmek.units import mm, turn
 @cache
 def report(machine: str, **settings: str) -> Report:
     made = find_machine(machine)
-    return made.report(made.design(made.params.read(settings)))
+    return made.report(made.design(made.params.read(settings))) if settings else default_report(machine)
 
 
 def results(machine: str, **settings: str) -> dict[str, Any]:

@@ -137,6 +137,7 @@ def command(  # noqa: PLR0917 - click calls it by name
             WorkshopOrder(parts_to, tolerance) if parts_to else None,
             outputs=call.outputs,
             progress=call.progress,
+            illustrated=not call.quiet or page_to is not None or animation_to is not None,
         )
         call.give_page("--report", made.report)
         call.give_animation("--animation", made.report, motion)

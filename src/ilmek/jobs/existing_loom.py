@@ -7,6 +7,7 @@ results in the file prove that it is the same loom.
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -54,8 +55,14 @@ def read_existing_loom(path: Path, *, illustrated: bool = False) -> ExistingLoom
         made = design(AutomatedLoomParams.read(settings))
     except IlmekError as error:
         raise LoomError(f"{path}, parameters: {error.given}", allowed=error.allowed, do=error.do) from None
-    report = MACHINE.report(made, illustrated=illustrated)
+    report = _reported(made, illustrated)
     return ExistingLoom(path, made, report, tuple(_differences(file, report)))
+
+
+@lru_cache(maxsize=2)
+def _reported(made: LoomDesign, illustrated: bool) -> Report:
+    """The report of a loom: equal parameters give the same design, and a loom weaves many carpets."""
+    return MACHINE.report(made, illustrated=illustrated)
 
 
 def _differences(file: LoomFile, report: Report) -> Iterator[str]:

@@ -1,7 +1,8 @@
 """A tree seen from a side: the outlines of its parts, at rest or over the turn of a drive.
 
-The outline of a part is that of its mesh [`manifold3d`], its holes left out. A part that turns about the line of sight
-or does not turn keeps it; of one that turns otherwise the convex hull of what is seen is drawn.
+The outline of a part is that of its mesh [`manifold3d`], of a turned one along or across its axis that of its profile;
+holes are left out. A part that turns about the line of sight or does not turn keeps it; of one that turns otherwise the
+convex hull of what is seen is drawn.
 """
 
 from collections.abc import Iterable, Iterator
@@ -10,7 +11,7 @@ from enum import Enum
 from functools import cached_property, lru_cache
 
 import numpy as np
-from manifold3d import Manifold, Mesh
+from manifold3d import CrossSection, FillRule, Manifold, Mesh
 from scipy.spatial import ConvexHull
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
@@ -18,7 +19,9 @@ from ilmek.part.colliders import MANY
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import Chain, Poses, chains, poses
+from ilmek.part.shapes import Turned
 from ilmek.part.tree import Tree
+from ilmek.plane.contours import along, circle
 from ilmek.plane.curves import hull
 from ilmek.records import record
 from ilmek.report.scene import Solid
@@ -180,16 +183,38 @@ def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArr
 def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
     """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
     turned = np.frombuffer(rotation).reshape(3, 3)
+    if isinstance(part.shape, Turned) and (seen_turned := _turned_body(part.shape, turned[:, 2])):
+        return seen_turned
     mesh = _mesh(part)
     # Not kept: a Manifold that lives as long as the process is reported as leaked at its end.
     solid = Manifold(Mesh(mesh.points.astype(np.float32), mesh.triangles.astype(np.uint32)))
     seen = solid.transform(np.column_stack([turned, np.zeros(3)]))
-    curves = [polygon[:, 0] + 1j * polygon[:, 1] for polygon in seen.project().simplify(COARSE / 2).to_polygons()]
-    outer = tuple(curve for curve in curves if _area(curve) > 0)
+    outer = tuple(_outer(seen.project()))
     if not outer:  # thinner than the deviation
         flat = mesh.points @ turned[:2].T
         outer = (hull(flat[:, 0] + 1j * flat[:, 1]),)
     return outer, float(seen.bounding_box()[5])
+
+
+def _turned_body(shape: Turned, axis: Float[np.ndarray, "3"]) -> tuple[tuple[ComplexArray, ...], float] | None:
+    """What is seen of a turned body along its axis, its largest circle, or across it, its frustums; None: aslant."""
+    profile = along(shape.profile.outline, COARSE / 2)
+    if abs(axis[2]) > 1 - _SAME:
+        return (along(circle(0j, shape.outer_radius), COARSE / 2),), float((profile.real * axis[2]).max())
+    if abs(axis[2]) > _SAME:
+        return None
+    following = np.roll(profile, -1)
+    ahead = profile.real < following.real
+    left, right = np.where(ahead, profile, following), np.where(ahead, following, profile)
+    frustums = np.stack([left.conj(), right.conj(), right, left], axis=1)[left.real < right.real]
+    together = CrossSection(list(np.stack([frustums.real, frustums.imag], axis=-1)), FillRule.NonZero)
+    return tuple(complex(axis[0], axis[1]) * curve for curve in _outer(together)), shape.outer_radius
+
+
+def _outer(section: CrossSection) -> Iterator[ComplexArray]:
+    """Its outer curves, simplified."""
+    curves = (polygon[:, 0] + 1j * polygon[:, 1] for polygon in section.simplify(COARSE / 2).to_polygons())
+    return (curve for curve in curves if _area(curve) > 0)
 
 
 @lru_cache(maxsize=512)

@@ -151,7 +151,8 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
     if found is None:
         order = read_order(Path(path))
         charted = make_charted(order, progress.part(0.0, 0.5, "picture"))
-        loomed = make_loomed(read_loom_order(order), charted, progress.part(0.5, 1.0, "loom"))
+        part = progress.part(0.5, 1.0, "loom")
+        loomed = make_loomed(read_loom_order(order), charted, part, illustrated=False)
         if loomed.design is None:
             reason = next((check for check in loomed.report.checks if not check.ok), None)
             raise ParameterError(
