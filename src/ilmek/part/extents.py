@@ -1,27 +1,34 @@
 """Boxes along the axes of a tree that contain its parts, those that move over whole turns of their drives.
 
 The box of a shape is exact for prisms and turned shapes; of one that is placed it is that of its own box, so that it
-may be larger, never smaller, than the part. Between two samples of a motion a point may leave it by the sagitta of its
-arc: `SAMPLES` keep this below 1 / 2,900 of its radius.
+may be larger, never smaller, than the part; of a body that moves it is that of the hull about their boxes. A motion is
+looked at where it is stated, and at so many angles between that a point leaves the chord of its arc by 1 / 800 of its
+radius at most.
 """
 
+import math
 from collections.abc import Iterable, Iterator
 from itertools import product
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
-from ilmek.arrays import Float
+from ilmek.arrays import Float, FloatArray
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.shapes import Prism, Shape, Sum, Turned
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import bounds
 from ilmek.records import record
-from ilmek.report.scene import SceneMotion
 from ilmek.units import mm, turn
 
-SAMPLES = 121
-"""Angles of a turn at which a motion is looked at."""
+_EVERY = turn / 60
+"""Greatest rotation between two angles at which a motion is looked at [rad]."""
+
+_MOST = 1000
+"""Most angles of both kinds: of a beat that strikes a hundred times over a row, every few of its angles, in each stroke
+others.
+"""
 
 _DEVIATION = 1 * mm
 """Of the convex pieces of shapes of other kinds [m]."""
@@ -31,13 +38,20 @@ Corner = Float[np.ndarray, " 3"]
 
 @record
 class Extent:
-    """Least and greatest x, y, z of a piece of a part [m], over all that it does; `moving`: whether it moves."""
+    """Least and greatest x, y, z of a piece of a part that stands, or of a body that moves over all that it does [m].
+
+    part  that stands; empty: of a body that moves
+    """
 
     part: str
     body: str
     low: Corner
     high: Corner
-    moving: bool
+
+    @property
+    def moving(self) -> bool:
+        """Whether it is that of a body that moves."""
+        return not self.part
 
     def meets(self, low: Corner, high: Corner, gap: float = 0.0) -> bool:
         """Whether it comes nearer to a box than a gap [m]; what touches at a gap of 0 does not meet."""
@@ -45,7 +59,7 @@ class Extent:
 
 
 def extents(tree: Tree, drives: Iterable[str]) -> tuple[Extent, ...]:
-    """The boxes of all pieces that have a shape, in the tree's axes; one of all pieces of a part in a body that moves.
+    """The boxes of all pieces that have a shape and stand, and of each body that moves, in the tree's axes.
 
     drives  over whose turns the bodies move, one at a time
     """
@@ -89,28 +103,38 @@ def _corners(low: Corner, high: Corner) -> Float[np.ndarray, "8 3"]:
 
 
 def _of_chain(chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.ndarray, "8 3"]]) -> Iterator[Extent]:
-    body = chain[-1].body
-    driven = [drive for drive in drives if any(_moves(link.body.joint.motion, drive) for link in chain)]
-    rest = poses(chain, "", np.zeros(1))
-    here = Placement(rest.origin[0], rest.rotation[0])
-    angle = np.linspace(0.0, turn, SAMPLES)
-    moved = [poses(chain, drive, angle) for drive in driven]
+    body, pieces, parts = chain[-1].body, list[Float[np.ndarray, "n 8 3"]](), list[str]()
     for occurrence in body.occurrences:
-        part = occurrence.part
-        if part.shape is None:
-            continue
-        if part.id not in boxes:
-            boxes[part.id] = _corners(*shape_box(part.shape))
-        pieces = [position.points(boxes[part.id]) for position in occurrence.positions]
-        if not moved:
-            for piece in pieces:
-                points = here.points(piece)
-                yield Extent(part.id, body.id, points.min(0), points.max(0), moving=False)
-            continue
-        low, high = np.min(pieces, axis=(0, 1)), np.max(pieces, axis=(0, 1))
-        swept = np.concatenate([one.points(_corners(low, high)).reshape(-1, 3) for one in moved])
-        yield Extent(part.id, body.id, swept.min(0), swept.max(0), moving=True)
+        part, positions = occurrence.part, occurrence.positions
+        if part.shape is not None:
+            if part.id not in boxes:
+                boxes[part.id] = _corners(*shape_box(part.shape))
+            turned = np.array([position.rotation for position in positions]).transpose(0, 2, 1)
+            pieces.append(boxes[part.id] @ turned + np.array([position.origin for position in positions])[:, None])
+            parts += [part.id] * len(positions)
+    if not pieces:
+        return
+    every = np.concatenate(pieces)
+    moved = [poses(chain, drive, angle) for drive in drives for angle in [_angles(chain, drive)] if len(angle)]
+    if moved:
+        points = every.reshape(-1, 3)
+        hull = points[ConvexHull(points).vertices]
+        swept = [one.points(hull) for one in moved]
+        low, high = (reduced([reduced(one, axis=(0, 1)) for one in swept], axis=0) for reduced in (np.min, np.max))
+        yield Extent("", body.id, low, high)
+        return
+    rest = poses(chain, "", np.zeros(1))
+    placed = Placement(rest.origin[0], rest.rotation[0]).points(every)
+    yield from map(Extent, parts, [body.id] * len(parts), placed.min(1), placed.max(1))
 
 
-def _moves(motion: SceneMotion | None, drive: str) -> bool:
-    return motion is not None and motion.drive == drive
+def _angles(chain: Chain, drive: str) -> FloatArray:
+    """Angles at which a chain is looked at [rad]; none where it does not move with the drive."""
+    motions = [link.body.joint.motion for link in chain]
+    own = [motion for motion in motions if motion is not None and motion.drive == drive]
+    if not own:
+        return np.empty(0)
+    turned = max(float(np.abs(np.diff(motion.rotation)).sum()) for motion in own)
+    between = np.linspace(0.0, turn, min(math.ceil(turned / _EVERY), _MOST) + 1)
+    stated = np.unique(np.concatenate([motion.angle for motion in own]))
+    return np.concatenate([between, stated[:: math.ceil(len(stated) / _MOST)]])

@@ -1,4 +1,4 @@
-"""The list of inputs and outputs of the main program, with addresses, as CSV.
+"""The list of inputs and outputs of the main program, with addresses, and the parts of the loom that they are wired to.
 
 Bits are packed into bytes, words begin at even bytes, double words at multiples of four. Signals of the host (commands,
 the row's data) and of the operator's panel are variables without an address.
@@ -6,8 +6,10 @@ the row's data) and of the operator's panel are variables without an address.
 
 from collections.abc import Iterator
 
+from ilmek.errors import LoomError
 from ilmek.io.csv_cells import csv_rows
 from ilmek.io.plc.units import PlcArray, PlcUnit, PlcVariable
+from ilmek.machines.automated_loom.equipment.signals import SIGNALS
 
 _SIZES = {"BOOL": 0, "USINT": 1, "INT": 2, "DINT": 4, "REAL": 4}
 _LETTERS = {0: "X", 1: "B", 2: "W", 4: "D"}
@@ -19,21 +21,29 @@ HOST = frozenset(
 )  # fmt: skip
 """Variables that the host or the operator's panel reads and writes."""
 
-HEADER = ("variable", "direction", "type", "address", "meaning")
+HEADER = ("variable", "direction", "type", "address", "meaning", "parts")
+
+IoRow = tuple[str, str, str, str, str, str]
 
 
-def io_rows(program: PlcUnit) -> list[tuple[str, str, str, str, str]]:
-    """A row for each signal: variable, direction, type, address, meaning; those of the host last."""
-    field: list[tuple[str, str, str, str, str]] = []
-    host: list[tuple[str, str, str, str, str]] = []
+def io_rows(program: PlcUnit) -> list[IoRow]:
+    """A row for each signal: variable, direction, type, address, meaning, ids of its parts; those of the host last.
+
+    Raises LoomError for a signal with an address that no part of the loom gives or takes.
+    """
+    field: list[IoRow] = []
+    host: list[IoRow] = []
     for kind, direction, letter in (("VAR_INPUT", "input", "I"), ("VAR_OUTPUT", "output", "Q")):
         addresses = _Addresses(letter)
         for variable in next(one.variables for one in program.sections if one.kind == kind):
             if variable.name in HOST:
-                host.append((variable.name, direction, str(variable.kind), "", variable.meaning))
+                host.append((variable.name, direction, str(variable.kind), "", variable.meaning, ""))
                 continue
+            if variable.name not in SIGNALS:
+                raise LoomError(f"signal {variable.name} without a part", allowed=", ".join(SIGNALS))
+            parts = " ".join(SIGNALS[variable.name])
             for name, element in _elements(variable):
-                field.append((name, direction, element, addresses.next(element), variable.meaning))
+                field.append((name, direction, element, addresses.next(element), variable.meaning, parts))
     return [*field, *host]
 
 

@@ -1,10 +1,11 @@
 """A loom from the side, from the front and from above: projections of its parts, its warps and carpet, names and sizes.
 
 Every part with a shape is drawn where the tree has it, at the start of a row; dashed: the rooms of parts whose form is
-the maker's or not designed.
+the maker's or not designed. The guards are drawn from above alone: from the front they stand before all else.
 """
 
 from collections.abc import Iterable
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,9 +15,11 @@ from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.bodies import beat_windows
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.projection import PieceOutline, View, outlines
+from ilmek.part.tree import Tree
 from ilmek.report import Dot, Drawing, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import format_quantity, turn
@@ -33,7 +36,7 @@ _WARPS = 40
 
 def side(loom: LoomDesign) -> Drawing:
     """The whole loom from the side."""
-    view, seen = loom.side, outlines(loom_tree(loom), View.SIDE)
+    view, seen = loom.side, outlines(_without_guards(loom), View.SIDE)
     box = _box(seen)
     left = box.real[0]
     floor = np.array([left - 0.05, box.real[1] + 0.1]) + 1j * view.floor
@@ -61,7 +64,7 @@ def above(loom: LoomDesign) -> Drawing:
 
 def room(loom: LoomDesign) -> Drawing:
     """What moves between fell and guide cams, at the start of a row, and dashed while it is beaten."""
-    tree, windows = loom_tree(loom), beat_windows(loom.row_cyclogram)
+    tree, windows = _without_guards(loom), beat_windows(loom.row_cyclogram)
     low, high = -0.25 * loom.side.cams[0].at.imag, loom.side.cams[0].at.imag
     moving = {body.id for body in tree.bodies if body.joint.motion is not None}
     at_fell = _angle_at_fell(loom, windows[0])
@@ -80,6 +83,12 @@ def room(loom: LoomDesign) -> Drawing:
     )
 
 
+def _without_guards(loom: LoomDesign) -> Tree:
+    """The bodies of a loom but its guards, which stand before all that is seen from the front or a side."""
+    tree = loom_tree(loom)
+    return replace(tree, bodies=tuple(body for body in tree.bodies if body.id not in GUARDS))
+
+
 def _angle_at_fell(loom: LoomDesign, window: tuple[float, float]) -> float:
     """The angle of the row at which the first beat is at the fell [rad]."""
     path, (start, end) = loom.beat.path, window
@@ -93,7 +102,8 @@ def _inside(outline: PieceOutline, low: float, high: float) -> bool:
 
 
 def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
-    seen, half = outlines(loom_tree(loom), view), half_width(loom)
+    tree = _without_guards(loom) if view is View.FRONT else loom_tree(loom)
+    seen, half = outlines(tree, view), half_width(loom)
     box = _box(seen)
     low, high = box.imag
     across = np.array([-half, half]) + 1j * (low - 0.06 * (high - low))

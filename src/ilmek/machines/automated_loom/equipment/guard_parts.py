@@ -18,6 +18,7 @@ from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, TO_THE_
 from ilmek.machines.automated_loom.equipment.guards import (
     BOTTOM,
     DOOR,
+    GUARDS,
     MESH,
     PANEL,
     POST,
@@ -37,9 +38,6 @@ from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
-
-_LEAF = part_id("door")
-"""Id of the body of the doors."""
 
 _HINGE = (5 * mm, 60 * mm, 20 * mm)
 """Width, height and depth of a hinge [m]: the gap of a door, and what is seen of it."""
@@ -69,7 +67,7 @@ def guards(loom: LoomDesign) -> Tree:
     return Tree(
         (
             RigidBody(
-                part_id("guards"),
+                GUARDS[0],
                 (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front)),
             ),
             _doors(fence, lines.front),
@@ -177,7 +175,7 @@ def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
     inwards = wide / 2 - ACTUATOR.size[0] / 2 - _BEFORE_LATCH, height - fence.floor - BOTTOM, -ACTUATOR.size[1] / 2
     middles = ((first + then) / 2 for first, then in pairwise(front))
     return RigidBody(
-        _LEAF,
+        GUARDS[1],
         (
             Occurrence(leaf),
             Occurrence(hinge, tuple(hinges)),
@@ -206,7 +204,8 @@ def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
     beside = wide / 2 + 2 * WIRE
     yield Occurrence(latch, tuple(placed(x - beside, height, inner, UPWARDS) for x in front[1:]))
     stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
-    back = placed(fence.left - POST / 2, height, fence.rear - POST, TO_THE_BACK)
+    # Beside the creel's rails, which may reach past the corner.
+    back = placed(fence.left - POST + STOP.size[0] / 2, height, fence.rear - POST, TO_THE_BACK)
     yield Occurrence(stop, (*(placement(x, height, outer) for x in _stations(front)), back))
     reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
     yield Occurrence(reset, (placement(front[-1], fence.floor + _RESET_HEIGHT, outer),))

@@ -26,6 +26,9 @@ from ilmek.units import format_quantity, mm
 PANEL, DOOR = part_id("guard-panel"), part_id("guard-door")
 """Beginnings of the ids of panels and doors: each width and height is a part of its own."""
 
+GUARDS = part_id("guards"), part_id("doors")
+"""Ids of the bodies of fence and doors."""
+
 POST = 40 * mm
 """Side of a fence's posts [m]."""
 

@@ -84,20 +84,13 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     """The room of a loom; heads travel along the whole row, which no turn of a drive shows."""
     tree = joined(machine_branches(loom))
     found = extents(tree, (ROW, KNOT))
+    row, riding = half_width(loom) + loom.head_width / 2, {body.id for body in head_tree(loom.weaver).bodies}
     bodies: dict[str, list[Extent]] = {}
     for one in found:
         if one.moving:
             bodies.setdefault(one.body, []).append(one)
-    row = half_width(loom) + loom.head_width / 2
-    hazards = [Hazard(name, *around(pieces)) for name, pieces in bodies.items()]
-    riding = [name for name, pieces in bodies.items() if any(one.part in _riding(loom) for one in pieces)]
-    hazards = [_widened(one, row) if one.body in riding else one for one in hazards]
-    return Surroundings(tree, found, tuple(hazards))
-
-
-def _riding(loom: LoomDesign) -> frozenset[str]:
-    """Ids of the parts of the heads."""
-    return frozenset(part.id for part, _ in head_tree(loom.weaver).occurrences())
+    hazards = (Hazard(name, *around(pieces)) for name, pieces in bodies.items())
+    return Surroundings(tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards))
 
 
 def _widened(one: Hazard, half: float) -> Hazard:
