@@ -24,6 +24,7 @@ from ilmek.machines.weaver.motions import (
     SIDE_MOTION,
     SLEY,
 )
+from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
 from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
 from ilmek.machines.weaver.return_springs import spring_id, stress_of
@@ -245,6 +246,7 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure=larger,
             parts=(cam_id(widest.name),),
         ),
+        _mass_check(weaver),
         _fork_check(weaver),
         _lever_check(weaver),
         *_spring_checks(weaver),
@@ -263,6 +265,22 @@ def _fork_check(weaver: Weaver) -> Check:
         f"{STEEL.name}, fatigue limit over 2; assumed by this project",
         cure="set a larger weaver.cam_gap, or lighter tools",
         parts=(follower_id(worst.name),),
+    )
+
+
+def _mass_check(weaver: Weaver) -> Check:
+    """No cam moves more than the mass for which it is designed, at its tool."""
+    tools = weaver.tool_bodies
+    masses = {cam.name: moved_mass(weaver, cam.name) for cam in weaver.cams}
+    most = max(masses, key=lambda track: masses[track] / tools.moved(track))
+    return at_most(
+        f"mass that a cam moves, {most}",
+        masses[most],
+        tools.moved(most),
+        "kg",
+        "parameter tool_mass",
+        cure="set a larger weaver.tool_mass",
+        parts=_moved(most),
     )
 
 

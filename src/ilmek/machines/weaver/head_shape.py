@@ -40,7 +40,7 @@ COLLARS = 23 * mm
 SPRING = 36 * mm
 """Room of the centre gripper's spring while it is shortest [m]; assumed by this project."""
 
-DRAWBAR, UNDER = 5 * mm, 11 * mm
+DRAWBAR, UNDER = 5 * mm, 12 * mm
 """Half the height of a carriage's drawbar, and from the opener down to its middle [m]; assumed by this project."""
 
 SLEY_BLOCK, SLEY_PIN = 12 * mm, 14 * mm
