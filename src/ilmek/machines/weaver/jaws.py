@@ -78,8 +78,8 @@ def rocker(weaver: Weaver, track: str) -> Rocker:
         rods = tuple(complex(hand * by.axis, tied + hand * by.lift / 2) for hand in (-1, 1))
         axle = complex(weaver.shape.carriage - _before(weaver, track), tied - under)
         return Rocker(track, axle, rods, (params.opening + by.crossing, params.pull_back))
-    height = tied + by.height
-    axle = complex(weaver.tool_bodies.tools.centre_carriage - _before(weaver, track), height - under)
+    height, below = tied + by.height, tied + by.lift / 2
+    axle = complex(weaver.tool_bodies.tools.centre_carriage - _before(weaver, track), min(height - under, below))
     return Rocker(track, axle, (1j * height,), (params.centre_stroke, 0.0))
 
 
@@ -89,8 +89,14 @@ def _before(weaver: Weaver, track: str) -> float:
 
 
 def arm_of(weaver: Weaver, track: str) -> float:
-    """Arm of a rocker to its roller [m]."""
-    return ROCKER / weaver.cam(track).ratio
+    """Arm of a rocker to its roller [m]: of those to the collars the mean, over the ratio."""
+    by = rocker(weaver, track)
+    return sum(_length(rod, by) for rod in by.grippers) / len(by.grippers) / weaver.cam(track).ratio
+
+
+def _length(rod: complex, by: Rocker) -> float:
+    """Arm of a rocker to the collar on a gripper, x + i y [m]."""
+    return rod.imag - HUB / 2 - TIP - by.axle.imag
 
 
 def turned(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
@@ -102,7 +108,7 @@ def turned(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
 def drawn(weaver: Weaver, track: str, number: int, lift: RealField) -> FloatArray:
     """How far a collar is from its middle position, to the front [m]."""
     by = rocker(weaver, track)
-    length = by.grippers[number].imag - HUB / 2 - TIP - by.axle.imag
+    length = _length(by.grippers[number], by)
     return np.asarray(-length * np.sin(turned(weaver, track, lift)))
 
 
@@ -176,7 +182,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
     for number, rod in enumerate(by.grippers):
-        long = rod.imag - HUB / 2 - TIP - by.axle.imag
+        long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
         part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", _mm(long), shape, STEEL)
