@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.machines.weaver.case import ALUMINIUM, Guide, apart
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import (
+    ABOVE_CENTRE,
     BAR,
     DRAWBAR,
     LOWER_PLATE,
@@ -77,8 +78,8 @@ LUG_END = 4.3 * mm
 SCREW, NUT, IN_NUT = 4 * mm, 1 * mm, 0.2 * mm
 """Side of the twisted bars, thickness of their nut and room in it [m]."""
 
-ABOVE_CENTRE, SUPPORT = 18 * mm, 6 * mm
-"""From the centre gripper up to its carriage's rod, and thickness of the support of the sley's rod [m]."""
+SUPPORT = 6 * mm
+"""Thickness of the support of the sley's rod [m]."""
 
 
 def opener_track(weaver: Weaver) -> str:
@@ -232,7 +233,7 @@ def _partition(weaver: Weaver) -> Occurrence:
     track = opener_track(weaver)
     inner = stack_width(weaver.params) / 2
     top = (shape.body + shape.size).imag - sheet(weaver)
-    low = shape.levers[track].pin.imag + DRAWBAR + 7 * mm
+    low = shape.levers[track].pin.imag + DRAWBAR + 8 * mm
     split, bottom = at.real - HANDLER_SHAFT, min(at.imag, low) - HANDLER_SHAFT
     sley = shape.levers[SLEY]
     over = sley.pivot.imag + abs(sley.pivot.real - shape.partition) * sley.lift / 2 / sley.arm + 2 * HALF

@@ -24,6 +24,7 @@ from ilmek.machines.weaver.motions import (
     SIDE_MOTION,
     SLEY,
 )
+from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
 from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
 from ilmek.machines.weaver.return_springs import spring_id, stress_of
@@ -39,6 +40,7 @@ from ilmek.machines.weaver.tool_parts import (
 from ilmek.machines.weaver.widths import case_width
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import Relation, check_all
+from ilmek.units import format_quantity
 
 LONGER = "set a longer knot_cycle"
 SAME = 1e-9
@@ -245,9 +247,10 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             cure=larger,
             parts=(cam_id(widest.name),),
         ),
+        _mass_check(weaver),
         _fork_check(weaver),
         _lever_check(weaver),
-        *_spring_checks(weaver),
+        _spring_check(weaver),
         _closure_check(weaver),
     )
 
@@ -266,6 +269,22 @@ def _fork_check(weaver: Weaver) -> Check:
     )
 
 
+def _mass_check(weaver: Weaver) -> Check:
+    """No cam moves more than the mass for which it is designed, at its tool."""
+    tools = weaver.tool_bodies
+    masses = {cam.name: moved_mass(weaver, cam.name) for cam in weaver.cams}
+    most = max(masses, key=lambda track: masses[track] / tools.moved(track))
+    return at_most(
+        f"mass that a cam moves, {most}",
+        masses[most],
+        tools.moved(most),
+        "kg",
+        "parameter tool_mass",
+        cure="set a larger weaver.tool_mass",
+        parts=_moved(most),
+    )
+
+
 def _lever_check(weaver: Weaver) -> Check:
     """The most loaded lever bears its cam's force at its axle."""
     worst = max(weaver.shape.levers, key=lambda track: lever_stress(weaver, weaver.cam(track)))
@@ -280,28 +299,19 @@ def _lever_check(weaver: Weaver) -> Check:
     )
 
 
-def _spring_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """A return spring for each cam, and the stress of the one that uses the most of what its wire allows."""
-    if weaver.params.closure != "spring":
-        return ()
-    stresses = {cam.name: stress for cam in weaver.cams if (stress := stress_of(weaver, cam.name)) is not None}
-    none = [cam.name for cam in weaver.cams if cam.name not in stresses]
-    wound = must(
-        "return springs",
-        not none,
-        f"EN 13906-1, in the room of the head{': none for ' + ', '.join(none) if none else ''}",
-        cure="set a smaller weaver.contact_force, a larger weaver.pinion, or weaver.closure=groove",
-        parts=tuple(spring_id(track) if track in stresses else follower_id(track) for track in (none or stresses)),
-    )
-    if not stresses:
-        return (wound,)
-    worst = max(stresses, key=lambda track: stresses[track][0] / stresses[track][1])
-    value, limit = stresses[worst]
-    source = "EN 13906-1, at its solid length; EN 10270-1"
-    cure = "set a smaller weaver.contact_force"
-    return wound, at_most(
-        f"stress of the return spring, {worst}", value, limit, "MPa", source, cure=cure, parts=(spring_id(worst),)
-    )
+def _spring_check(weaver: Weaver) -> Check:
+    """A return spring for each cam, but of cams with a groove, whose wire bears its solid length."""
+    tracks = [cam.name for cam in weaver.cams] if weaver.params.closure == "spring" else []
+    stresses = {track: stress for track in tracks if (stress := stress_of(weaver, track)) is not None}
+    none = [track for track in tracks if track not in stresses]
+    source = f"EN 13906-1, in the room of the head{': none for ' + ', '.join(none) if none else ''}"
+    if stresses:
+        worst = max(stresses, key=lambda track: stresses[track][0] / stresses[track][1])
+        value, limit = (format_quantity(stress, "MPa", 3) for stress in stresses[worst])
+        source += f"; {worst}: {value} at its solid length, allowed {limit}"
+    cure = "set a smaller weaver.contact_force, a larger weaver.pinion, or weaver.closure=groove"
+    parts = tuple(follower_id(track) for track in none) or tuple(spring_id(track) for track in stresses)
+    return must("return springs", not none, source, cure=cure, parts=parts or (follower_id(weaver.cams[0].name),))
 
 
 def _belt_check(weaver: Weaver) -> Check:

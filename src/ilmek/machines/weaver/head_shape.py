@@ -40,7 +40,7 @@ COLLARS = 23 * mm
 SPRING = 36 * mm
 """Room of the centre gripper's spring while it is shortest [m]; assumed by this project."""
 
-DRAWBAR, UNDER = 5 * mm, 11 * mm
+DRAWBAR, UNDER = 5 * mm, 12 * mm
 """Half the height of a carriage's drawbar, and from the opener down to its middle [m]; assumed by this project."""
 
 SLEY_BLOCK, SLEY_PIN = 12 * mm, 14 * mm
@@ -55,7 +55,10 @@ BELL_CRANKS = (SIDE_MOTION, OPENER, CENTRE_MOTION)
 RACK = 5.6 * mm
 """Room for the rack and its pinion between the followers and that axle [m]; assumed by this project."""
 
-LOWER_PLATE, UPPER_PLATE, SLEY_TOOL = "lower plate of the opener", "opener", "sley"
+LOWER_PLATE, UPPER_PLATE, SLEY_TOOL, CENTRE_TOOL = "lower plate of the opener", "opener", "sley", "centre gripper"
+
+ABOVE_CENTRE, OVER_CENTRE = 18 * mm, 33 * mm
+"""From the centre gripper up to its carriage's rod, and to the top of the case [m]; assumed by this project."""
 
 
 @record
@@ -151,6 +154,9 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
     front, tip = grippers.warp / 2 + params.standoff, grippers.front + grippers.opening
     face = max(tip + params.pull_back, drawn / 2) + params.standoff
     carriage = face + SHEET + APART + COLLARS + grippers.opening + grippers.crossing
+    above = max(
+        low - params.clearance + params.opener.height, tied + grippers.height + grippers.finger / 2 + params.jaw
+    )
     tools = (
         HeadTool(
             "side grippers",
@@ -159,15 +165,15 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
             complex(carriage - tip, height / 2 + grippers.height + grippers.finger / 2),
             -1 + 0j,
         ),
-        *_opener(params, SIDE_MOTION, complex(grippers.opening - front, carriage)),
+        *_opener(params, SIDE_MOTION, complex(grippers.opening - front, carriage), above),
         HeadTool(
-            "centre gripper",
+            CENTRE_TOOL,
             CENTRE_MOTION,
             complex(grippers.stroke - grippers.depth, tied + grippers.height - grippers.finger / 2),
             complex(carriage - grippers.stroke + grippers.depth, grippers.finger),
             -1 + 0j,
         ),
-        _sley(params, complex(front, face + SLEY_TAIL)),
+        _sley(params, complex(front, face + SLEY_TAIL), above),
     )
     return HeadTools(tools, face, carriage, params.pull_back, grippers.stroke)
 
@@ -177,29 +183,31 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     arms, radius, standoff = params.arms, params.warp / 2, params.standoff
     face = max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff
     rest, out = arms.rest - radius, params.opening - radius - standoff
-    carriage = face + SHEET + APART + params.opening
+    carriage, above = face + SHEET + APART + params.opening, params.opener.front_span + params.opener.height
     size = complex(face - rest + arms.stroke, arms.breadth)
     corner = complex(rest, params.opener.front_span + (params.opener.height - arms.breadth) / 2)
     tools = (
         *(HeadTool(name, name, corner, size, -1 + 0j) for name in (LEFT_ARM, RIGHT_ARM, CENTRE_ARM)),
-        *_opener(params, OPENER, complex(out, carriage)),
-        _sley(params, complex(radius + standoff, face + SLEY_TAIL)),
+        *_opener(params, OPENER, complex(out, carriage), above),
+        _sley(params, complex(radius + standoff, face + SLEY_TAIL), above),
     )
     return HeadTools(tools, face, carriage)
 
 
-def _opener(params: WeaverParams, track: str, span: complex) -> Iterator[HeadTool]:
-    """Both plates of the opener; span: from their points at rest to the far end, as x + i x [m]."""
+def _opener(params: WeaverParams, track: str, span: complex, above: float) -> Iterator[HeadTool]:
+    """Both plates of the opener.
+
+    span  from their points at rest to the far end, as x + i x      above  the bottom of the upper one [m]
+    """
     own = params.opener
-    for name, height in ((LOWER_PLATE, own.front_span - own.plate), (UPPER_PLATE, own.front_span + own.height)):
+    for name, height in ((LOWER_PLATE, own.front_span - own.plate), (UPPER_PLATE, above)):
         size = complex(span.imag - span.real, own.plate)
         yield HeadTool(name, track, complex(span.real, height), size, -1 + 0j)
 
 
-def _sley(params: WeaverParams, span: complex) -> HeadTool:
-    """The sley at rest, above the opener; span: see `_opener`."""
-    own = params.opener
-    height = max(params.sley_stroke, own.front_span + own.height + own.plate)
+def _sley(params: WeaverParams, span: complex, above: float) -> HeadTool:
+    """The sley at rest, above the opener; span, above: see `_opener`."""
+    height = max(params.sley_stroke, above + params.opener.plate)
     return HeadTool(SLEY_TOOL, SLEY, complex(span.real, height), complex(span.imag - span.real, SLEY_HEIGHT), -1j)
 
 
@@ -226,6 +234,8 @@ def head_shape(
     axis = complex(line, lowest - GUIDE - guide)
     deep, low = line + largest + CASE - face, axis.imag - largest - CASE
     top = max((tool.corner + tool.size).imag for tool in tools) + CASE
+    if reaching.stroke > 0:  # the centre gripper's carriage has its rod over it
+        top = max(top, (reaching.tool(CENTRE_TOOL).corner + reaching.tool(CENTRE_TOOL).size / 2).imag + OVER_CENTRE)
     return HeadShape(
         body=complex(face, low),
         size=complex(deep, top - low),

@@ -23,11 +23,11 @@ from ilmek.machines.weaver.opener import STEEL
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
 from ilmek.machines.weaver.stations import station
-from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, part_id, wire_of
+from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, part_id, wire_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Turned, bar
+from ilmek.part.shapes import Prism, Turned, bar, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
@@ -78,8 +78,8 @@ def rocker(weaver: Weaver, track: str) -> Rocker:
         rods = tuple(complex(hand * by.axis, tied + hand * by.lift / 2) for hand in (-1, 1))
         axle = complex(weaver.shape.carriage - _before(weaver, track), tied - under)
         return Rocker(track, axle, rods, (params.opening + by.crossing, params.pull_back))
-    height = tied + by.height
-    axle = complex(weaver.tool_bodies.tools.centre_carriage - _before(weaver, track), height - under)
+    height, below = tied + by.height, tied + by.lift / 2
+    axle = complex(weaver.tool_bodies.tools.centre_carriage - _before(weaver, track), min(height - under, below))
     return Rocker(track, axle, (1j * height,), (params.centre_stroke, 0.0))
 
 
@@ -89,8 +89,14 @@ def _before(weaver: Weaver, track: str) -> float:
 
 
 def arm_of(weaver: Weaver, track: str) -> float:
-    """Arm of a rocker to its roller [m]."""
-    return ROCKER / weaver.cam(track).ratio
+    """Arm of a rocker to its roller [m]: of those to the collars the mean, over the ratio."""
+    by = rocker(weaver, track)
+    return sum(_length(rod, by) for rod in by.grippers) / len(by.grippers) / weaver.cam(track).ratio
+
+
+def _length(rod: complex, by: Rocker) -> float:
+    """Arm of a rocker to the collar on a gripper, x + i y [m]."""
+    return rod.imag - HUB / 2 - TIP - by.axle.imag
 
 
 def turned(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
@@ -102,7 +108,7 @@ def turned(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
 def drawn(weaver: Weaver, track: str, number: int, lift: RealField) -> FloatArray:
     """How far a collar is from its middle position, to the front [m]."""
     by = rocker(weaver, track)
-    length = by.grippers[number].imag - HUB / 2 - TIP - by.axle.imag
+    length = _length(by.grippers[number], by)
     return np.asarray(-length * np.sin(turned(weaver, track, lift)))
 
 
@@ -155,6 +161,8 @@ def jaw_bodies(weaver: Weaver) -> Iterator[RigidBody]:
         for number, name in enumerate(grippers):
             along = by.axle.real + float(drawn(weaver, track, number, start))
             yield _collar(weaver, by, name, along)
+            if (finger := _finger(weaver, name)) is not None:
+                yield finger
 
 
 def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
@@ -174,7 +182,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
     for number, rod in enumerate(by.grippers):
-        long = rod.imag - HUB / 2 - TIP - by.axle.imag
+        long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
         part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", _mm(long), shape, STEEL)
@@ -199,7 +207,7 @@ def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:
     """A collar with its wire in a gripper's frame; along: where its middle is [m from the warps]."""
     collar, wire = _collar_parts(weaver, by.track)
     begin = along - GROOVE / 2 - WALL - weaver.tool_bodies.tip(name)
-    parts = Occurrence(collar, (placement(z=begin),)), Occurrence(wire)
+    parts = Occurrence(collar, (placement(z=begin),)), Occurrence(wire, (placement(z=JAW if name == CENTRE else 0.0),))
     return RigidBody(collar_body(name), parts, name, Joint(JointKind.SLIDE))
 
 
@@ -214,7 +222,8 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
         *(complex(deep - WALL, HUB / 2), complex(WALL, HUB / 2), complex(WALL, FLANGE / 2), complex(0, FLANGE / 2)),
     ]
     ring = Turned(Profile(polygon(np.array(corners))))
-    wire, long = wire_of(params), rocker(weaver, track).axle.real - weaver.tool_bodies.tip(LEFT if side else CENTRE)
+    begin = weaver.tool_bodies.tip(LEFT) if side else weaver.tool_bodies.tip(CENTRE) + JAW
+    wire, long = wire_of(params), rocker(weaver, track).axle.real - begin
     title = f"collar of the {kind} jaws"
     return (
         Part(part_id(f"{kind}-collar"), title, "turned part", _mm(FLANGE), ring, STEEL),
@@ -227,6 +236,39 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
             STEEL,
         ),
     )
+
+
+def opened(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
+    """Angle of the jaws' fingers [rad] at lifts of their follower [m], 0 when they are closed."""
+    length = weaver.tool_bodies.jaw if track == SIDE_GRASP else JAW
+    widest = math.asin(min(weaver.params.jaw / length, 0.5)) if length > 0 else 0.0
+    return np.asarray(widest * (1 - lift / weaver.cam(track).lift))
+
+
+def _finger(weaver: Weaver, name: str) -> RigidBody | None:
+    """The finger at a gripper's end, in the gripper's frame, open; None where its arm is too short."""
+    half, side = weaver.params.finger / 2, name != CENTRE
+    if side and weaver.tool_bodies.jaw <= 0:
+        return None
+    track = SIDE_GRASP if side else CENTRE_GRASP
+    angle, axis = float(opened(weaver, track, 0.0)), (0.0, 0.0, 1.0) if side else (1.0, 0.0, 0.0)
+    part = _finger_part(weaver, side)
+    if side:
+        turned_half = placement(about=axis, angle=math.pi if name == LEFT else 0.0)
+        rest = turned_half.after(placement(weaver.grippers.arm - weaver.tool_bodies.jaw, half))
+        place = placement(weaver.tool_bodies.jaw / 2, -half / 2, -half)
+    else:
+        rest, place = placement(0.0, half, JAW), placement(0.0, -half / 2, -JAW)
+    position = rest.after(placement(about=axis, angle=angle))
+    return RigidBody(finger_body(name), (Occurrence(part, (place,)),), name, Joint(JointKind.PIN, axis), (position,))
+
+
+@lru_cache(maxsize=8)
+def _finger_part(weaver: Weaver, side: bool) -> Part:
+    finger = weaver.params.finger
+    shape = box(weaver.tool_bodies.jaw, finger / 2, finger) if side else box(finger, finger / 2, JAW)
+    kind = "side" if side else "centre"
+    return Part(part_id(f"{kind}-finger"), f"finger of the {kind} jaws", "machined link", _mm(finger), shape, STEEL)
 
 
 def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:

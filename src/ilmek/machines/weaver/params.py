@@ -121,7 +121,7 @@ class WeaverParams(Params):
     arms: ArmsInHead = nested(ArmsInHead, doc="arms in place of the side and centre grippers")
     speed_limit: float = _speed(1.0, "allowed speed of grippers, sley and handler's tip")
     acceleration_limit: float = _acceleration(20.0, "allowed acceleration of the same")
-    tool_mass: float = kind.mass(0.15, at_least=0.0, at_most=100.0, doc="mass that each cam moves")
+    tool_mass: float = kind.mass(0.25, at_least=0.0, at_most=100.0, doc="mass that each cam may move, at its tool")
     lever: float = kind.ratio(2.0, above=0.05, at_most=20.0, doc="motion of a tool over its cam's follower")
     sley_lever: float = kind.ratio(4.0, above=0.05, at_most=20.0, doc="motion of the sley over its cam's follower")
     pinion: float = kind.length(

@@ -44,6 +44,9 @@ project."""
 KNIFE = (10 * mm, 20 * mm, 20 * mm)
 """Room of the cutter's blade with its slide, across, along the warps and to the front [m]; assumed by this project."""
 
+CARRIED = 0.1
+"""Mass of carriage, lever and follower beside a tool for which a cam is designed [kg]; a check compares it."""
+
 CENTRE_BAR, WINDOW = 8 * mm, 4 * mm
 """Thickness of the centre gripper's carriage, and room about the jaws' collars in the opener's plates [m]; assumed by
 this project."""
@@ -87,8 +90,8 @@ class ToolBodies:
         )
 
     def moved(self, track: str) -> float:
-        """Mass that the cam of a track moves [kg]: the parameter's, or that of the tool where it is heavier."""
-        return max(self.params.tool_mass, self.of_track(track))
+        """Mass that the cam of a track may move [kg]: the parameter's, or more where the tool is heavy."""
+        return max(self.params.tool_mass, self.of_track(track) + CARRIED)
 
     def of_track(self, track: str) -> float:
         """Mass of the parts that a track moves [kg]; of the handler as if all at its tip."""
@@ -138,12 +141,14 @@ class ToolBodies:
         return body(LEFT, -1), body(RIGHT, 1)
 
     def _centre(self, parent: str) -> tuple[str, RigidBody]:
-        """A square tube from its tip to its carriage."""
+        """A square tube to its carriage, at its tip half as thick, beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE)
         size = f"square {format_quantity(by.finger, 'mm')}"
         section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Prism(section, length), size)
+        rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
+        jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
+        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw)), size)
         return CENTRE_MOTION, _sliding(CENTRE, (Occurrence(part),), parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:

@@ -23,7 +23,7 @@ from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.head_shape import RAIL_AXIS, HeadTool
-from ilmek.machines.weaver.jaws import collar_body, drawn, rocker_id, turned
+from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.lever_parts import lever_id
 from ilmek.machines.weaver.motions import (
@@ -139,7 +139,7 @@ def _of_handler(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
 
 
 def _of_jaws(weaver: Weaver, knot: Cyclogram, track: str, names: tuple[str, ...]) -> Mapping[str, SceneMotion]:
-    """The rocker of jaws, and the collars on their grippers."""
+    """The rocker of jaws, and the collars and fingers of their grippers."""
     angle, lift = _lift(knot, track, weaver)
     swung = turned(weaver, track, lift)
     moved = {rocker_id(track): motion(knot, angle, rotation=swung - swung[0])}
@@ -147,6 +147,9 @@ def _of_jaws(weaver: Weaver, knot: Cyclogram, track: str, names: tuple[str, ...]
         along = drawn(weaver, track, number, lift)
         still = 0 * along
         moved[collar_body(name)] = motion(knot, angle, shift=np.stack([still, still, along - along[0]], axis=1))
+        moved[finger_body(name)] = motion(
+            knot, angle, rotation=opened(weaver, track, lift) - opened(weaver, track, 0.0)
+        )
     return moved
 
 
