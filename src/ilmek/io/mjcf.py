@@ -25,7 +25,7 @@ from scipy.spatial.transform import Rotation
 
 from ilmek.arrays import FloatArray
 from ilmek.io.colours import colour_of
-from ilmek.part.mobility import Coordinate, Mobility
+from ilmek.part.mobility import BodyCoordinate, TreeMobility
 from ilmek.part.moments import Moments
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains
@@ -94,8 +94,8 @@ class _Model:
         return tostring(model, encoding="unicode") + "\n"
 
     @cached_property
-    def mobility(self) -> Mobility:
-        return Mobility(self.tree)
+    def mobility(self) -> TreeMobility:
+        return TreeMobility(self.tree)
 
     @cached_property
     def places(self) -> Mapping[Chain, str]:
@@ -195,7 +195,7 @@ class _Model:
             name = self.joints[number]
             SubElement(actuator, "position", name=name, joint=name, kp=_text(stiffness), dampratio="1")
 
-    def _inertia(self, chain: Chain, one: Coordinate) -> float:
+    def _inertia(self, chain: Chain, one: BodyCoordinate) -> float:
         """Mass of all that a coordinate moves [kg], or its inertia about the coordinate's axis [kg m²], at rest."""
         moved = self._moments[chain]
         if not one.turns:
@@ -237,7 +237,7 @@ def _inset(content: bytes) -> FloatArray:
     return np.unique(within.round(9), axis=0)
 
 
-def _joint(element: Element, name: str, one: Coordinate) -> None:
+def _joint(element: Element, name: str, one: BodyCoordinate) -> None:
     kind = "hinge" if one.turns else "slide"
     SubElement(element, "joint", name=name, type=kind, axis=_text(*one.axis), pos=_text(*one.point))
 
