@@ -2,7 +2,7 @@
 
 import importlib.util
 from pathlib import Path
-from xml.etree import ElementTree
+from xml.etree import ElementTree as ET
 
 import pytest
 from click.testing import CliRunner, Result
@@ -24,7 +24,7 @@ def test_both_files_are_written_and_named(tmp_path: Path) -> None:
     ran = _run("tufting", "--mjcf", str(model), "--step", str(solids), "--pose", "turn=90deg")
     assert ran.exit_code == 0
     assert f"assembly: {solids}\nmodel for MuJoCo: {model}\n" in ran.stdout
-    root = ElementTree.parse(model).getroot()
+    root = ET.parse(model).getroot()
     assert [servo.get("joint") for servo in root.iter("position")] == ["tufting/main-shaft"]
     assert [pin.get("body2") for pin in root.iter("connect")] == ["tufting/rocker", "tufting/rod"]
     assert b"AP242" in solids.read_bytes()
