@@ -44,7 +44,7 @@ PLAY = 0.25 * mm
 TIME_STEP = 0.5e-3
 """Time step of a simulation [s]."""
 
-STIFF = 2 * math.pi * 20
+STIFF = 2 * math.pi * 60
 """Natural frequency of a servo with what it moves, alone [rad/s]; assumed by this project."""
 
 _UP = placement(about=(1.0, 0.0, 0.0), angle=turn / 4)
@@ -88,7 +88,8 @@ class _Model:
         self._closures(SubElement(model, "equality"))
         self._servos(SubElement(model, "actuator"))
         self._motions(SubElement(model, "custom"))
-        start = [one.at("", 0.0) for _, one in self.mobility.coordinates]
+        starts = {name: one.at("", 0.0) for name, (_, one) in zip(self.joints, self.mobility.coordinates, strict=True)}
+        start = [starts[joint.attrib["name"]] for joint in world.iter("joint")]
         SubElement(SubElement(model, "keyframe"), "key", name="start", qpos=_text(*start))
         indent(model)
         return tostring(model, encoding="unicode") + "\n"
