@@ -205,7 +205,7 @@ class _Pose:
             return row
         point = self.place(first).points(closure.position.origin)
         moved = self._velocities(second, point) - self._velocities(first, point)
-        return moved if closure.kind == JointKind.FIXED else moved[:3]
+        return np.asarray(moved if closure.kind == JointKind.FIXED else moved[:3])
 
     def _turning(self, chain: Chain) -> int:
         all_of_them = self.mobility.coordinates
