@@ -100,7 +100,14 @@ def _tree(name: str, settings: dict[str, str]) -> Tree:
 
 
 @pytest.mark.parametrize(
-    ("name", "settings"), [("tufting", {"bars": "2"}), ("cam", {"lift": "17mm"}), ("weft", {}), ("knotting-dyad", {})]
+    ("name", "settings"),
+    [
+        ("tufting", {"bars": "2"}),
+        ("cam", {"lift": "17mm"}),
+        ("cam", {"kind": "face"}),
+        ("weft", {}),
+        ("knotting-dyad", {}),
+    ],
 )
 def test_a_file_has_every_part_where_it_stands_with_its_name_colour_and_mass(
     name: str, settings: dict[str, str]

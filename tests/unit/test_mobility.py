@@ -8,7 +8,7 @@ import pytest
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.part.mobility import Mobility, coordinates
+from ilmek.part.mobility import TreeMobility, coordinates
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import box
@@ -33,23 +33,23 @@ def _four_bar(*closures: Closure) -> Tree:
 
 
 def test_a_pin_that_closes_a_loop_leaves_one_of_three_coordinates() -> None:
-    assert Mobility(_four_bar()).degrees_of_freedom == 3
-    closed = Mobility(_four_bar(Closure(JointKind.PIN, ("coupler", "rocker"), placement(2.0, 1.0))))
+    assert TreeMobility(_four_bar()).degrees_of_freedom == 3
+    closed = TreeMobility(_four_bar(Closure(JointKind.PIN, ("coupler", "rocker"), placement(2.0, 1.0))))
     assert closed.degrees_of_freedom == 1
     assert [closed.coordinates[number][0][-1].name for number in closed.driven] == ["crank"]
 
 
 def test_a_second_pin_locks_the_linkage_and_a_ratio_takes_a_coordinate() -> None:
     pins = (Closure(JointKind.PIN, ("coupler", "rocker"), placement(2.0, y)) for y in (1.0, 2.0))
-    assert Mobility(_four_bar(*pins)).degrees_of_freedom == 0
-    assert Mobility(_four_bar(Closure(JointKind.ROLLING, ("crank", "rocker"), ratio=-2.0))).degrees_of_freedom == 2
-    assert Mobility(_four_bar(Closure(JointKind.FIXED, ("crank", "rocker")))).degrees_of_freedom == 1
+    assert TreeMobility(_four_bar(*pins)).degrees_of_freedom == 0
+    assert TreeMobility(_four_bar(Closure(JointKind.ROLLING, ("crank", "rocker"), ratio=-2.0))).degrees_of_freedom == 2
+    assert TreeMobility(_four_bar(Closure(JointKind.FIXED, ("crank", "rocker")))).degrees_of_freedom == 1
 
 
 def test_cranks_on_one_shaft_move_as_one() -> None:
     crank = replace(_body("crank", "", JointKind.PIN), positions=(placement(), placement(z=1.0), placement(z=2.0)))
-    assert Mobility(Tree((crank,))).degrees_of_freedom == 3
-    assert Mobility(Tree((crank,), (Closure(JointKind.ROLLING, ("crank", "crank")),))).degrees_of_freedom == 1
+    assert TreeMobility(Tree((crank,))).degrees_of_freedom == 3
+    assert TreeMobility(Tree((crank,), (Closure(JointKind.ROLLING, ("crank", "crank")),))).degrees_of_freedom == 1
 
 
 @pytest.mark.parametrize("pivot", [(0.0, 0.0), (0.12, 0.0), (-0.3, 0.4)])
@@ -87,4 +87,4 @@ def test_closures_of_unknown_bodies_and_of_unequal_numbers_are_errors() -> None:
         for name, number in (("two", 2), ("three", 3))
     )
     with pytest.raises(ParameterError, match="2 bodies closed with 3; as many, or one with many"):
-        Mobility(Tree((two, three), (Closure(JointKind.PIN, ("two", "three")),))).driven  # noqa: B018
+        TreeMobility(Tree((two, three), (Closure(JointKind.PIN, ("two", "three")),))).driven  # noqa: B018

@@ -11,7 +11,14 @@ from ilmek.cli.report import headline_of, show_report
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
-from ilmek.jobs.design import DesignResult, design_machine, mechanism_text, require_mechanism, require_space
+from ilmek.jobs.design import (
+    IN_SPACE,
+    DesignResult,
+    design_machine,
+    mechanism_text,
+    require_mechanism,
+    require_space,
+)
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 
@@ -139,16 +146,23 @@ def command(  # noqa: PLR0917 - click calls it by name
             progress=call.progress,
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
         )
-        call.give_page("--report", made.report)
-        call.give_animation("--animation", made.report, motion)
-        if mechanism_to is not None and made.mechanism is not None:
-            text = mechanism_text(made.mechanism, mechanism_to)
-            call.give("--to", lambda: text)
-        for option in in_space:
-            call.give_scene(option, made, pose)
-        call.give_json(made.as_json)
+        _give(made, call, motion, mechanism_to, pose)
     _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
+
+
+def _give(
+    made: DesignResult, call: CallOutputs, motion: str | None, mechanism_to: Path | None, pose: str | None
+) -> None:
+    """Stage the files."""
+    call.give_page("--report", made.report)
+    call.give_animation("--animation", made.report, motion)
+    if mechanism_to is not None and made.mechanism is not None:
+        text = mechanism_text(made.mechanism, mechanism_to)
+        call.give("--to", lambda: text)
+    for option in IN_SPACE:
+        call.give_scene(option, made, pose)
+    call.give_json(made.as_json)
 
 
 def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, parts_to: Path | None) -> None:

@@ -25,7 +25,7 @@ from scipy.spatial.transform import Rotation
 
 from ilmek.arrays import FloatArray
 from ilmek.io.colours import colour_of
-from ilmek.part.mobility import Coordinate, Mobility
+from ilmek.part.mobility import BodyCoordinate, TreeMobility
 from ilmek.part.moments import Moments
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains
@@ -44,7 +44,7 @@ PLAY = 0.25 * mm
 TIME_STEP = 0.5e-3
 """Time step of a simulation [s]."""
 
-STIFF = 2 * math.pi * 20
+STIFF = 2 * math.pi * 60
 """Natural frequency of a servo with what it moves, alone [rad/s]; assumed by this project."""
 
 _UP = placement(about=(1.0, 0.0, 0.0), angle=turn / 4)
@@ -80,22 +80,26 @@ class _Model:
         defaults = SubElement(model, "default")
         SubElement(defaults, "geom", type="mesh", mass="0")
         SubElement(defaults, "equality", solref=f"{_text(2 * TIME_STEP)} 1", solimp="0.99 0.9999 1e-5")
-        self._assets(SubElement(model, "asset"))
+        assets = SubElement(model, "asset")
+        sky = {"builtin": "gradient", "rgb1": "0.95 0.95 0.95", "rgb2": "0.75 0.8 0.85", "width": "64", "height": "384"}
+        SubElement(assets, "texture", sky, type="skybox")
+        self._assets(assets)
         world = SubElement(model, "worldbody")
         SubElement(world, "light", pos="0 -3 4", dir="0 0.6 -0.8", directional="true")
-        self._bodies(SubElement(world, "body", name=self.title, **_placed(_UP)))
+        self._bodies(SubElement(world, "body", _placed(_UP), name=self.title))
         self._contacts(SubElement(model, "contact"))
         self._closures(SubElement(model, "equality"))
         self._servos(SubElement(model, "actuator"))
         self._motions(SubElement(model, "custom"))
-        start = [one.at("", 0.0) for _, one in self.mobility.coordinates]
+        starts = {name: one.at("", 0.0) for name, (_, one) in zip(self.joints, self.mobility.coordinates, strict=True)}
+        start = [starts[joint.attrib["name"]] for joint in world.iter("joint")]
         SubElement(SubElement(model, "keyframe"), "key", name="start", qpos=_text(*start))
         indent(model)
         return tostring(model, encoding="unicode") + "\n"
 
     @cached_property
-    def mobility(self) -> Mobility:
-        return Mobility(self.tree)
+    def mobility(self) -> TreeMobility:
+        return TreeMobility(self.tree)
 
     @cached_property
     def places(self) -> Mapping[Chain, str]:
@@ -134,13 +138,13 @@ class _Model:
                 SubElement(assets, "mesh", name=f"{name}:{number}", vertex=_text(*corners.ravel()), inertia="shell")
 
     def _bodies(self, root: Element) -> None:
-        elements = {(): root}
+        elements: dict[Chain, Element] = {(): root}
         numbers: dict[Chain, list[int]] = {}
         for number, (chain, _) in enumerate(self.mobility.coordinates):
             numbers.setdefault(chain, []).append(number)
         for chain in chains(self.tree):
             link = chain[-1]
-            element = SubElement(elements[chain[:-1]], "body", name=self.places[chain], **_placed(link.position))
+            element = SubElement(elements[chain[:-1]], "body", _placed(link.position), name=self.places[chain])
             elements[chain] = element
             for number in numbers.get(chain, ()):
                 _joint(element, self.joints[number], self.mobility.coordinates[number][1])
@@ -149,7 +153,7 @@ class _Model:
                 colour, pieces = _text(*colour_of(occurrence.part)), self.pieces.get(occurrence.part.id, ())
                 for placed in map(_placed, occurrence.positions):
                     for number in range(len(pieces)):
-                        SubElement(element, "geom", mesh=f"{occurrence.part.id}:{number}", rgba=colour, **placed)
+                        SubElement(element, "geom", placed, mesh=f"{occurrence.part.id}:{number}", rgba=colour)
 
     def _contacts(self, contact: Element) -> None:
         """Bodies that a joint holds together do not contact each other."""
@@ -176,13 +180,13 @@ class _Model:
             if closure.kind == JointKind.ROLLING:
                 names = (self._turning(place) for place in (other, first))
                 joints = dict(zip(("joint1", "joint2"), names, strict=True))
-                SubElement(equality, "joint", polycoef=_text(0, closure.ratio, 0, 0, 0), **joints)
+                SubElement(equality, "joint", joints, polycoef=_text(0, closure.ratio, 0, 0, 0))
                 continue
             bodies = {"body1": self.places[first], "body2": self.places[other]}
             if closure.kind == JointKind.FIXED:
-                SubElement(equality, "weld", **bodies)
+                SubElement(equality, "weld", bodies)
             else:
-                SubElement(equality, "connect", anchor=_text(*closure.position.origin), **bodies)
+                SubElement(equality, "connect", bodies, anchor=_text(*closure.position.origin))
 
     def _turning(self, chain: Chain) -> str:
         coordinates = zip(self.joints, self.mobility.coordinates, strict=True)
@@ -195,7 +199,7 @@ class _Model:
             name = self.joints[number]
             SubElement(actuator, "position", name=name, joint=name, kp=_text(stiffness), dampratio="1")
 
-    def _inertia(self, chain: Chain, one: Coordinate) -> float:
+    def _inertia(self, chain: Chain, one: BodyCoordinate) -> float:
         """Mass of all that a coordinate moves [kg], or its inertia about the coordinate's axis [kg m²], at rest."""
         moved = self._moments[chain]
         if not one.turns:
@@ -208,7 +212,7 @@ class _Model:
     def _moments(self) -> Mapping[Chain, Moments]:
         """Moments of the mass of each body with all that it carries, in its own frame."""
         moments = {chain: chain[-1].body.moments for chain in self.places}
-        for chain in reversed(self.places):
+        for chain in reversed(tuple(self.places)):
             if chain[:-1]:
                 moments[chain[:-1]] += moments[chain].placed(chain[-1].position)
         return moments
@@ -224,7 +228,7 @@ class _Model:
 
 def _smaller(corners: FloatArray) -> FloatArray:
     """Corners of the convex body within another, `PLAY` from its faces; at most half as far as its middle is."""
-    return (corners[0] + _inset((corners - corners[0]).round(9).tobytes())).round(9)
+    return np.asarray((corners[0] + _inset((corners - corners[0]).round(9).tobytes())).round(9))
 
 
 @lru_cache(maxsize=256)
@@ -237,7 +241,7 @@ def _inset(content: bytes) -> FloatArray:
     return np.unique(within.round(9), axis=0)
 
 
-def _joint(element: Element, name: str, one: Coordinate) -> None:
+def _joint(element: Element, name: str, one: BodyCoordinate) -> None:
     kind = "hinge" if one.turns else "slide"
     SubElement(element, "joint", name=name, type=kind, axis=_text(*one.axis), pos=_text(*one.point))
 

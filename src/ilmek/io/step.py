@@ -42,6 +42,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape, TopoDS_Wire
 from ilmek.arrays import FloatArray
 from ilmek.errors import OutputError
 from ilmek.io.plate_shape import PlateShape
+from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, Placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Sum, Turned
@@ -65,12 +66,12 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
 def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
     if plate.solid is None:
         return _solid(plate, shape)
-    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else shape_solid(plate.solid.shape)
+    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else _of_shape(plate.solid.shape)
 
 
 def write_piece(path: Path, piece: WorkPiece) -> None:
     """Write a piece that is turned, sawn or welded. Raises OutputError as `write_step`."""
-    _write(path, shape_solid(piece.shape), piece.name, piece.title)
+    _write(path, _of_shape(piece.shape), piece.name, piece.title)
 
 
 def _write(path: Path, solid: TopoDS_Shape, name: str, title: str) -> None:
@@ -130,7 +131,13 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
     return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, plate.thickness / mm)).Shape()
 
 
-def shape_solid(shape: object) -> TopoDS_Shape:
+def part_solid(part: Part) -> TopoDS_Shape:
+    """The solid of a part with a shape, in its own axes [mm]."""
+    drawn = None if part.drawing is None else part.drawing.solid
+    return _round_solid(drawn) if isinstance(drawn, RoundSolid) else _of_shape(part.shape)
+
+
+def _of_shape(shape: object) -> TopoDS_Shape:
     """A shape of the package `part` [mm]: prisms, turned profiles, and sums of them as one compound of solids."""
     if isinstance(shape, Prism):
         return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
@@ -142,7 +149,7 @@ def shape_solid(shape: object) -> TopoDS_Shape:
     whole, builder = TopoDS_Compound(), BRep_Builder()
     builder.MakeCompound(whole)
     for member in shape.members:
-        solid = shape_solid(member.shape)
+        solid = _of_shape(member.shape)
         for position in member.positions:
             builder.Add(whole, _placed(solid, position))
     return whole

@@ -24,7 +24,7 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from ilmek.errors import OutputError
 from ilmek.io.colours import colour_of
-from ilmek.io.step import displacement, shape_solid, with_header
+from ilmek.io.step import displacement, part_solid, with_header
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
@@ -71,7 +71,7 @@ class _Assembly:
     def add(self, body: TDF_Label, part: Part, position: Placement) -> None:
         """A part in a body."""
         if part.id not in self._parts:
-            solid = shape_solid(part.shape)
+            solid = part_solid(part)
             if not BRepCheck_Analyzer(solid).IsValid():
                 raise OutputError(f"{part.id} gives no valid solid", do="check whether its outline crosses itself")
             self._parts[part.id] = self._named(self._shapes.AddShape(solid, False), part.id)
