@@ -16,6 +16,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
+from ilmek.machines.automated_loom.frame_modes import FrameModes
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, own_tree, parts_of_loom
 from ilmek.machines.automated_loom.report import (
@@ -61,7 +62,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList),
+    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, PartsList, FrameModes),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),
