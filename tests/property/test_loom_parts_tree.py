@@ -37,7 +37,7 @@ def _trees(loom: Any) -> dict[str, Tree]:
         "shedding": shedding_tree(loom.shedding),
         "warp-tension": cylinder_tree(loom.warp_tension),
         "tension-compensator": compensator_tree(machines["tension-compensator"].design),
-        "carried": carried_tree(loom),
+        "carried": carried_tree(loom, parts_of_loom(loom).frame),
         "frame": frame_tree(loom, parts_of_loom(loom).frame, parts_of_loom(loom).axes),
     }
 

@@ -48,6 +48,7 @@ PRICES: Mapping[str, PriceRates] = {
     "machined link": PriceRates(each=25.0, per_kg=15.0),
     "cam plate": PriceRates(each=100.0, per_kg=25.0),
     "pin or bush": PriceRates(each=4.0, per_kg=8.0),
+    "fastener": PriceRates(each=0.1, per_kg=5.0),
     "turned part": PriceRates(each=15.0, per_kg=6.0),
     "yarn tube": PriceRates(each=15.0),
     "bearing": PriceRates(each=15.0),

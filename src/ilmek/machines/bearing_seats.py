@@ -1,16 +1,21 @@
 """Bearings of shafts on the frame's brackets: each in a housing on the inner face of its bracket.
 
 A shaft reaches through bearing and bracket, and ends at the outer face, where its reducer is flanged on. An insert
-bearing comes in its flanged housing (UCF), any other sits in a square plate as wide as itself, bolted to the bracket.
+bearing comes in its flanged housing (UCF), any other sits in a square plate as wide as itself. Four screws hold it on
+the bracket, which has their threads; they bear the shaft's force by friction [`elements.hexagon_screws`].
 
 Axes of a seat: z along the shaft to the outside, 0 at the side of the bearing that is turned to the inside.
 """
 
 import math
 
+import numpy as np
+
+from ilmek.arrays import ComplexArray
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.columns import STEEL
+from ilmek.elements.hexagon_screws import FourScrews
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -19,6 +24,7 @@ from ilmek.part.shapes import Prism, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.records import record
+from ilmek.report import Check, at_most
 from ilmek.units import format_quantity, mm
 
 BRACKET = 20 * mm
@@ -26,6 +32,9 @@ BRACKET = 20 * mm
 
 CLEAR = 2 * mm
 """Bore of a bracket over the shaft that reaches through it, on each side [m]; assumed by this project."""
+
+_THREADS = (25 * mm, 10 * mm), (50 * mm, 12 * mm), (math.inf, 16 * mm)
+"""Greatest bores of bearings, and threads for the holes of their housings, 12, 14 to 16 and 19 mm [ISO 3228]."""
 
 _HOUSING = 1.5
 """Side of a housing over the outer diameter of its bearing; assumed by this project."""
@@ -36,9 +45,11 @@ class BearingSeat:
     """The bearing of a shaft's end, as it stands on a bracket.
 
     bearing  an insert bearing with its flanged housing, any other without one
+    force    of the shaft on it [N]
     """
 
     bearing: RollingBearing
+    force: float = 0.0
 
     @property
     def side(self) -> float:
@@ -60,27 +71,50 @@ class BearingSeat:
         """Length of the shaft through bearing and bracket [m]."""
         return self.bearing.width + BRACKET
 
+    @property
+    def screws(self) -> FourScrews:
+        """What the screws bear: the force in the middle of the bearing's width."""
+        least = next(diameter for bore, diameter in _THREADS if self.bearing.bore <= bore)
+        return FourScrews(self.side, self.force, self.bearing.width / 2, least)
+
+    def corners(self) -> ComplexArray:
+        """Axes of the screws about that of the shaft [m]."""
+        screws = self.screws
+        return np.asarray(screws.distance(screws.screw) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]))
+
+    def check(self, title: str, cure: str, part: str) -> Check:
+        """The force of the shaft against what the screws hold."""
+        screws, source = self.screws, "friction of four screws, EN 1993-1-8, 3.9"
+        label = f"{title}: force on its {screws.screw.name} screws"
+        return at_most(label, self.force, screws.holds(screws.screw), "N", source, cure=cure, parts=(part,))
+
     def occurrences(self, ids: tuple[str, str], title: str, at: tuple[Placement, ...]) -> tuple[Occurrence, ...]:
-        """The bearing, and its housing if it comes without one, at some seats.
+        """The bearing, its housing if it comes without one, and its screws, at some seats.
 
         ids  of bearing and housing      title  of the bearing
         """
-        own, row = catalogue.bearing(ids[0], title, self.bearing), self.bearing
+        row, chosen = self.bearing, self.screws.screw
+        holes = tuple(circle(complex(corner), chosen.diameter / 2) for corner in self.corners())
+        own = catalogue.bearing(ids[0], title, row, holes)
         flipped = placement(z=row.width, about=(1.0, 0.0, 0.0), angle=math.pi)
+        thick = catalogue.FLANGE if row.flange else row.width
+        screw = catalogue.screw(f"{ids[0]}-screw", f"screw of the {title}", chosen, chosen.length_for(thick + BRACKET))
+        under = [placement(float(z.real), float(z.imag), row.width - thick) for z in self.corners()]
+        screws = Occurrence(screw, tuple(seat.after(one) for seat in at for one in under))
         if row.flange:
-            return (Occurrence(own, tuple(seat.after(flipped) for seat in at)),)
-        shape = Prism(Profile(rectangle(self.side, self.side), (circle(0j, row.outer / 2),)), row.width)
+            return Occurrence(own, tuple(seat.after(flipped) for seat in at)), screws
+        shape = Prism(Profile(rectangle(self.side, self.side), (circle(0j, row.outer / 2), *holes)), row.width)
         size = f"square {format_quantity(self.side, 'mm')}, {format_quantity(row.width, 'mm')} thick"
         housing = Part(ids[1], f"housing of the {title}", "laser-cut part", size, shape, STEEL)
-        return Occurrence(own, at), Occurrence(housing, at)
+        return Occurrence(own, at), Occurrence(housing, at), screws
 
 
-def seat_of(row: RollingBearing) -> BearingSeat:
-    """The seat of a bearing: an insert without a housing in the flanged one of its size.
+def seat_of(row: RollingBearing, force: float = 0.0) -> BearingSeat:
+    """The seat of a bearing under a force [N]: an insert without a housing in the flanged one of its size.
 
     >>> seat_of(find_bearing("UC 205")).bearing.name
     'UCF 205'
     """
     if row.kind == INSERT and not row.flange:
-        return BearingSeat(find_bearing(row.name.replace("UC ", "UCF ")))
-    return BearingSeat(row)
+        return BearingSeat(find_bearing(row.name.replace("UC ", "UCF ")), force)
+    return BearingSeat(row, force)

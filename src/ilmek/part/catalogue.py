@@ -3,13 +3,16 @@
 import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
+from ilmek.elements.columns import STEEL
+from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
 from ilmek.plane.contours import circle, polygon
+from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
 
 SPECIAL_FACE = 80 * mm
@@ -51,16 +54,25 @@ def length_of(part: Part) -> float:
     return part.shape.length
 
 
-def bearing(name: str, title: str, row: RollingBearing) -> Part:
-    """A rolling bearing about z from z = 0, with its square flange if it has one."""
+def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ...] = ()) -> Part:
+    """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))
-    shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row)))
+    shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row, holes)))
     return Part(name, title, "bearing", shape=shape, purchase=Bought(row.name, row.mass), envelope=True)
 
 
-def _flange(row: RollingBearing) -> Placed:
+def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
     """The housing's flange about the outer ring."""
-    return Placed(Prism(Profile(rectangle(row.flange, row.flange), (circle(0j, row.outer / 2),)), FLANGE))
+    bores = circle(0j, row.outer / 2), *holes
+    return Placed(Prism(Profile(rectangle(row.flange, row.flange), bores), FLANGE))
+
+
+def screw(name: str, title: str, row: HexagonScrew, length: float) -> Part:
+    """A hexagon head screw along z: its head below z = 0, its thread above; the mass is that of both in steel."""
+    shape = stepped((row.across, row.head), (row.diameter, length))
+    bought = Bought(row.designation(length), shape.volume * STEEL.density)
+    placed = Sum((Placed(shape, (placement(z=-row.head),)),))
+    return Part(name, title, "fastener", shape=placed, purchase=bought, envelope=True)
 
 
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:

@@ -19,6 +19,7 @@ from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_
 from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
+from ilmek.machines.automated_loom.frame_modes import FrameModes
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, own_tree, parts_of_loom
 from ilmek.machines.automated_loom.report import (
@@ -65,7 +66,18 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, LoomAnalysis, SideView, TimeShares, BeatDrive, Energy, YarnPath, PartsList, LoomAssembly),
+    reported=(
+        LoomVerdict,
+        LoomAnalysis,
+        SideView,
+        TimeShares,
+        BeatDrive,
+        Energy,
+        YarnPath,
+        PartsList,
+        FrameModes,
+        LoomAssembly,
+    ),
     checks=checks,
     tables=tables,
     figures=lambda found: figures(found.loom),

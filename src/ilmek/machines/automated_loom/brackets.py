@@ -50,6 +50,7 @@ class Bracket:
     nodes         that its outline surrounds, the column's among them [m]
     radius        of the outline about them [m]: half of its height at the column
     bores         through it [m]                      seats   that stand on it
+    seat          of the bearing on it
     load, moment  sum of the forces [N], and of their moments about the column's axis in its plane, out of it [N m]
     """
 
@@ -59,6 +60,7 @@ class Bracket:
     nodes: ComplexArray
     radius: float
     bores: tuple[Contour, ...]
+    seat: BearingSeat
     load: float
     moment: tuple[float, float]
 
@@ -183,7 +185,8 @@ def _upper(
         far + seat.bearing.width,
         nodes,
         _radius(loom, moment, max(seat.radius, sides)),
-        (circle(at, seat.bore / 2),),
+        _bores(seat, np.array([at])),
+        seat,
         sum(load for load, _ in loads),
         moment,
     )
@@ -205,10 +208,18 @@ def _of_seat(  # noqa: PLR0917
     at, seat, force = carried
     moved = at + (np.zeros(1, complex) if shift is None else shift)
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
-    bore = circle(at, seat.bore / 2) if len(moved) == 1 else rounded_hull(moved, seat.bore / 2)
     radius = min(_radius(loom, moment, seat.radius), max(most, seat.side / 2))
     nodes = np.concatenate([moved, loom.side.column + 1j * moved.imag])
-    return Bracket(name, title, far + seat.bearing.width, nodes, radius, (bore,), force, moment)
+    return Bracket(name, title, far + seat.bearing.width, nodes, radius, _bores(seat, moved), seat, force, moment)
+
+
+def _bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
+    """The bores of a seat for its shaft and its screws, at its positions [m]: slots where it moves."""
+    screw = seat.screws.screw.diameter / 2
+    bores = [(0j, seat.bore / 2), *((complex(corner), screw) for corner in seat.corners())]
+    if len(moved) == 1:
+        return tuple(circle(complex(moved[0]) + axis, radius) for axis, radius in bores)
+    return tuple(rounded_hull(moved + axis, radius) for axis, radius in bores)
 
 
 def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:
@@ -284,4 +295,5 @@ def bracket_checks(loom: LoomDesign, made: Brackets, column: HollowSquare) -> tu
         cure=_CURE,
         parts=(part_id("column"),),
     )
-    return (*stresses, *_beam_checks(loom, made.beam, made.pull), room)
+    seats = (one.seat.check(f"frame: bearing on the {one.title}", _CURE, part_id(one.name)) for one in made.plates)
+    return (*stresses, *seats, *_beam_checks(loom, made.beam, made.pull), room)

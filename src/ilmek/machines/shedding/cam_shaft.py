@@ -120,7 +120,7 @@ class CamShaft:
     @property
     def seat(self) -> BearingSeat:
         """A bearing of the shaft on the frame's bracket."""
-        return seat_of(self.shaft.seat.bearing)
+        return seat_of(self.shaft.seat.bearing, self.shaft.seat.reaction)
 
     @property
     def reach(self) -> float:

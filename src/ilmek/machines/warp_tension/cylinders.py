@@ -97,7 +97,7 @@ class Cylinder:
     @property
     def seat(self) -> BearingSeat:
         """Its bearing on the frame's bracket."""
-        return seat_of(self.bearing)
+        return seat_of(self.bearing, self.reaction)
 
     @property
     def stub_safety(self) -> float:

@@ -20,7 +20,7 @@ from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import tube
-from ilmek.part.tree import Tree
+from ilmek.part.tree import JointKind, Tree
 from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
 
@@ -29,10 +29,14 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
     listed = parts_of_loom(loom)
     retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
+    warps = _warp_cylinders(loom).bodies
+    turned = tuple(body for body in warps if body.joint.kind is JointKind.PIN)
+    beside = tuple(body for body in warps if body not in turned)
     return (
         MachineTree("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
         MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
-        MachineTree("warp-tension", _warp_cylinders(loom), deviations=(COARSE,)),
+        MachineTree("warp-tension", Tree(turned), deviations=(COARSE,)),
+        MachineTree("warp-tension", Tree(beside)),  # finer: screws in their holes
         *compensator(loom),
     )
 

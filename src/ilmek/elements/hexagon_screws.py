@@ -1,0 +1,109 @@
+"""Hexagon head screws with a full thread, of the property class 8.8: sizes, preload, and what a group of them holds.
+
+    F_p = 0.7 f_ub A_s,    F_s = mu (n F_p - 0.8 sum F_t) / gamma                [EN 1993-1-8, 3.9; ISO 898-1, ISO 4017]
+
+A screw that is preloaded presses the joined faces; their friction mu, 0.2 of faces as rolled [table 3.7, class D],
+holds the force across it, n screws with the pulls F_t along them, gamma 1.25.
+"""
+
+from dataclasses import dataclass
+
+from ilmek.units import MPa, mm
+
+TENSILE = 800 * MPa
+"""f_ub of the class 8.8 [Pa]."""
+
+FRICTION, PARTIAL = 0.2, 1.25
+
+EDGE = 1.2
+"""Least distance of a screw's axis from an edge over its diameter [EN 1993-1-8, table 3.3]."""
+
+LENGTHS = tuple(length * mm for length in (16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100))
+"""Lengths of screws [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class HexagonScrew:
+    """A screw: diameter of its thread [m], stress area [m²], width across flats and height of its head [m]."""
+
+    name: str
+    diameter: float
+    area: float
+    across: float
+    head: float
+
+    @property
+    def preload(self) -> float:
+        """F_p [N].
+
+        >>> round(SCREWS["M12"].preload)
+        47208
+        """
+        return 0.7 * TENSILE * self.area
+
+    def slip(self, number: int, pull: float = 0.0) -> float:
+        """Force across that a number of screws hold by friction [N], with the sum of pulls along them [N].
+
+        >>> round(SCREWS["M12"].slip(4))
+        30213
+        """
+        return FRICTION * (number * self.preload - 0.8 * pull) / PARTIAL
+
+    def length_for(self, most: float) -> float:
+        """The longest screw up to a length [m]; the shortest of all where none is."""
+        return max((length for length in LENGTHS if length <= most + 1e-9), default=LENGTHS[0])
+
+    def designation(self, length: float) -> str:
+        """As ordered.
+
+        >>> SCREWS["M12"].designation(0.04)
+        'ISO 4017 - M12 x 40 - 8.8'
+        """
+        return f"ISO 4017 - {self.name} x {length / mm:g} - 8.8"
+
+
+SCREWS = {
+    name: HexagonScrew(name, diameter * mm, area * mm**2, across * mm, head * mm)
+    for name, diameter, area, across, head in (
+        ("M6", 6, 20.1, 10, 4.0),
+        ("M8", 8, 36.6, 13, 5.3),
+        ("M10", 10, 58.0, 16, 6.4),
+        ("M12", 12, 84.3, 18, 7.5),
+        ("M16", 16, 157.0, 24, 10.0),
+        ("M20", 20, 245.0, 30, 12.5),
+        ("M24", 24, 353.0, 36, 15.0),
+    )
+}
+"""By thread, ascending: stress areas of ISO 898-1, table 4, heads of ISO 4017."""
+
+
+@dataclass(frozen=True, slots=True)
+class FourScrews:
+    """Four screws of a square plate that bears a force across their axes, at a lever over the plate's face.
+
+    side  of the plate [m]      force  across [N]      lever  of the force over the face [m]
+    least  diameter for which the plate is drilled [m]
+    """
+
+    side: float
+    force: float
+    lever: float
+    least: float = 0.0
+
+    def distance(self, screw: HexagonScrew) -> float:
+        """Of neighbouring screws [m]: each stands 1.2 of its diameter off the edges."""
+        return self.side - 2 * EDGE * screw.diameter
+
+    def pull(self, screw: HexagonScrew) -> float:
+        """Sum of the pulls along the two screws that the lever strains [N]."""
+        return self.force * self.lever / self.distance(screw)
+
+    def holds(self, screw: HexagonScrew) -> float:
+        """Force across that they hold [N]."""
+        return screw.slip(4, self.pull(screw))
+
+    @property
+    def screw(self) -> HexagonScrew:
+        """The smallest that holds the force, from that for which the plate is drilled; the largest where none does."""
+        offered = [one for one in SCREWS.values() if self.least <= one.diameter < 0.2 * self.side] or [SCREWS["M6"]]
+        return next((one for one in offered if self.holds(one) >= self.force), offered[-1])

@@ -1,0 +1,141 @@
+"""Welds, screws and feet against published values, brute force and the parts of the tree.
+
+Evidence: EN 1993-1-8 (fillet welds of S235: 207.8 N/mm²; table of preloads of 8.8 screws, 0.7 f_ub A_s), ISO 898-1,
+forces of a weld group summed over its length by brute force, screws counted from the bodies of a loom.
+"""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ilmek.elements.fillet_welds import STRENGTH, THROATS, RoundSquare, TwoSeams, throat_for
+from ilmek.elements.hexagon_screws import SCREWS, FourScrews
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
+from ilmek.machines.automated_loom.feet import FEET, foot_for
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.joints import joint_checks, seams, tipping
+from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.rail_supports import rail_supports
+
+PRELOADS = {"M12": 47e3, "M16": 88e3, "M20": 137e3, "M24": 198e3}
+"""kN of 8.8 screws, as design tables for EN 1993-1-8 round them [N]."""
+
+
+@cache
+def loom(width: float = 1.2) -> LoomDesign:
+    return design(AutomatedLoomParams(width=width, length=1.0))
+
+
+@pytest.mark.parametrize(("name", "preload"), PRELOADS.items())
+def test_preloads_are_those_of_the_tables(name: str, preload: float) -> None:
+    assert SCREWS[name].preload == pytest.approx(preload, rel=5e-3)
+
+
+def test_a_weld_of_s235_bears_what_the_code_says() -> None:
+    assert pytest.approx(207.8e6, rel=1e-3) == STRENGTH
+
+
+def brute_force(points: np.ndarray, force: complex, moment: float, across: float) -> float:
+    """Greatest force on a length of seams through points: evenly, and linearly about their middle [N/m]."""
+    polar, upright = np.mean(np.abs(points) ** 2), np.mean(points.imag**2)
+    whole = force + 1j * moment * points / polar
+    return float(np.hypot(np.abs(whole), across * points.imag / upright).max())
+
+
+@given(st.floats(0.05, 0.6), st.floats(0.04, 0.4), st.floats(1.0, 1e5), st.floats(0.0, 1e4), st.floats(0.0, 1e3))
+def test_two_seams_are_never_weaker_than_their_points_summed(
+    length: float, distance: float, force: float, moment: float, across: float
+) -> None:
+    seam = (np.arange(4000) + 0.5) / 4000 * length - length / 2
+    points = np.concatenate([distance / 2 + 1j * seam, -distance / 2 + 1j * seam])
+    total = 2 * length
+    worst = max(
+        brute_force(points, force * turned / total, moment / total, across / total) for turned in (1, 1j, 0.6 + 0.8j)
+    )
+    found = TwoSeams(length, distance).force(force, moment, across)
+    assert worst * (1 - 1e-9) <= found <= math.sqrt(2) * worst * (1 + 1e-3) + 1e-9
+
+
+@given(st.floats(0.03, 0.4), st.floats(0.0, 1e4))
+def test_a_weld_round_a_square_bends_as_its_lines(side: float, moment: float) -> None:
+    edge = (np.arange(2000) + 0.5) / 2000 * side - side / 2
+    heights = np.concatenate([edge, edge, np.full(2000, side / 2), np.full(2000, -side / 2)])
+    inertia = float(np.sum(heights**2)) * side / 2000
+    assert RoundSquare(side).force(0.0, moment) == pytest.approx(moment * side / 2 / inertia, rel=1e-3)
+
+
+def test_a_throat_is_the_least_that_bears_its_force_and_never_more_than_its_wall_allows() -> None:
+    assert throat_for(0.0, 0.02) == THROATS[0]
+    for throat, thinner in zip(THROATS[1:], THROATS, strict=False):
+        assert throat_for(STRENGTH * (thinner + throat) / 2, 0.02) == throat
+    assert throat_for(1e9, 0.006) == 0.004
+
+
+@given(st.floats(0.06, 0.3), st.floats(10.0, 1e5), st.floats(0.0, 0.05))
+def test_four_screws_hold_by_friction_what_presses_less_what_pulls(side: float, force: float, lever: float) -> None:
+    group = FourScrews(side, force, lever)
+    screw = group.screw
+    pulled = force * lever / (side - 2.4 * screw.diameter)
+    assert group.holds(screw) == pytest.approx(0.2 * (4 * 0.7 * 800e6 * screw.area - 0.8 * pulled) / 1.25)
+    smaller = [one for one in SCREWS.values() if one.diameter < screw.diameter]
+    assert all(group.holds(one) < force for one in smaller) or not smaller
+
+
+@pytest.mark.parametrize("width", [1.2, 0.6])
+def test_every_bearing_of_a_shaft_has_four_screws_in_tree_and_list(width: float) -> None:
+    own = loom(width)
+    placed = {part.id: (part, number) for part, number in loom_tree(own).occurrences()}
+    listed = {line.part: line for line in parts_of_loom(own).parts}
+    bearings = [name for name in placed if name + "-screw" in placed]
+    assert len(bearings) == 3 + len(own.side.cams)
+    for name in bearings:
+        part, number = placed[f"{name}-screw"]
+        line = listed[part.id]
+        assert number == 4 * placed[name][1] == line.number
+        assert line.description == part.purchase.row
+        assert part.purchase.row.startswith("ISO 4017 - M")
+        assert line.mass == pytest.approx(part.shape.volume * 7850)
+
+
+def test_the_frame_is_welded_and_stands_and_says_so_where_it_does_not() -> None:
+    own = loom()
+    frame = parts_of_loom(own).frame
+    assert all(check.ok for check in joint_checks(own, frame))
+    assert {seam.part for seam in seams(own, frame)} >= {"upper-bracket", "rail-post", "rail-arm", "beat-post"}
+    shaken = replace(own, beat=replace(own.beat, frame_force=1e6))
+    assert not tipping(shaken, frame).ok
+    listed = {line.part for line in parts_of_loom(own).parts}
+    checks = (*joint_checks(own, frame), *bracket_checks(own, brackets_of(own), frame.column), *frame.checks)
+    assert {part for check in checks for part in check.parts} <= listed
+
+
+def test_feet_bear_half_of_the_loom_each() -> None:
+    found = parts_of_loom(loom())
+    assert found.frame.foot_load == pytest.approx(found.mass * 9.81 / 2, rel=0.02)
+    assert found.frame.foot == foot_for(found.frame.foot_load) == FEET[0]
+    assert foot_for(30e3).name == "M24"
+    assert foot_for(1e9) == FEET[-1]
+    heavy = replace(found.frame, foot_load=1e6)
+    assert [check.name for check in heavy.checks if not check.ok] == ["load of a levelling foot"]
+
+
+def test_a_wide_rail_has_supports_between_its_ends() -> None:
+    own = loom(2.4)
+    frame = parts_of_loom(own).frame
+    ends, between = rail_supports(own, frame)
+    assert frame.task.rail_spans == 2
+    assert len(ends.stations) == 2
+    assert len(between.stations) == 1
+    assert all(check.ok for one in (ends, between) for check in one.checks)
+    broken = replace(between, load=1e5)
+    assert [check.name for check in broken.checks if not check.ok]
+    names = {body.id: {one.part.id: len(one.positions) for one in body.occurrences} for body in loom_tree(own).bodies}
+    assert names["heads' rail"]["automated-loom/rail-bracket"] == 1
+    assert names["automated-loom/retreat"]["automated-loom/retreat-axis"] == 3
+    assert names["automated-loom/frame"]["automated-loom/post"] == 1
