@@ -55,8 +55,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     )
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
-    # Wider than its axis, it reaches outwards; at the end that is farther from the posts of the beat: of crank-rockers,
-    # which stand before the rail, the upper one, of vertical axes behind it the lower one.
+    # At the upper end, above the post; wider than its axis, it reaches outwards.
     outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
@@ -64,7 +63,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         for x in own.stations
     ]
     flange = placement(outwards, z=-room)
-    if not loom.beat.crank_rockers:
+    if not loom.beat.crank_rockers:  # At the lower end: the posts of vertical axes stand behind the rail.
         flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
     return RigidBody(
         part_id("retreat"),
