@@ -29,8 +29,8 @@ def default_results(machine: str) -> Report:
 
 @lru_cache(maxsize=16)
 def loom_report(loom: LoomDesign) -> Report:
-    """The report of a loom without tables and figures."""
-    return MACHINE.report(loom, illustrated=False)
+    """The report of a loom without tables and figures, and without its parts in space."""
+    return MACHINE.report(loom, illustrated=False, assembled=False)
 
 
 @cache

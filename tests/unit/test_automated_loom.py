@@ -31,7 +31,7 @@ from ilmek.units import deg, dm, hour, mm
 
 @cache
 def reported(**settings: Any) -> Report:
-    """A loom's report: the same settings are designed once."""
+    """A loom's report, without its parts in space: the same settings are designed once."""
     return loom_report(design(AutomatedLoomParams(**settings)))
 
 
@@ -47,7 +47,7 @@ def reported(**settings: Any) -> Report:
         dict(width=5.0, length=7.0, heads=20),
     ],
 )
-def test_looms_for_other_carpets_keep_all_limits(settings: dict[str, Any]) -> None:
+def test_looms_for_other_carpets_keep_all_limits_but_those_in_space(settings: dict[str, Any]) -> None:
     loom = design(AutomatedLoomParams(**settings))
     made = loom_report(loom)
     # The columns of the widest stand between its cylinders and their brackets, where there is no room for them.

@@ -21,7 +21,7 @@ from ilmek.jobs.studio.machine.tasks import (
     list_of_machines,
     reading,
 )
-from ilmek.jobs.studio.machine.view import nearest, view
+from ilmek.jobs.studio.machine.view import in_space, view
 from ilmek.machines import SUMMARIES
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import reachable
@@ -84,13 +84,17 @@ def test_view_has_the_verdict_and_the_checks_of_the_design(name: str, settings: 
     assert changed in settings
 
 
-def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_states_the_nearest_carpets() -> None:
+def test_loom_in_the_studio_has_the_checks_of_all_its_machines_and_then_those_in_space() -> None:
     settings = {"knots_across": "200/dm", "knots_along": "200/dm", "width": "0.3m", "length": "0.3m"}
     seen = view(DesignRequest("automated-loom", settings), HERE)
     assert not seen.holds
     assert seen.failed == len(seen.reasons)
     assert {one.machine for one in seen.checks} >= {"", "weaver", "shedding", "warp-tension"}
-    assert "quality" in nearest(DesignRequest("automated-loom", settings), HERE).text
+    assert seen.pending
+    whole = in_space(DesignRequest("automated-loom", settings), HERE)
+    assert not whole.pending
+    assert {one.name for one in seen.checks} < {one.name for one in whole.checks}
+    assert "buildable" in {one.name for one in whole.results} - {one.name for one in seen.results}
 
 
 @pytest.mark.parametrize("name", ["beat-up", "shedding"])

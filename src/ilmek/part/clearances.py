@@ -212,7 +212,8 @@ class _Pair:
                 angle, least = float(middle[lowest]), float(between[lowest])
             ends = np.concatenate([np.column_stack([ends[:, 0], middle]), np.column_stack([middle, ends[:, 1]])])
             apart = np.concatenate([np.column_stack([apart[:, 0], between]), np.column_stack([between, apart[:, 1]])])
-        return _Searched(*(np.concatenate(each) for each in zip(*closed, strict=True)), angle, least)
+        every, bounds = (np.concatenate(each) for each in zip(*closed, strict=True))
+        return _Searched(every, bounds, angle, least)
 
 
 def _half_travelled(angles: FloatArray, moved: FloatArray, ends: Float[np.ndarray, "n 2"]) -> FloatArray:

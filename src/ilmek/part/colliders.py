@@ -6,9 +6,10 @@ its surface S of V / S <= t / 2: parts whose boxes share less than `DEPTH` need 
 
 import hashlib
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import cast
 
 import fcl
 import numpy as np
@@ -135,9 +136,14 @@ def _triangle_tree(points: Points, triangles: Int[np.ndarray, "triangles 3"]) ->
     return model
 
 
-@lru_cache(maxsize=1024)
 def collider(shape: Shape) -> Collider:
     """A shape."""
+    return _collider(cast(Hashable, shape))  # every shape is a record
+
+
+@lru_cache(maxsize=1024)
+def _collider(hashed: Hashable) -> Collider:
+    shape = cast(Shape, hashed)
     detailed = isinstance(shape, Turned) and len(shape.profile.outline.points) >= FINE
     return Collider(lambda: shape.mesh(COARSE if detailed else DEVIATION), isinstance(shape, Turned))
 
