@@ -1,7 +1,6 @@
 """The loom of the thesis (chapter 3): 600 warps at 2 mm, 15 N each, tube 140 x 5 mm, cams at 5 rpm, four steps."""
 
 import pytest
-from default_machines import loom_report
 
 from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design

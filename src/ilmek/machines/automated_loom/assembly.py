@@ -9,7 +9,7 @@ from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machi
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import Contacts, contacts, open_parts
-from ilmek.part.mobility import Mobility
+from ilmek.part.mobility import TreeMobility
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -51,7 +51,7 @@ class LoomAssembly:
     degrees_of_freedom = computed(
         "1",
         "ways in which the bodies move, less those that closed loops take: of what cams and warps move, too",
-        lambda it: Mobility(loom_tree(it.loom)).degrees_of_freedom,
+        lambda it: TreeMobility(loom_tree(it.loom)).degrees_of_freedom,
     )
 
     @computed(
