@@ -15,7 +15,6 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.elements.field_devices import BRAKE
-from ilmek.errors import LoomError
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_posts
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
@@ -67,7 +66,7 @@ class Creel:
     """Where the packages are.
 
     size     diameter and length of a package [m]       pitch  of neighbours [m]
-    rows     heights of their axes [m]                   columns  z of their axes [m]
+    rows     heights of their axes [m]                   columns  z of their axes, from the front [m]
     ends     of its rails, z [m]: past all columns, to a post of the fence
     base     x of the packages' bases, their axes point to the right [m]
     inner    x of the rails' faces that carry the brakes [m]
@@ -110,7 +109,7 @@ _REAL = 1e-9
 
 @lru_cache(maxsize=4)
 def creel_of(loom: LoomDesign) -> Creel:
-    """The creel of a loom. Raises LoomError where no duct passes to the heads."""
+    """The creel of a loom."""
     near, fence = surroundings(loom), fence_of(loom)
     size, number = package_size(loom.params.package_mass), loom.heads * loom.weaver.params.tubes
     foot = near.of(part_id("front-foot"))[0]
@@ -122,7 +121,8 @@ def creel_of(loom: LoomDesign) -> Creel:
     pitch, inner = size + BETWEEN, fence.left - POST - POST
     lowest = fence.floor + size / 2 + 2 * BETWEEN
     rows = np.arange(lowest, max(fence.floor + HIGHEST, lowest) + _REAL, pitch).tolist()
-    columns = tuple(depth - side - pitch * (k + 0.5) - POST for k in range(math.ceil(number / len(rows))))
+    many = math.ceil(number / len(rows))
+    columns = tuple(depth + ((many - 1) / 2 - k) * pitch for k in range(many))
     begin, last = columns[-1] - (pitch + POST) / 2, columns[0] + (pitch + POST) / 2
     post = max((z for z in side_posts(fence) if z < last), default=begin)
     return Creel(
@@ -141,7 +141,7 @@ def creel_of(loom: LoomDesign) -> Creel:
 
 
 def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, side: float, wished: float) -> float:
-    """Axis of the duct, z [m]: the nearest to what is wished where it and its stand have room, over the front foot."""
+    """Axis of the duct, z [m], as near to what is wished as it has room over the front foot with its stand."""
     foot, (begin, end) = near.of(part_id("front-foot"))[0], ends
     half = side / 2
     offered = np.arange(float(foot.low[2]) + half, float(foot.high[2]) - half, _STEP)
@@ -149,7 +149,7 @@ def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, si
         low = np.array([begin, float(foot.high[1]) + _REAL, z - half])
         if near.free(low, np.array([end, height + half, z + half]), but=foot.part):
             return z
-    raise LoomError("no room for the yarns' duct over the front foot", do="set a larger margin")
+    return wished
 
 
 def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:

@@ -10,14 +10,15 @@ The warps pull down on the beam with P, and to the back with as much, which bend
 all: it is strained by P l c / (8 E I).                                           [beam theory; Timoshenko and Gere]
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import lru_cache
+from itertools import product
 
 import numpy as np
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import STEEL
 from ilmek.elements.field_devices import AXIS_SENSOR, BARRIER, ENCODER, STRAIN, YARN_SENSOR
-from ilmek.errors import LoomError
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
@@ -27,11 +28,12 @@ from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.shedding.stack import part_id as shedding_part
 from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
-from ilmek.part.extents import shape_box
+from ilmek.part.extents import Corner, shape_box
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.tree import Occurrence, RigidBody, Tree
-from ilmek.report import Check, at_least
+from ilmek.part.tree import GROUND, Occurrence, RigidBody, Tree
+from ilmek.records import record
+from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
 
 _BEAT_MOTORS = ("beat-up/motor", "hammer/motor")
@@ -42,101 +44,129 @@ LEAST_STRAIN = 20e-6
 """Strain by the warps at rest that a transducer tells well: 4 % of its range; assumed by this project."""
 
 
+@record
+class SensorPlace:
+    """Where pieces of a sensor are on the body that carries it, and whether they have room there."""
+
+    part: Part
+    carrier: str
+    positions: tuple[Placement, ...]
+    free: bool = True
+
+
+@lru_cache(maxsize=4)
+def sensor_places(loom: LoomDesign) -> tuple[SensorPlace, ...]:
+    """The sensors of a loom."""
+    near = surroundings(loom)
+    return (
+        _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)),
+        _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", _BEAT_MOTORS),
+        _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (shedding_part("motor"),)),
+        _on_the_axis(near),
+        _strain(near),
+        _barriers(loom, near),
+        _weft_sensor(loom, near),
+    )
+
+
 def sensors(loom: LoomDesign) -> Iterator[MachineTree]:
     """The sensors, each as a body on the body that carries it."""
-    near = surroundings(loom)
-    yield _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,))
-    yield _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", _BEAT_MOTORS)
-    yield _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (shedding_part("motor"),))
-    yield _on_the_axis(near)
-    still = (_strain(near), _barriers(loom, near), _weft_sensor(loom, near))
-    bodies = (RigidBody(own.part.id, (own,)) for own in still)
-    yield MachineTree("automated-loom", Tree(tuple(bodies)))
+    for place in sensor_places(loom):
+        body = RigidBody(place.part.id, (Occurrence(place.part, place.positions),))
+        yield MachineTree("automated-loom", Tree((body,)), parent=place.carrier)
 
 
-def _encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MachineTree:
+def _encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> SensorPlace:
     """An encoder behind a motor, whose flange is at z = 0 and whose body lies behind it."""
     body, motor, position = near.occurrence(motors)
     assert motor.shape is not None
-    rear, part = float(shape_box(motor.shape)[0][2]), device(name, title, ENCODER)
-    return _alone(part, position.after(placement(z=rear - ENCODER.size[2])), body.id)
+    rear = float(shape_box(motor.shape)[0][2])
+    return SensorPlace(device(name, title, ENCODER), body.id, (position.after(placement(z=rear - ENCODER.size[2])),))
 
 
-def _alone(part: Part, position: Placement, carrier: str) -> MachineTree:
-    body = RigidBody(part.id, (Occurrence(part),), positions=(position,))
-    return MachineTree("automated-loom", Tree((body,)), parent=carrier)
+def _first_free(
+    near: Surroundings, part: Part, carrier: str, offered: Iterable[tuple[Placement, ...]], on: str
+) -> SensorPlace:
+    """The first of the places that are offered in which all pieces have room beside the part on which they are; where
+    none has, the first.
+    """
+    first: tuple[Placement, ...] = ()
+    for positions in offered:
+        if all(near.free(*_boxed(part, own), but=on) for own in positions):
+            return SensorPlace(part, carrier, positions)
+        first = first or positions
+    return SensorPlace(part, carrier, first, free=False)
 
 
-def _on_the_axis(near: Surroundings) -> MachineTree:
-    """In the slot of an axis of the retreat: the first free place on its sides, from its lower end upwards."""
+def _boxed(part: Part, position: Placement) -> tuple[Corner, Corner]:
+    assert part.shape is not None
+    low, high = shape_box(part.shape)
+    points = position.points(np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True)))))
+    return points.min(0), points.max(0)
+
+
+def _on_the_axis(near: Surroundings) -> SensorPlace:
+    """In the slot of an axis of the retreat, on one of its sides, as near to its lower end as there is room."""
     body, axis, position = near.occurrence((part_id("retreat-axis"),))
     assert axis.shape is not None
     low, high = shape_box(axis.shape)
     part = device(signals.RETREATED, "sensor of the retreated heads", AXIS_SENSOR)
     _, thick, long = AXIS_SENSOR.size
-    sides = [placement(y=float(high[1]) + thick / 2), placement(y=float(low[1]) - thick / 2)]
-    for z in np.arange(float(high[2]) - long - _STEP, float(low[2]), -_STEP).tolist():
-        for side in sides:
-            own = position.after(placement(z=z)).after(side)
-            if near.free(*_boxed(part, own), but=axis.id):
-                return _alone(part, own, body.id)
-    raise _no_room(part)
+    sides = placement(y=float(high[1]) + thick / 2), placement(y=float(low[1]) - thick / 2)
+    along = np.arange(float(high[2]) - long - _STEP, float(low[2]), -_STEP).tolist()
+    offered = ((position.after(placement(z=z)).after(side),) for z in along for side in sides)
+    return _first_free(near, part, body.id, offered, axis.id)
 
 
-def _boxed(part: Part, position: Placement) -> tuple[np.ndarray, np.ndarray]:
-    assert part.shape is not None
-    low, high = shape_box(part.shape)
-    corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    points = position.points(corners)
-    return points.min(0), points.max(0)
-
-
-def _no_room(part: Part) -> LoomError:
-    return LoomError(f"no room for the {part.title}", do="set a larger clearance or margin")
-
-
-def _strain(near: Surroundings) -> Occurrence:
+def _strain(near: Surroundings) -> SensorPlace:
     """Under the back rest's beam, along it."""
-    (beam,) = near.of(part_id("back-rest-beam"))
-    part = device(signals.TENSION, "strain transducer of the warps' tension", STRAIN)
+    beam, part = near.of(part_id("back-rest-beam"))[0], device(signals.TENSION, "sensor of the warps' tension", STRAIN)
     _, high, long = STRAIN.size
     y, z = float(beam.low[1]) - high / 2, float(beam.low[2] + beam.high[2]) / 2
-    return Occurrence(part, (placed(-long / 2, y, z, TO_THE_RIGHT),))
+    return _first_free(near, part, GROUND, ((placed(-long / 2, y, z, TO_THE_RIGHT),),), beam.part)
 
 
-def _barriers(loom: LoomDesign, near: Surroundings) -> Occurrence:
-    """Sender and receiver on the inner faces of the upper brackets, at the first free place below the level warps."""
-    part = device(signals.WARP_STOP, "light barrier for broken warps", BARRIER)
-    inner, bracket = brackets_of(loom).upper.inner, part_id("upper-bracket")
+def _barriers(loom: LoomDesign, near: Surroundings) -> SensorPlace:
+    """Sender and receiver on the inner faces of the upper brackets, below the level warps."""
+    part, upper = device(signals.WARP_STOP, "light barrier for broken warps", BARRIER), brackets_of(loom).upper
     begin, end = loom.side.upper.at, loom.side.back_rest.at
-    for share in np.linspace(0.2, 0.9, 15).tolist():
-        at = begin + share * (end - begin)
-        both = (placed(-inner, at.imag, at.real, TO_THE_RIGHT), placed(inner, at.imag, at.real, TO_THE_LEFT))
-        if all(near.free(*_boxed(part, own), but=bracket) for own in both):
-            return Occurrence(part, both)
-    raise _no_room(part)
+    lower = np.arange(0.0, upper.radius - BARRIER.size[1] / 2, _STEP).tolist()
+    places = (begin + share * (end - begin) - 1j * y for y in lower for share in np.linspace(0.2, 0.9, 15).tolist())
+    offered = (
+        (
+            placed(-upper.inner, at.imag, at.real, TO_THE_RIGHT),
+            placed(upper.inner, at.imag, at.real, TO_THE_LEFT),
+        )
+        for at in places
+    )
+    return _first_free(near, part, GROUND, offered, part_id("upper-bracket"))
 
 
-def _weft_sensor(loom: LoomDesign, near: Surroundings) -> Occurrence:
-    """On the front of the left column, looking at the weft between cloth and box; below or above its height."""
+def _weft_sensor(loom: LoomDesign, near: Surroundings) -> SensorPlace:
+    """On the front of the left column, looking at the weft between cloth and box, as near to its height as it can."""
     part, column = device(signals.WEFT_STOP, "sensor of the weft", YARN_SENSOR), near.of(part_id("column"))[0]
-    wide = YARN_SENSOR.size[0]
+    wide, z, middle = YARN_SENSOR.size[0], float(column.high[2]), loom.side.weft_height
     xs = np.arange(float(column.low[0]) + wide, float(column.high[0]) - wide, wide).tolist()
-    for offset in _STEP * np.arange(40):
-        for y in (loom.side.weft_height - offset, loom.side.weft_height + offset):
-            for x in xs:
-                own = placement(x, float(y), float(column.high[2]))
-                if near.free(*_boxed(part, own), but=column.part):
-                    return Occurrence(part, (own,))
-    raise _no_room(part)
+    heights = (middle + sign * offset for offset in (_STEP * np.arange(40)).tolist() for sign in (-1, 1))
+    return _first_free(near, part, GROUND, ((placement(x, y, z),) for y in heights for x in xs), column.part)
 
 
 def sensor_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """Whether the warps' tension at rest bends the back rest's beam enough to be told."""
+    """Room of the sensors; whether the warps' tension at rest bends the back rest's beam enough to be told."""
     made, long = brackets_of(loom), loom.task.width
     moment = uniform.moment_max(loom.task.cloth.pull / long, long)
     strain = float(uniform.bending_stress(moment, made.beam.side / 2, made.beam.inertia)) / STEEL.modulus
+    tight = tuple(place.part for place in sensor_places(loom) if not place.free)
     return (
+        at_most(
+            "sensors without room",
+            len(tight),
+            0,
+            "1",
+            "; ".join(part.title for part in tight) or "beside all parts of the loom, over all motions",
+            cure="set a larger clearance",
+            parts=tuple(part.id for part in tight),
+        ),
         at_least(
             "warp tension: strain of the back rest's beam",
             strain,
