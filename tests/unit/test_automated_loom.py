@@ -172,7 +172,7 @@ def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: fl
             "40 knots/dm on a warp pitch of 2 mm; 25 knots/dm is all that 2 mm pitch gives; 40/dm needs 1.25 mm",
         ),
         (dict(warp_pitch=2 * mm, knots_across=20 / dm), "25 knots/dm is what that 2 mm pitch gives"),
-        (dict(heads=9), "9 heads of 85 mm do not fit a carpet 1.2 m wide; at most 7"),
+        (dict(heads=9), "9 heads of 88 mm do not fit a carpet 1.2 m wide; at most 7"),
         (dict(open_share=1.0), "a shed of 60 mm is never as open as open_share=1 of it"),
         (dict(beat_end=105 * deg), "the shed is free of the shuttle from 108.4 deg on"),
         (dict(take_up_end=150 * deg), "the take-up ends before the beat"),

@@ -231,17 +231,17 @@ def _partition(weaver: Weaver) -> Occurrence:
     """The plate across the case, with the ways of all that passes; lower at the right, where the handler's shaft is."""
     shape, at, by = weaver.shape, pivot(weaver), weaver.grippers
     track = opener_track(weaver)
-    inner = stack_width(weaver.params) / 2
     top = (shape.body + shape.size).imag - sheet(weaver)
     low = shape.levers[track].pin.imag + DRAWBAR + 8 * mm
-    split, bottom = at.real - HANDLER_SHAFT, min(at.imag, low) - HANDLER_SHAFT
-    sley = shape.levers[SLEY]
+    sley, bottom = shape.levers[SLEY], min(at.imag, low) - HANDLER_SHAFT
     over = sley.pivot.imag + abs(sley.pivot.real - shape.partition) * sley.lift / 2 / sley.arm + 2 * HALF
-    beside = station(weaver, SLEY) + weaver.params.cam_thickness / 2 + 0.5 * mm
+    beside = min(station(weaver, SLEY) + weaver.params.cam_thickness / 2 + 0.5 * mm, RODS[0] - ROD)
+    inner = max(stack_width(weaver.params) / 2, RODS[1] + ROD, at.real + HANDLER_SHAFT)
+    split = at.real - HANDLER_SHAFT
     left = [complex(-inner, top), complex(-inner, over), complex(beside, over)]
     corners = [
         *(complex(split, bottom), complex(inner, bottom), complex(inner, top)),
-        *(left if over < top - SUPPORT else [complex(beside, top)]),
+        *(left if over < top - SUPPORT and beside > -inner else [complex(beside, top)]),
         *(complex(beside, low), complex(split, low)),
     ]
     ways = [*(_around(rod, ROD / 2, round_=True) for rod in _rods(weaver)), _around(at, HANDLER_SHAFT / 2, round_=True)]
@@ -254,7 +254,9 @@ def _partition(weaver: Weaver) -> Occurrence:
             _around(1j * height, weaver.params.finger / 2),
             _around(1j * (height + ABOVE_CENTRE), ROD / 2, round_=True),
         ]
-    section = Profile(polygon(np.array(corners)), tuple(way.contour for way in apart(ways)))
+    room = Guide(complex(beside, low), complex(inner, top))
+    within = [way for way in apart(ways) if way.within(room) or way.round]
+    section = Profile(polygon(np.array(corners)), tuple(way.contour for way in within))
     part = Part(
         part_id("partition"),
         "plate across behind the carriages",
@@ -270,7 +272,8 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
     """The block behind the sley's arm on its rod, and the cheeks of its lever's pin."""
     tool, plane, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), weaver.params.cam_thickness / 2, station(weaver, SLEY)
     arm = -weaver.tool_bodies.sley_arm
-    left, right = min(side - plane, arm), max(side + plane, arm + SLEY_ARM)
+    room = max(plane, 0.7 * ROD)
+    left, right = min(side - room, arm), max(side + room, arm + SLEY_ARM)
     end = (tool.corner + tool.size).real
     outline = rectangle(SLEY_BLOCK, right - left).points + complex(SLEY_BLOCK / 2, (left + right) / 2)
     section = Profile(polygon(outline), (circle(complex(SLEY_BLOCK / 2, side), ROD / 2),))

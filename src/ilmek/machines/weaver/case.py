@@ -73,6 +73,11 @@ class Guide(NamedTuple):
         above = max(self.low.imag - other.high.imag, other.low.imag - self.high.imag)
         return max(apart, above) < WEB
 
+    def within(self, room: "Guide") -> bool:
+        """Whether it is in a room with a web around it."""
+        low, high = self.low - room.low, room.high - self.high
+        return min(low.real, low.imag, high.real, high.imag) >= WEB
+
     def with_other(self, other: "Guide") -> "Guide":
         """One window in place of two guides."""
         low = complex(min(self.low.real, other.low.real), min(self.low.imag, other.low.imag))

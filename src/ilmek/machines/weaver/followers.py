@@ -37,7 +37,7 @@ FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam
 LEVER_PIN = part_id("lever-pin")
 """Ids of the parts."""
 
-PIN_SHARE, CHEEK_SHARE = 0.4, 0.4
+PIN_SHARE, CHEEK_SHARE = 0.34, 0.4
 """Pin over roller; a fork's cheek over the gap of the cams; assumed by this project, the fork's stress is checked."""
 
 LEAST_CHEEK = 0.1 * mm
@@ -108,7 +108,7 @@ def lever_pin(weaver: Weaver) -> Part:
     """The pin of a follower or a drawbar in the slot of its lever, across both cheeks."""
     return Part(
         LEVER_PIN,
-        "pin of a lever",
+        "pin of a lever of the head",
         "pin or bush",
         _round(PIN),
         bar(PIN, weaver.params.cam_thickness),
@@ -124,7 +124,7 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
     ring = tube(2 * radius, radius - pin / 2, thick)
     return (
         Part(CAM_ROLLER, "roller of a cam", "pin or bush", _round(2 * radius), ring, ROLLER),
-        Part(ROLLER_PIN, "pin of a roller", "pin or bush", _round(pin), bar(pin, thick + 2 * fork), STEEL),
+        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", _round(pin), bar(pin, thick + 2 * fork), STEEL),
     )
 
 

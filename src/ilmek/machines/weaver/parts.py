@@ -119,8 +119,8 @@ def _spacers(outer: float, places: list[tuple[float, float]]) -> Iterator[Occurr
         if end - begin > LEAST_SPACER:
             gaps.setdefault(round(end - begin, 9), []).append(begin)
     for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
-        ring, size = tube(outer, SPACER_WALL, length), f"{_round(outer)}, {_mm(length)}"
-        part = Part(part_id(f"spacer-{number}"), "spacer of the cam shaft", "pin or bush", size, ring, STEEL)
+        ring, title = tube(outer, SPACER_WALL, length), f"spacer of the cam shaft, {_mm(length)}"
+        part = Part(part_id(f"spacer-{number}"), title, "pin or bush", _round(outer), ring, STEEL)
         yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 

@@ -110,8 +110,13 @@ def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
     angle = track_angles(side)
     position = sample(side, angle).position
     hands = {name: motion(knot, angle, rotation=hand * by.turned(position)) for name, hand in _HANDS}
-    jaws = _of_jaws(weaver, knot, SIDE_GRASP, (LEFT, RIGHT)) | _of_jaws(weaver, knot, CENTRE_GRASP, (CENTRE,))
-    return {**driven, **hands, **jaws, CENTRE: along_track(knot, CENTRE_MOTION, back)}
+    return {
+        **driven,
+        **hands,
+        **_of_jaws(weaver, knot, SIDE_GRASP, (LEFT, RIGHT)),
+        **_of_jaws(weaver, knot, CENTRE_GRASP, (CENTRE,)),
+        CENTRE: along_track(knot, CENTRE_MOTION, back),
+    }
 
 
 def _of_cams(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
