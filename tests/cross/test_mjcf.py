@@ -69,16 +69,22 @@ def test_a_machine_has_the_degrees_of_freedom_and_servos_of_its_drives(
     assert judge.model.body_mass.sum() == pytest.approx(tree.mass, rel=1e-3, abs=1e-5)
 
 
+_THROUGH = {
+    # what runs through each other today, by MuJoCo and by the volumes of meshes
+    "knotting-four-bar": {("crank", "rocker")},  # in one plane: 184 mm³
+    "knotting-dyad": {("centre-gripper", "link-2"), ("centre-gripper", "link-2-*"), ("link-2", "link-2-*")},  # 4 mm³
+}
 _MOVING = ("function-four-bar", "knotting-four-bar", "tufting", "knotting-dyad", "cam")
 
 
 @pytest.mark.parametrize("case", [case for case in _MACHINES if case[0] in _MOVING], ids=" ".join)
-def test_bodies_follow_the_poses_of_the_project(case: tuple[str, ...]) -> None:
+def test_bodies_follow_the_poses_of_the_project_and_contact_nothing(case: tuple[str, ...]) -> None:
     _, tree = _machine(*case)
     judge = Judge(mjcf_text(tree, case[0], {}))
     ((_, table), *_) = judge.tables.values()
     for angle in table[:: len(table) // 7, 0]:
-        judge.follow("turn", float(angle))
+        touched = {tuple(body.rpartition("/")[2] for body in pair) for pair in judge.contacts("turn", float(angle))}
+        assert touched <= _THROUGH.get(case[0], set())
         assert _farthest(tree, judge, "turn", float(angle)) <= 0.1 * mm
 
 

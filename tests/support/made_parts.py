@@ -136,6 +136,9 @@ def _of_follower(design: Any, tree: Tree) -> float:
 QUICK = ("cam", "function-four-bar", "knotting-four-bar", "tufting", "knotting-dyad")
 OTHERS = ("beat-up", "hammer", "shedding", "tension-compensator", "warp-tension", "weaver", "weft")
 
+EVERY = 10
+"""Cases after which the largest deviations so far are printed."""
+
 MASS, TENSOR = 1e-6, 1e-4
 """Largest deviation of masses in forces, and of moments from those of a mesh."""
 
@@ -162,24 +165,26 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--number", type=int, default=200)
     given = parser.parse_args()
-    worst, masses, numbers = dict[str, tuple[float, str]](), 0.0, {"looms": 0, "machines": 0}
+    worst, masses, looms, machines = dict[str, tuple[float, str]](), 0.0, 0, 0
     for number in range(given.number):
         seed, name = 1000 * given.seed + number, (*QUICK, *OTHERS)[number % (len(QUICK) + len(OTHERS))]
         design, loom = changed(name, seed), random_loom(seed)
         if design is not None:
             tree_of = MACHINES[name].tree
             assert tree_of is not None
-            tree = tree_of(design)
-            masses, numbers["machines"] = max(masses, mass_error(name, design, tree)), numbers["machines"] + 1
+            tree, machines = tree_of(design), machines + 1
+            masses = max(masses, mass_error(name, design, tree))
             _measure(tree, f"{name}, seed {seed}", worst)
         if loom is not None:
-            numbers["looms"] += 1
+            looms += 1
             _measure(loom_tree(loom), f"loom, seed {seed}", worst)
-    found = max((deviation for deviation, _ in worst.values()), default=0.0)
-    lines = (f"  {deviation:.1e}  {part}: {where}" for part, (deviation, where) in _largest(worst))
-    _show(f"{numbers['looms']} looms, {numbers['machines']} machines of {given.number} each that can be", *lines)
-    _show(f"largest deviation of a mass in the forces {masses:.1e}, of a part from its mesh {found:.1e}")
-    return int(masses > MASS or found > TENSOR)
+        if (number + 1) % EVERY == 0 or number + 1 == given.number:
+            (part, (found, where)) = max(worst.items(), key=lambda entry: entry[1])
+            _show(
+                f"{looms} looms, {machines} machines: a mass in the forces {masses:.1e} off, "
+                f"a part from its mesh {found:.1e}: {part} of {where}"
+            )
+    return int(masses > MASS or max(worst.values())[0] > TENSOR)
 
 
 def _measure(tree: Tree, where: str, worst: dict[str, tuple[float, str]]) -> None:
@@ -187,12 +192,8 @@ def _measure(tree: Tree, where: str, worst: dict[str, tuple[float, str]]) -> Non
         worst[part.id] = max(worst.get(part.id, (0.0, "")), (deviation_of(part), where))
 
 
-def _largest(worst: Mapping[str, tuple[float, str]]) -> list[tuple[str, tuple[float, str]]]:
-    return sorted(worst.items(), key=lambda entry: -entry[1][0])[:10]
-
-
-def _show(*lines: str) -> None:
-    sys.stdout.write("".join(f"{line}\n" for line in lines))
+def _show(line: str) -> None:
+    sys.stdout.write(line + "\n")
     sys.stdout.flush()
 
 
