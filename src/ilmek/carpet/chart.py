@@ -353,7 +353,7 @@ def chart_of_design(
         else propose_shades(distinct, rules.propose, drawn=own.groups is not None, progress=progress),
         dyed=tuple(shade.name for shade in own.proposed),
         lost=own.lost(distinct),
-        edges_kept=edges_kept(edges_of(design.colours, distinct, design.averages), knots, labs),
+        edges_kept=edges_kept(own.edges or edges_of(design.colours, distinct, design.averages), knots, labs),
         detail_kept=detail_kept(design.detail, knots, labs, photo=design.kind == "photo"),
         paper=design.paper,
     )

@@ -17,7 +17,7 @@ import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Indices, Int32, IntArray, Rgb, UInt8
 from ilmek.carpet.averages import Averages, lattice_step
-from ilmek.carpet.colour import lab_to_srgb
+from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.colour_difference import ciede2000, delta_e_2000
 from ilmek.carpet.colour_groups import ColourGroups
 from ilmek.carpet.palette import Colours, distinct_colours
@@ -38,6 +38,10 @@ SAME_YARN = 3.0
 
 LEAST_LOST, LEAST_DETAIL = 3e-3, 5e-4
 """Least shares of the knots of a colour, and of a detail, that is called lost."""
+
+
+_FEW = 1 << 19
+"""Pixels up to which the table of all codes would take longer than their CIELAB."""
 
 
 class LostColour(NamedTuple):
@@ -63,13 +67,16 @@ class Edges(NamedTuple):
 
 @uncounted
 def _mean(rgb: Rgb, index: IntArray, labs: FloatArray, i: int, j: int, out: FloatArray) -> None:  # noqa: PLR0917
-    """Write the mean CIELAB of a block of the design."""
+    """Write the mean CIELAB of a block of the design; without an index `labs` has the knots themselves."""
     out[:] = 0.0
     for y in range(i, i + 2):
         for x in range(j, j + 2):
-            code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
+            colour = y * rgb.shape[1] + x
+            if index.size:
+                code = np.int32(rgb[y, x, 0]) << 16 | np.int32(rgb[y, x, 1]) << 8 | rgb[y, x, 2]
+                colour = index[code] - 1
             for axis in range(3):
-                out[axis] += 0.25 * labs[index[code] - 1, axis]
+                out[axis] += 0.25 * labs[colour, axis]
 
 
 @uncounted
@@ -132,16 +139,24 @@ def edges_of(design: Rgb, colours: Colours, averages: Averages | None = None) ->
     colours  of the design      averages  of the picture; default: the design
     """
     rows, columns = int(design.shape[0]), int(design.shape[1])
-    place, picture = np.arange(rows), design
+    place, picture, index, labs = np.arange(rows), design, colours.index, colours.labs
     if averages is not None:
         place[averages.rows], picture = np.arange(len(averages.rows)), averages.colours
-        colours = distinct_colours(picture)
+        index, labs = _colours_of(picture)
     step = lattice_step(rows, columns)
     most = 4 * -(-rows // step) * -(-columns // step)
     blocks, contrasts = np.empty((most, 4), dtype=np.int32), np.empty(most)
     rgb = np.ascontiguousarray(picture)
-    count = _find(rgb, place, colours.index, colours.labs, step, blocks, contrasts)
+    count = _find(rgb, place, index, labs, step, blocks, contrasts)
     return Edges(blocks[:count], contrasts[:count])
+
+
+def _colours_of(picture: Rgb) -> tuple[IntArray, FloatArray]:
+    """The index and CIELAB of the distinct colours of a large picture; of a small one CIELAB of each pixel."""
+    if picture.size > 3 * _FEW:
+        colours = distinct_colours(picture)
+        return colours.index, colours.labs
+    return np.zeros(0, dtype=np.int32), srgb_to_lab(picture).reshape(-1, 3)
 
 
 def colours_beside(edges: Edges, design: Rgb, colours: Colours) -> IntArray:

@@ -18,7 +18,7 @@ from ilmek.carpet.blends import blends
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_groups import TWIN, ColourGroups, colour_groups
-from ilmek.carpet.edges_kept import LostColour, colours_beside, edges_kept, edges_of, lost_colours
+from ilmek.carpet.edges_kept import Edges, LostColour, colours_beside, edges_kept, edges_of, lost_colours
 from ilmek.carpet.nearest_colour import nearest
 from ilmek.carpet.palette import Colours, nearest_yarns, paint
 from ilmek.carpet.palette_rules import (
@@ -73,6 +73,7 @@ class YarnsOfDesign:
     yarn_of, difference  yarn of each distinct colour and CIEDE2000 of the two
     least     mean CIEDE2000 of the knots, each with its nearest yarn
     groups    of the colours of a drawing              stretched  the tones of a photo were stretched
+    edges     of the design, where they were needed
     """
 
     palette: Palette
@@ -82,6 +83,7 @@ class YarnsOfDesign:
     proposed: tuple[ProposedShade, ...] = ()
     groups: ColourGroups | None = None
     stretched: bool = False
+    edges: Edges | None = None
 
     def lost(self, distinct: Colours) -> tuple[LostColour, ...]:
         """The colours of a drawing that vanish; the yarn of a group is that of its most frequent colour."""
@@ -119,19 +121,20 @@ def yarns_of_design(
     yarn_of, difference = nearest_yarns(distinct, labs, progress.part(0.6, 0.9))
     least = float(np.sum(distinct.counts * difference)) / float(distinct.counts.sum())
     pairs = _given_pairs(distinct, palette.yarns, rules, drawn=drawn)
-    taken, stretched = yarn_of.copy(), False
+    taken, stretched, edges = yarn_of.copy(), False, None
     if groups is not None:
         fixed = {int(groups.of[of[0]]): yarn for of, yarn in pairs}
         found = assign_yarns(groups, labs, fixed, neutral=rules.neutral != NEUTRAL_NO)[groups.of]
         yarn_of = np.where(difference <= _OWN, yarn_of, found)
     elif not (proposed or chosen):
-        better = _stretched(distinct, design, labs, yarn_of, progress.part(0.9, 1.0))
+        edges = edges_of(design.colours, distinct)
+        better = _stretched(distinct, design, edges, labs, yarn_of, progress.part(0.9, 1.0))
         stretched, yarn_of = better is not None, yarn_of if better is None else better
     for of, yarn in pairs:
         yarn_of[of] = yarn
     others = np.flatnonzero(yarn_of != taken)
     difference[others] = delta_e_2000(distinct.labs[others], labs[yarn_of[others]])
-    return YarnsOfDesign(palette, yarn_of, difference, least, proposed, groups, stretched)
+    return YarnsOfDesign(palette, yarn_of, difference, least, proposed, groups, stretched, edges)
 
 
 def _own(  # noqa: PLR0917
@@ -219,11 +222,15 @@ def _frequent(distinct: Colours, difference: FloatArray) -> list[str]:
     return [hex_colour((code >> 16, code >> 8 & 255, code & 255)) for code in wanted]
 
 
-def _stretched(
-    distinct: Colours, design: Design, labs: FloatArray, yarn_of: UInt8[np.ndarray, " colours"], progress: Progress
+def _stretched(  # noqa: PLR0917
+    distinct: Colours,
+    design: Design,
+    edges: Edges,
+    labs: FloatArray,
+    yarn_of: UInt8[np.ndarray, " colours"],
+    progress: Progress,
 ) -> UInt8[np.ndarray, " colours"] | None:
     """The nearest yarns of the tones stretched as little as keeps the edges, or most of them; None: as they are."""
-    edges = edges_of(design.colours, distinct)
     kept = edges_kept(edges, paint(design.colours, distinct, yarn_of), labs)
     if kept is None or kept >= LEAST_EDGES + _MARGIN / 2:
         return None
