@@ -167,7 +167,7 @@ def nothing_wrong(page: Page, seen: Seen) -> str:
     return text
 
 
-@pytest.mark.matrix(light=14)
+@pytest.mark.matrix(light=8)
 @pytest.mark.parametrize("path", STATES)
 def test_a_new_or_half_filled_file_is_shown_as_what_it_is(half: tuple[Page, Seen], path: str) -> None:
     page, seen = half

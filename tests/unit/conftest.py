@@ -3,11 +3,13 @@
 import os
 import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from PIL import Image
 
+from ilmek.machines.automated_loom import MACHINE
 from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet
 
 
@@ -24,7 +26,8 @@ def memory(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.fixture
 def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages and a small picture of the carpet; the true ones have tests of their own."""
+    """Pages without figures and a small picture of the carpet; the true ones have tests of their own."""
     for name in ("carpet_page", "loom_page"):
         monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
+    monkeypatch.setattr("ilmek.jobs.loom.MACHINE", replace(MACHINE, figures=lambda _: ()))
     monkeypatch.setattr("ilmek.jobs.chart.draw_carpet", lambda *_, **__: DrawnCarpet(Image.new("RGB", (2, 2)), WHOLE))

@@ -228,11 +228,10 @@ def test_nothing_of_a_loom_that_exists_can_be_set(
     assert text in result.stderr
 
 
+@pytest.mark.usefixtures("plain_page")
 def test_weave_writes_a_programme_for_the_loom_of_a_folder(
     tmp_path: Path, picture: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
-    monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
     make_weaving(monkeypatch)
     first, second = tmp_path / "first", tmp_path / "second"
     carpet = ("--quality", QUALITY, "--no-pdf")

@@ -128,6 +128,7 @@ def test_papers_are_reproduced_one_by_one() -> None:
         reproduce_papers(["beatup"])
 
 
+@pytest.mark.usefixtures("plain_page")
 def test_a_programme_is_inspected_by_its_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Report, "all_checks", property(lambda _: ()))  # a loom that weaves, whatever its size
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm", least_detail="0%")  # 20 × 30 knots keep 38 %

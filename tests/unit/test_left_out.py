@@ -1,12 +1,16 @@
 """A figure that cannot be made is left out with a warning; with the defaults nothing is left out."""
 
+import json
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 from default_machines import default_page
 
 from ilmek.carpet.design import MOST_KNOTS
+from ilmek.cli import main
 from ilmek.errors import OutputError
 from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom import MACHINE
@@ -81,6 +85,16 @@ def test_a_page_names_the_figure_that_cannot_be_drawn(monkeypatch: pytest.Monkey
     assert len(left_out) == len(report.figures)
     assert left_out[0] == f"figure {report.figures[0].title!r} is left out: <b>"
     assert shown.count("is left out: &lt;b&gt;") == len(report.figures)
+
+
+def test_a_command_draws_figures_only_for_what_shows_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = replace(find_machine("function-four-bar"), figures=lambda _: (failing_figure(),))
+    monkeypatch.setattr("ilmek.machines.function_four_bar.MACHINE", machine)
+    design = ("design", "function-four-bar", "--json", "-")
+    shown = CliRunner().invoke(main, design)
+    assert (shown.exit_code, json.loads(shown.stdout)["machine"]) == (0, "function-four-bar")
+    drawn = CliRunner().invoke(main, (*design, "--report", str(tmp_path / "page.html")))
+    assert drawn.exit_code not in (0, 3)
 
 
 @pytest.mark.parametrize("name", SUMMARIES)

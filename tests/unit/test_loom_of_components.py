@@ -15,7 +15,7 @@ from ilmek.errors import ParameterError
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.machines import loom_machines
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
+from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Parameter, Params, reachable
 from ilmek.timing.track import Track, TrackSegment
@@ -75,7 +75,8 @@ def lamp(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("lamp")
 def test_a_machine_joins_the_loom_by_one_package_and_one_entry() -> None:
-    with_lamp, without = MACHINE.report_for({"lamp.power": "120W"}), MACHINE.report_for({"width": "1.2m"})
+    lit, plain = ({"lamp.power": "120W"}, {"width": "1.2m"})
+    with_lamp, without = (loom_report(design(AutomatedLoomParams.read(settings))) for settings in (lit, plain))
     bare = design(AutomatedLoomParams())
     assert with_lamp["lamp.power_width"] == pytest.approx(100.0)
     assert with_lamp.as_json()["results"]["lamp"] == {"power_width": pytest.approx(100.0)}

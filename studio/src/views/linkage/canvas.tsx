@@ -21,6 +21,10 @@ export function Canvas({ editor, tools, pointer }: Props) {
   const box = useRef<SVGSVGElement>(null);
   const [size, setSize] = useState<Size>({ width: 600, height: 400 });
   const fit = useRef(false);
+  const measure = () => {
+    const { clientWidth: width, clientHeight: height } = box.current ?? { clientWidth: 0, clientHeight: 0 };
+    if (width > 0) pointer.size = { width, height };
+  };
   useEffect(() => {
     const element = box.current;
     if (element === null) return undefined;
@@ -47,6 +51,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
     const figure = editor.figure.value;
     if (fit.current || pointer.hasPointed || answer === null || figure === null) return;
     fit.current = true;
+    measure(); // the answer may come before the observer's first word on the size
     pointer.fit();
   });
   const figure = editor.figure.value;
@@ -62,8 +67,7 @@ export function Canvas({ editor, tools, pointer }: Props) {
       aria-describedby="linkage-keys"
       data-round-trip={editor.roundTrip.value.toFixed(1)}
       onPointerDown={(event) => {
-        const { clientWidth: width, clientHeight: height } = event.currentTarget;
-        if (width > 0) pointer.size = { width, height };
+        measure();
         event.currentTarget.setPointerCapture(event.pointerId);
         const touch = event.pointerType === "touch";
         pointer.down(event.pointerId, position(event, event.currentTarget), touch, event.shiftKey, event.button);
