@@ -23,7 +23,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, IntArray
 from ilmek.part.colliders import Collider, Common, distances, inside, pose_key
 from ilmek.part.poses import chains, drive_angles, poses
-from ilmek.part.swept import INTERVALS, SAMPLES, TURN, SweptPieces, Piece, Window, box_gaps, swept_pieces
+from ilmek.part.swept import INTERVALS, SAMPLES, TURN, Piece, SweptPieces, Window, box_gaps, swept_pieces
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.units import mm
