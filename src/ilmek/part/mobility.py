@@ -36,7 +36,7 @@ _UNITS = np.eye(3)
 
 
 @record
-class Coordinate:
+class BodyCoordinate:
     """One way in which a body moves in its parent: it turns about an axis [rad], or shifts along it [m].
 
     turns   whether it turns       axis  unit vector in the body's frame       point  on the axis of a turn [m]
@@ -56,7 +56,7 @@ class Coordinate:
         return float(np.interp(angle if self.motion.drive == drive else 0.0, self.motion.angle, self.value))
 
 
-def coordinates(body: RigidBody) -> tuple[Coordinate, ...]:
+def coordinates(body: RigidBody) -> tuple[BodyCoordinate, ...]:
     """The coordinates of a body in its parent, slides first; by its joint where no motion moves it."""
     motion = body.joint.motion
     if motion is None or not (motion.rotation.any() or np.abs(motion.shift).max() > _ROUNDING):
@@ -67,21 +67,21 @@ def coordinates(body: RigidBody) -> tuple[Coordinate, ...]:
     return (*_slides(motion), *turn)
 
 
-def _at_rest(joint: Joint) -> Iterator[Coordinate]:
+def _at_rest(joint: Joint) -> Iterator[BodyCoordinate]:
     axis = _unit(np.array(joint.axis))
     if joint.kind in {JointKind.SLIDE, JointKind.SCREW}:
-        yield Coordinate(False, axis)
+        yield BodyCoordinate(False, axis)
     if joint.kind in {JointKind.PIN, JointKind.SCREW}:
-        yield Coordinate(True, axis)
+        yield BodyCoordinate(True, axis)
 
 
-def _turn(joint: Joint, motion: SceneMotion) -> Iterator[Coordinate]:
+def _turn(joint: Joint, motion: SceneMotion) -> Iterator[BodyCoordinate]:
     """The turn of a motion, about the point that it leaves where it is, if there is one."""
     if not motion.rotation.any():
         return
     axis = _unit(np.array(joint.axis))
     point = _pivot(np.array(axis), motion)
-    yield Coordinate(True, axis, (0.0, 0.0, 0.0) if point is None else _triple(point), motion, motion.rotation)
+    yield BodyCoordinate(True, axis, (0.0, 0.0, 0.0) if point is None else _triple(point), motion, motion.rotation)
 
 
 def _pivot(axis: FloatArray, motion: SceneMotion) -> Float[np.ndarray, " 3"] | None:
@@ -94,17 +94,17 @@ def _pivot(axis: FloatArray, motion: SceneMotion) -> Float[np.ndarray, " 3"] | N
     return point if np.abs(left @ point - motion.shift).max() <= _PIVOT and point.any() else None
 
 
-def _slides(motion: SceneMotion) -> Iterator[Coordinate]:
+def _slides(motion: SceneMotion) -> Iterator[BodyCoordinate]:
     """Slides along the line of a motion, else along the axes that it goes along."""
     _, sizes, lines = np.linalg.svd(motion.shift, full_matrices=False)
     number = int(np.sum(sizes > _ROUNDING * max(float(sizes[0]), 1.0)))
     if number == 1:
         line = lines[0] * np.sign(lines[0][np.argmax(np.abs(lines[0]))])
-        yield Coordinate(False, _unit(line), motion=motion, value=motion.shift @ line)
+        yield BodyCoordinate(False, _unit(line), motion=motion, value=motion.shift @ line)
     elif number > 1:
         for axis, unit in enumerate(_UNITS):
             if np.abs(motion.shift[:, axis]).max() > _ROUNDING:
-                yield Coordinate(False, _unit(unit), motion=motion, value=motion.shift[:, axis])
+                yield BodyCoordinate(False, _unit(unit), motion=motion, value=motion.shift[:, axis])
 
 
 def _unit(vector: FloatArray) -> Axis:
@@ -117,13 +117,13 @@ def _triple(vector: FloatArray) -> Axis:
 
 
 @dataclass(frozen=True)
-class Mobility:
+class TreeMobility:
     """The coordinates of a tree, one for each place of its body, with the chain of the body."""
 
     tree: Tree
 
     @cached_property
-    def coordinates(self) -> tuple[tuple[Chain, Coordinate], ...]:
+    def coordinates(self) -> tuple[tuple[Chain, BodyCoordinate], ...]:
         """All coordinates, in the order of the bodies."""
         own = {body.id: coordinates(body) for body in self.tree.bodies}
         return tuple((chain, one) for chain in chains(self.tree) for one in own[chain[-1].name])
@@ -142,7 +142,9 @@ class Mobility:
         for chain in chains(self.tree):
             places[chain[-1].name].append(chain)
         return tuple(
-            (closure, *pair) for closure in self.tree.closures for pair in _pairs(*(places[of] for of in closure.bodies))
+            (closure, *pair)
+            for closure in self.tree.closures
+            for pair in _pairs(*(places[of] for of in closure.bodies))
         )
 
     @cached_property
@@ -187,7 +189,7 @@ def _pairs(first: list[Chain], second: list[Chain]) -> Iterator[tuple[Chain, Cha
 class _Pose:
     """The tree at an angle of a drive [rad]."""
 
-    mobility: Mobility
+    mobility: TreeMobility
     drive: str
     angle: float
 
@@ -203,7 +205,7 @@ class _Pose:
             return row
         point = self.place(first).points(closure.position.origin)
         moved = self._velocities(second, point) - self._velocities(first, point)
-        return moved if closure.kind == JointKind.FIXED else moved[:3]
+        return np.asarray(moved if closure.kind == JointKind.FIXED else moved[:3])
 
     def _turning(self, chain: Chain) -> int:
         all_of_them = self.mobility.coordinates
@@ -215,7 +217,11 @@ class _Pose:
         velocities = np.zeros((6, len(self.mobility.coordinates)))
         for length in range(1, len(chain) + 1):
             part = chain[:length]
-            before = self.place(part[:-1]).rotation @ part[-1].position.rotation if length > 1 else part[-1].position.rotation
+            before = (
+                self.place(part[:-1]).rotation @ part[-1].position.rotation
+                if length > 1
+                else part[-1].position.rotation
+            )
             for number in self.mobility._columns.get(part, ()):
                 one = self.mobility.coordinates[number][1]
                 axis = before @ np.array(one.axis)

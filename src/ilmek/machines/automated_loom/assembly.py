@@ -8,8 +8,8 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
-from ilmek.part.contacts import Contacts, contacts
-from ilmek.part.mobility import Mobility
+from ilmek.part.contacts import Contacts, contacts, open_parts
+from ilmek.part.mobility import TreeMobility
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -51,7 +51,7 @@ class LoomAssembly:
     degrees_of_freedom = computed(
         "1",
         "coordinates of all bodies, less those that closed loops determine",
-        lambda it: Mobility(loom_tree(it.loom)).degrees_of_freedom,
+        lambda it: TreeMobility(loom_tree(it.loom)).degrees_of_freedom,
     )
 
     @computed(
@@ -129,8 +129,15 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
             parts=tuple(dict.fromkeys(loose)),
         ),
         _joints(whole.loom),
+        _closed(whole.loom),
         *_too_near(whole, titles),
     )
+
+
+def _closed(loom: LoomDesign) -> Check:
+    """That every mesh encloses a volume: what an open one is through could not be seen."""
+    parts = open_parts(loom_tree(loom))
+    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
 
 
 def _joints(loom: LoomDesign) -> Check:
