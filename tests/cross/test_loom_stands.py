@@ -44,7 +44,7 @@ def test_no_part_of_the_default_loom_is_through_another_or_in_the_air() -> None:
     assert found.through == ()
     assert [len(group.parts) for group in found.contacts.groups[1:]] == []
     assert found.buildable
-    distances = [pair["distance"] for pair in found.nearest_pairs]
+    distances = [near.approach.distance for near in found.apart[: len(found.nearest_pairs)]]
     assert len(distances) == 10
     assert distances == sorted(distances)
 

@@ -61,7 +61,7 @@ def _parameters(design: MachineDesign) -> Params:
     return design.params
 
 
-class Assembly(Protocol):
+class PartsInSpace(Protocol):
     """The parts of a machine against each other, a record with declared results."""
 
     @property
@@ -131,7 +131,7 @@ class Component(Generic[P, D, A]):
     fit: Callable[[LoomTask], P] | None = None
     beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
-    assembly: Callable[[D], Assembly] | None = None
+    assembly: Callable[[D], PartsInSpace] | None = None
     verdict: Callable[[Report], object] | None = None
     headline: tuple[str, ...] = ()
     long_design: Callable[[P, Progress], D] | None = None

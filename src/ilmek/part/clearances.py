@@ -23,7 +23,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, IntArray
 from ilmek.part.colliders import Collider, Common, distances, inside, pose_key
 from ilmek.part.poses import chains, drive_angles, poses
-from ilmek.part.swept import INTERVALS, SAMPLES, TURN, Carried, Piece, Window, box_gaps, carried_on
+from ilmek.part.swept import INTERVALS, SAMPLES, TURN, Piece, SweptPieces, Window, box_gaps, swept_pieces
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.units import mm
@@ -80,7 +80,7 @@ def approaches(  # noqa: PLR0917
     """
     angles = tuple(drive_angles(tree, drive).tolist())
     every = (
-        carried_on(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
+        swept_pieces(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
     )
     carried = [one for one in every if one.pieces]
     both = (pair for pair in combinations(carried, 2) if not some or sum(one.body in some for one in pair) == 1)
@@ -90,7 +90,7 @@ def approaches(  # noqa: PLR0917
     return tuple(sorted(nearest, key=lambda pair: pair.distance))
 
 
-def _near(first: Carried, other: Carried, horizon: float, required: Required) -> Iterator["_Pair"]:
+def _near(first: SweptPieces, other: SweptPieces, horizon: float, required: Required) -> Iterator["_Pair"]:
     """The pairs of pieces of two bodies whose boxes come nearer than the horizon."""
     shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
     if not any((*first.travel.moves[shared:], *other.travel.moves[shared:])):
@@ -138,7 +138,7 @@ class _Pair:
     shared  number of the links that both chains begin with      gaps  distances of their boxes in the intervals [m]
     """
 
-    carried: tuple[Carried, Carried]
+    carried: tuple[SweptPieces, SweptPieces]
     numbers: tuple[int, int]
     shared: int
     gaps: FloatArray
@@ -252,7 +252,7 @@ def _relative_poses(pairs: Sequence[_Pair], angles: Sequence[FloatArray]) -> Ite
 
 def _placed_at(pairs: Sequence[_Pair], side: int, counts: IntArray, angle: FloatArray) -> Relative:
     """Rotations and origins [m] of a piece of each pair in the scene, at its angles."""
-    rows: dict[Carried, list[int]] = {}
+    rows: dict[SweptPieces, list[int]] = {}
     for number, pair in enumerate(pairs):
         rows.setdefault(pair.carried[side], []).append(number)
     begins = np.cumsum(counts) - counts

@@ -20,7 +20,7 @@ from ilmek.arrays import Float, Int
 from ilmek.part.placement import Placement
 from ilmek.part.shapes import Shape, Turned
 from ilmek.part.tree import Occurrence
-from ilmek.plane.solids import volume
+from ilmek.plane.solids import is_closed, volume
 from ilmek.report.scene import Solid
 from ilmek.units import mm
 
@@ -85,6 +85,11 @@ class Collider:
     def convex(self) -> bool:
         """Whether the mesh is its own convex hull."""
         return bool(self._hull.volume <= volume(self.solid) * (1 + _CONVEX))
+
+    @cached_property
+    def closed(self) -> bool:
+        """Whether the mesh encloses a volume."""
+        return is_closed(self.solid)
 
     @property
     def large(self) -> bool:

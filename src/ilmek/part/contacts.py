@@ -84,6 +84,12 @@ def contacts(tree: Tree, gap: float = TOUCHING) -> Contacts:
     return Contacts(_groups(pieces, pairs[touch]), _through(pieces, pairs, depth, volume))
 
 
+def open_parts(tree: Tree) -> tuple[str, ...]:
+    """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
+    shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)
+    return tuple(name for name, shape in shaped if not collider(shape).closed)
+
+
 def _pieces(tree: Tree) -> Iterator[_Piece]:
     for chain in chains(tree):
         here = poses(chain, "", np.zeros(1))

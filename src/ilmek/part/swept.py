@@ -40,7 +40,7 @@ class Piece:
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class SweptPieces:
     """The pieces of a body at the end of a chain, over the turn of a drive."""
 
     pieces: tuple[Piece, ...]
@@ -109,12 +109,12 @@ def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 
 
 
 @lru_cache(maxsize=512)
-def carried_on(
+def swept_pieces(
     links: tuple[tuple[RigidBody, int], ...], drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]
-) -> Carried:
+) -> SweptPieces:
     """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
     chain = tuple(ChainLink(body, body.id, index) for body, index in links)
-    return Carried(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), intervals(windows))
+    return SweptPieces(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), intervals(windows))
 
 
 def _pieces(chain: Chain) -> Iterator[Piece]:

@@ -34,7 +34,7 @@ class LoomAssembly:
     contacts: Contacts
 
     buildable = computed(
-        "", "no part through or too near to another, none in the air, each held by a joint", lambda it: it.holds
+        "", "no part through or too near to another, all in one group, each held by a joint", lambda it: it.holds
     )
     clashes = computed(
         "1",
@@ -44,13 +44,13 @@ class LoomAssembly:
     )
     number_of_groups = computed(
         "1",
-        "groups of parts that touch: 1 where nothing hangs in the air",
+        "groups of parts that touch: 1 where each is held",
         lambda it: len(it.contacts.groups),
         name="assembly_groups",
     )
     degrees_of_freedom = computed(
         "1",
-        "ways in which the bodies move, less those that closed loops take: of what cams and warps move, too",
+        "coordinates of all bodies, less those that closed loops determine",
         lambda it: TreeMobility(loom_tree(it.loom)).degrees_of_freedom,
     )
 
@@ -132,6 +132,12 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
         _closed(whole.loom),
         *_too_near(whole, titles),
     )
+
+
+def _closed(loom: LoomDesign) -> Check:
+    """That every mesh encloses a volume: what an open one is through could not be seen."""
+    parts = open_parts(loom_tree(loom))
+    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
 
 
 def _joints(loom: LoomDesign) -> Check:
