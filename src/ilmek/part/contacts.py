@@ -194,9 +194,3 @@ def _through(
         Approach((own.part, its.part), (own.body, its.body), -float(depth[k]), float(volume[k]), "", 0.0)
         for k, own, its in both
     )
-
-
-def open_parts(tree: Tree) -> tuple[str, ...]:
-    """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
-    shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)
-    return tuple(name for name, shape in shaped if not is_closed(shape.mesh(DEVIATION)))
