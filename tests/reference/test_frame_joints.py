@@ -22,6 +22,8 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.joints import joint_checks, seams, tipping
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.steady_posts import steady_checks
+from ilmek.machines.shedding.steady import ASIDE, steady_of
 
 PRELOADS = {"M12": 47e3, "M16": 88e3, "M20": 137e3, "M24": 198e3}
 """kN of 8.8 screws, as design tables for EN 1993-1-8 round them [N]."""
@@ -139,3 +141,26 @@ def test_a_wide_rail_has_supports_between_its_ends() -> None:
     assert names["heads' rail"]["automated-loom/rail-bracket"] == 1
     assert names["automated-loom/retreat"]["automated-loom/retreat-axis"] == 3
     assert names["automated-loom/frame"]["automated-loom/post"] == 1
+
+
+def test_rollers_of_a_steady_touch_the_rims_and_its_post_the_block() -> None:
+    """By the meshes: no point of a steady is inside the guide cams' radius, and the rollers reach it."""
+    own = loom(2.4)
+    frame, shaft, cam = parts_of_loom(own).frame, own.shedding.shafts[0], own.side.cams[0]
+    steady = steady_of(shaft)
+    assert steady is not None
+    mesh = steady.part("steady", "steady").shape.mesh(1e-5).points
+    assert np.hypot(mesh[:, 0], mesh[:, 1]).min() == pytest.approx(shaft.stack.guide_radius, abs=1e-4)
+    assert mesh[:, 0].min() == pytest.approx(-steady.rear)
+    (post,) = [
+        one for body in loom_tree(own).bodies for one in body.occurrences if one.part.id == "automated-loom/steady-post"
+    ]
+    assert len(post.positions) == shaft.params.spans - 1
+    points = post.positions[0].points(post.part.shape.mesh(1e-4).points)
+    assert points[:, 2].max() == pytest.approx(cam.at.real - steady.rear)
+    assert points[:, 1].max() == pytest.approx(cam.at.imag + steady.half_height)
+    assert steady.force * math.cos(ASIDE) == pytest.approx(shaft.shaft.seat.reaction)
+    checks = steady_checks(own, frame, brackets_of(own))
+    assert [check.name for check in checks if not check.ok] == []
+    assert not replace(steady, force=1e6).check("").ok
+    assert {part for check in checks for part in check.parts} <= {line.part for line in parts_of_loom(own).parts}

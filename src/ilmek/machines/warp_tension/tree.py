@@ -18,8 +18,8 @@ from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tre
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
 
-PLUG = 20 * mm
-"""Length of a shaft end's plug in its tube [m]; assumed by this project."""
+PLUG, PLAY = 20 * mm, 1 * mm
+"""Length of a shaft end's plug in its tube, and its play there [m]: the weld of its flange holds it; assumed."""
 
 RIM = 8 * mm
 """Thickness of a shaft end's flange on its tube [m]; assumed by this project."""
@@ -59,15 +59,15 @@ def _bodies(
 ) -> tuple[RigidBody, ...]:
     """A cylinder with its ends, its bearings on the frame's brackets, and its drive; common: tube, reducer, motor.
 
-    A shaft end is a plug that is pressed into the tube, a flange that is welded to its end, and a journal that reaches
+    A shaft end is a plug with play in the tube, a flange that is welded to the tube's end, and a journal that reaches
     through bearing and bracket.
     """
     name, seat = cylinder.name, cylinder.seat
     shell, geared, driving = common
     far = params.span / 2 + params.stub
     rim, journal = min(RIM, params.stub / 2), seat.bearing.bore
-    steps = (2 * cylinder.inner, PLUG), (2 * cylinder.shell.outer_radius, rim)
-    shape = stepped(*(one for one in steps if one[1] > 0), (journal, params.stub - rim + seat.through))
+    steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
+    shape = stepped(*(one for one in steps if min(one) > 0), (journal, params.stub - rim + seat.through))
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
     sides = tuple(_side(z=params.span / 2 - PLUG, flipped=flipped) for flipped in (False, True))
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
