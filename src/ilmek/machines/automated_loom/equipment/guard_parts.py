@@ -129,7 +129,7 @@ class _Lines:
             for first, then in pairwise(line):
                 _add(places, then - first, high - low, placement((first + then) / 2, low, self.back - WIRE))
         if self._cabinet:
-            (first, *_), (begin, *_) = self._rear[0][::-1], self._rear[1]
+            first, begin = self._rear[0][-1], self._rear[-1][0]
             over = float(self._control.high[1]) + _ABOVE_CABINET
             if high - over > _LEAST_PANEL:
                 _add(places, begin - first, high - over, placement((first + begin) / 2, over, self.back - WIRE))
