@@ -144,8 +144,8 @@ def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, si
     """Axis of the duct, z [m], as near to what is wished as it has room over the front foot with its stand."""
     foot, (begin, end) = near.of(part_id("front-foot"))[0], ends
     half = side / 2
-    offered = np.arange(float(foot.low[2]) + half, float(foot.high[2]) - half, _STEP)
-    for z in sorted(offered.tolist(), key=lambda one: abs(one - wished)):
+    offered: list[float] = np.arange(float(foot.low[2]) + half, float(foot.high[2]) - half, _STEP).tolist()
+    for z in sorted(offered, key=lambda one: abs(one - wished)):
         low = np.array([begin, float(foot.high[1]) + _REAL, z - half])
         if near.free(low, np.array([end, height + half, z + half]), but=foot.part):
             return z

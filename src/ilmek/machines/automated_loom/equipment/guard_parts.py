@@ -111,12 +111,12 @@ class _Lines:
 
     def ties(self) -> Iterator[Occurrence]:
         """Between rear feet and posts, where the fence stands behind their ends."""
-        feet = self._near.of(part_id("rear-foot"))
+        feet, beside = self._near.of(part_id("rear-foot")), rear_feet(self._near)
         gap = float(feet[0].low[2]) - self._fence.rear
-        if gap > _LEAST_PANEL:
+        if gap > _LEAST_PANEL and beside:
             part = member("guard-tie", "tie of the guards to a rear foot", _SECTION, gap)
             height = float(feet[0].low[1] + feet[0].high[1]) / 2
-            yield Occurrence(part, tuple(placement(x, height, self._fence.rear) for x in rear_feet(self._near)))
+            yield Occurrence(part, tuple(placement(x, height, self._fence.rear) for x in beside))
 
     def panels(self) -> Iterator[Occurrence]:
         """Panels of both sides and of the rear, a part for each size."""
@@ -129,7 +129,7 @@ class _Lines:
             for first, then in pairwise(line):
                 _add(places, then - first, high - low, placement((first + then) / 2, low, self.back - WIRE))
         if self._cabinet:
-            (first, *_), (begin, *_) = self._rear[0][::-1], self._rear[1]
+            first, begin = self._rear[0][-1], self._rear[-1][0]
             over = float(self._control.high[1]) + _ABOVE_CABINET
             if high - over > _LEAST_PANEL:
                 _add(places, begin - first, high - over, placement((first + begin) / 2, over, self.back - WIRE))

@@ -86,9 +86,12 @@ def fence_of(loom: LoomDesign) -> Fence:
     """The fence of a loom."""
     near, stopping, floor = surroundings(loom), stopping_time(loom), loom.side.floor
     (stands_low, stands_high), (moves_low, moves_high) = near.standing, near.moving
+    (control,) = near.of(CONTROL)
     reach = through(MESH - WIRE)
-    left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach)
-    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach)
+    # A post stands on each side of the cabinet, beside those of the corners.
+    ends = float(control.low[0]) - 2 * POST, float(control.high[0]) + 2 * POST
+    left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach, ends[0])
+    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1])
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
     front = max(float(stands_high[2]) + BESIDE, float(moves_high[2]) + door(stopping.whole))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)

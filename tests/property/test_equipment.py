@@ -1,0 +1,161 @@
+"""Equipment of a loom: signals and their parts, safety distances, the fence against what moves, tension of a yarn.
+
+Evidence: closed forms of the capstan equation, tables of ISO 13857 read again, meshes of the bodies at random angles.
+"""
+
+import csv
+import io
+import math
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from small_programme import small_programme
+
+from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.elements.materials import GRAVITY
+from ilmek.elements.safety_distances import FENCES, door, over, through
+from ilmek.io.plc.io_list import io_csv
+from ilmek.io.plc.project import plc_project
+from ilmek.machines.automated_loom import AutomatedLoomParams, design
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.creel import CORE, DENSITY, creel_of, package_size
+from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
+from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
+from ilmek.machines.automated_loom.equipment.yarn_path import PathStep, tensions, yarn_path
+from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.part.extents import extents
+from ilmek.part.poses import chains, poses
+from ilmek.units import mm, turn
+
+
+@cache
+def _loom(**wishes: object) -> LoomDesign:
+    return design(AutomatedLoomParams(**wishes))  # type: ignore[arg-type]
+
+
+def _rows(heads: int) -> list[dict[str, str]]:
+    program = plc_project(small_programme(heads=heads)).units[-1]
+    return [row for row in csv.DictReader(io.StringIO(io_csv(program))) if row["address"]]
+
+
+def test_every_signal_has_its_parts_in_the_loom_and_every_device_its_signal() -> None:
+    placed = {part.id: number for part, number in loom_tree(_loom()).occurrences()}
+    rows = _rows(heads=1)
+    named = {part for row in rows for part in row["parts"].split()}
+    assert len(rows) == signals.signal_count(1)
+    assert named <= set(placed)
+    own = {part.id for tree in equipment_trees(_loom()) for part, _ in tree.occurrences()}
+    devices = {name for name in vars(signals).values() if isinstance(name, str) and name in own}
+    wired = {signals.RESET, signals.ACTUATOR, signals.SUPPLY, signals.TERMINAL}  # in the safety circuit, or between
+    assert devices - wired == named
+    assert 2 * placed[signals.TERMINAL] >= len(rows)
+
+
+def test_a_signal_of_each_head_has_a_part_on_each() -> None:
+    rows = _rows(heads=3)
+    assert len(rows) == signals.signal_count(3)
+    placed = {part.id: number for part, number in loom_tree(_loom(heads=3)).occurrences()}
+    assert placed[signals.HEAD_ANGLE] == sum(signals.HEAD_ANGLE in row["parts"].split() for row in rows) == 3
+
+
+def test_the_list_has_every_part_of_the_loom_and_nothing_else() -> None:
+    loom = _loom(heads=3)
+    placed = {part.id: number for part, number in loom_tree(loom).occurrences()}
+    listed = {line.part: line.number for line in whole_list(loom).parts}
+    assert {name: number for name, number in placed.items() if name in listed} == listed
+    assert set(placed) == set(listed)
+
+
+@settings(max_examples=40)
+@given(
+    st.floats(0.01, 2.0),
+    st.floats(0.0, 0.6),
+    st.lists(st.tuples(st.floats(0.0, 3.0), st.floats(0.1, 4.0)), min_size=1, max_size=6),
+)
+def test_wraps_multiply_and_weight_adds(tension: float, friction: float, steps: list[tuple[float, float]]) -> None:
+    def of(density: float, wraps: bool) -> float:
+        yarn = YarnProperties("wool", density, 1e-3, 1e3, 90.0, friction)
+        path = tuple(PathStep("", long, long, wrap if wraps else 0.0) for long, wrap in steps)
+        return tensions(path, yarn, tension)[-1]
+
+    whole = math.fsum(wrap for _, wrap in steps)
+    assert of(0.0, wraps=True) == pytest.approx(tension * math.exp(friction * whole), rel=1e-12)
+    risen = math.fsum(long for long, _ in steps)
+    assert of(1e-3, wraps=False) == pytest.approx(tension + 1e-3 * GRAVITY * risen, rel=1e-9)
+
+
+def test_the_brake_leaves_the_pull_that_the_head_counts_with() -> None:
+    path, forces = yarn_path(_loom()), _loom().weaver.params.forces
+    assert path.tension == pytest.approx(forces.yarn_pull, rel=1e-9)
+    more = yarn_path(_loom(width=1.6))
+    assert more.length > path.length
+    assert more.brake < path.brake
+
+
+@given(st.floats(0.0, 2.7), st.floats(1.0, 2.7))
+def test_a_higher_fence_never_asks_for_more_room(hazard: float, fence: float) -> None:
+    assert over(hazard, fence) >= over(hazard, min(fence + 0.2, 2.7))
+    near = (over(hazard, known) for known in FENCES if known <= fence + 1e-9)
+    assert over(hazard, fence) == min(near)
+
+
+def test_distances_are_those_of_the_standards() -> None:
+    assert [over(1.4, fence) for fence in FENCES[:6]] == pytest.approx([1.5, 1.4, 1.1, 0.9, 0.8, 0.0])
+    assert [through(one * mm) for one in (4, 6, 8, 10, 12, 20, 30, 40, 120)] == pytest.approx(
+        [0.002, 0.005, 0.015, 0.025, 0.08, 0.12, 0.12, 0.2, 0.85]
+    )
+    assert door(0.43) == pytest.approx(0.688)
+
+
+@settings(max_examples=4, deadline=None)
+@given(st.sampled_from([ROW, KNOT]), st.floats(0.0, turn))
+def test_what_moves_stays_as_far_from_the_fence_as_an_arm_reaches(drive: str, angle: float) -> None:
+    loom = _loom()
+    fence, tree, reach = fence_of(loom), loom_tree(loom), through(MESH - WIRE)
+    own = {body.id for tree in equipment_trees(loom) for body in tree.bodies}
+    known = {one.body: one for one in extents(tree, (ROW, KNOT)) if one.moving}
+    for chain in chains(tree):
+        body = chain[-1].body
+        if body.id not in known or body.id in own:
+            continue
+        here = poses(chain, drive, np.array([angle]))
+        for occurrence in body.occurrences:
+            assert occurrence.part.shape is not None
+            mesh = occurrence.part.shape.mesh(1 * mm).points
+            for position in (occurrence.positions[0], occurrence.positions[-1]):
+                points = here.points(position.points(mesh))[0]
+                assert np.all(points >= known[body.id].low - 2 * mm)
+                assert np.all(points <= known[body.id].high + 2 * mm)
+                sides = points[:, 0] - fence.left, fence.right - points[:, 0], points[:, 2] - fence.rear
+                assert min(float(side.min()) for side in sides) >= reach - 2 * mm
+                assert fence.front - float(points[:, 2].max()) >= door(fence.stopping.whole) - 2 * mm
+
+
+@given(st.floats(0.1, 1.2), st.floats(0.2, 2.6))
+def test_a_panel_has_no_wider_openings_and_weighs_what_its_wires_do(wide: float, tall: float) -> None:
+    shape = mesh_panel("panel", "panel", wide, tall)
+    upright, level = (math.ceil((size - WIRE) / MESH - 1e-9) for size in (wide, tall))
+    assert max((wide - WIRE) / upright, (tall - WIRE) / level) - WIRE <= MESH - WIRE + 1e-9
+    wire = (upright + 1) * tall + (level + 1) * wide
+    assert shape.mass == pytest.approx(wire * WIRE**2 * 7850, rel=2e-3)
+
+
+@given(st.floats(0.05, 20.0))
+def test_a_package_holds_its_yarn(mass: float) -> None:
+    size = package_size(mass)
+    assert math.pi / 4 * (size**2 - CORE**2) * size * DENSITY == pytest.approx(mass, rel=1e-9)
+
+
+def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
+    loom = _loom(heads=3)
+    places = creel_of(loom).places
+    assert len(places) == 3 * loom.weaver.params.tubes
+    apart = min(math.dist(first, other) for first, other in combinations(places, 2))
+    assert apart >= creel_of(loom).size + 50 * mm
