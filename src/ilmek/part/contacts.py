@@ -14,11 +14,10 @@ from scipy.sparse.csgraph import connected_components
 
 from ilmek.arrays import BoolArray, Float, Int
 from ilmek.part.clearances import Approach
-from ilmek.part.colliders import DEVIATION, MANY, Collider, Common, collider, gap_between, inside, pose_key
+from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.tree import Tree
-from ilmek.plane.solids import is_closed
 from ilmek.records import record
 from ilmek.units import mm
 
