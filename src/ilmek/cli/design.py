@@ -95,8 +95,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     _require(
         {"--tolerance": tolerance, "--motion": motion}, {"--workshop DIR": parts_to, "--animation FILE": animation_to}
     )
-    given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
-    order = read_machine_order(name, read_settings(given))
+    order = read_machine_order(name, read_settings(given := (*settings, *more, *(() if aim is None else (f"aim={aim}",)))))
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
     if space_to is not None:
