@@ -1,6 +1,7 @@
 """`ilmek design`: design one machine from its parameters and report it."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 import click
@@ -95,7 +96,8 @@ def command(  # noqa: PLR0917 - click calls it by name
     _require(
         {"--tolerance": tolerance, "--motion": motion}, {"--workshop DIR": parts_to, "--animation FILE": animation_to}
     )
-    order = read_machine_order(name, read_settings(given := (*settings, *more, *(() if aim is None else (f"aim={aim}",)))))
+    given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
+    order = read_machine_order(name, read_settings(given))
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
     if space_to is not None:
@@ -121,8 +123,7 @@ def command(  # noqa: PLR0917 - click calls it by name
         call.give_page("--report", made.report)
         call.give_animation("--animation", made.report, motion)
         if mechanism_to is not None and made.mechanism is not None:
-            text = mechanism_text(made.mechanism, mechanism_to)
-            call.give("--to", lambda: text)
+            call.give("--to", partial(mechanism_text, made.mechanism, mechanism_to))
         call.give_scene("--glb", made)
         call.give_json(made.as_json)
     _show(made, call, mechanism_to, parts_to)
