@@ -63,7 +63,7 @@ def _laws(seed: int, share: bool) -> Run:
 
 @cache
 def lawful(tests: Path) -> tuple[Path, ...]:
-    """The test files that try more in a campaign: those of hypothesis, of `effort`, and of marks that leave cases out."""
+    """The test files that try more in a campaign: by hypothesis, `effort`, or marks that leave cases out."""
     lawful_files = []
     for path in sorted(tests.glob("*/test_*.py")):
         if path.parent.name == "browser":
