@@ -141,6 +141,7 @@ def off(corners: np.ndarray, truth: np.ndarray) -> float:
     return min(float(np.hypot(*(np.roll(corners, k, axis=0) - truth).T).max()) for k in range(4))
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize(("seed", "wood", "fringe"), TAKEN)
 def test_the_outline_in_shadow_and_vignetting_is_found(seed: int, wood: str, fringe: str) -> None:
     taken = random_photograph(seed, (750, 1000), wood=wood, fringe=fringe)
@@ -185,6 +186,7 @@ def test_a_frame_of_few_pixels_beside_a_light_stripe_belongs_to_the_carpet(quad:
     assert off(corners, np.array(quad)) < 1.5
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize(("seed", "wood", "fringe"), [(1, "mid", "none"), (3, "dark", "none"), (9, "mid", "dense")])
 def test_the_stripes_at_the_ends_of_a_kilim_are_no_fringe(seed: int, wood: str, fringe: str) -> None:
     """A cream stripe is as light as threads; a fringe beside it is none of the kilim."""

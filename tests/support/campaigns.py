@@ -63,14 +63,14 @@ def _laws(seed: int, share: bool) -> Run:
 
 @cache
 def lawful(tests: Path) -> tuple[Path, ...]:
-    """The test files that try more in a campaign: those of hypothesis, of `effort`, and of a matrix of cases."""
+    """The test files that try more in a campaign: by hypothesis, `effort`, or marks that leave cases out."""
     lawful_files = []
     for path in sorted(tests.glob("*/test_*.py")):
         if path.parent.name == "browser":
             continue
         nodes = [node for node in ast.walk(tree_of(path)) if isinstance(node, ast.ImportFrom) and node.module]
-        matrix = any(isinstance(node, ast.Attribute) and node.attr == "matrix" for node in ast.walk(tree_of(path)))
-        if matrix or {node.module for node in nodes} & {"hypothesis", "effort"}:
+        marks = {node.attr for node in ast.walk(tree_of(path)) if isinstance(node, ast.Attribute)}
+        if marks & {"matrix", "one_in"} or {node.module for node in nodes} & {"hypothesis", "effort"}:
             lawful_files.append(path)
     return tuple(lawful_files)
 

@@ -30,9 +30,14 @@ def test_each_part_states_its_seed() -> None:
         assert run_of_seven == part.run(7, True), part.name
 
 
-def test_every_property_is_in_the_campaign() -> None:
+def test_every_property_and_every_left_out_case_is_in_the_campaign() -> None:
     listed = {path.name for path in lawful(ROOT / "tests")}
     assert {"test_knot_homotopy.py", "test_linkage_campaign.py", "test_design_invariants.py"} <= listed
+    marked = {
+        path.name for path in (ROOT / "tests").glob("[!b]*/test_*.py") if "\n@pytest.mark.one_in(" in path.read_text()
+    }
+    assert "test_page_structure.py" in marked
+    assert marked <= listed
 
 
 def test_the_seed_of_a_commit_is_the_same_again() -> None:

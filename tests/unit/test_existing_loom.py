@@ -60,7 +60,7 @@ def differences(one: Any, other: Any, path: str = "") -> list[str]:
     return [] if one == other else [f"{path}: {one!r} {other!r}"]
 
 
-@pytest.mark.matrix(light=3)
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("settings", LOOMS, ids=lambda settings: " ".join(settings) or "default")
 def test_a_loom_from_its_file_is_the_same_loom(tmp_path: Path, settings: tuple[str, ...]) -> None:
     file = tmp_path / "loom.json"

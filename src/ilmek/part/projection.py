@@ -217,7 +217,7 @@ def _outer(section: CrossSection) -> Iterator[ComplexArray]:
     return (curve for curve in curves if _area(curve) > 0)
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=128)
 def _mesh(part: Part) -> Solid:
     assert part.shape is not None
     return part.shape.mesh(COARSE)
