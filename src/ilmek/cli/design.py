@@ -1,7 +1,6 @@
 """`ilmek design`: design one machine from its parameters and report it."""
 
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 
 import click

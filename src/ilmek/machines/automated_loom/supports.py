@@ -179,14 +179,19 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
 
 
 def _tube(loom: LoomDesign, frame: LoomFrame, section: HollowSquare, face: float) -> Iterator[Occurrence]:
-    """Behind the bar, its upper side level with that of the bar, on arms from the fronts of the columns."""
+    """Behind the bar, its upper side level with that of the bar, on arms from the fronts of the columns.
+
+    The arms stand at the columns' inner sides, or as far in as the drive of a narrow loom requires.
+    """
     middle = loom.side.carrier.corner + loom.side.carrier.size / 2
-    depth = middle.real + loom.weft.bodies.guide.rear - section.side / 2
-    height, reach = middle.imag - section.side / 2, face + section.side
+    guide, half = loom.weft.bodies.guide, section.side / 2
+    depth = middle.real + guide.rear - half
+    beside = min(face + half, guide.drive_inner - loom.params.clearance - half)
+    height, reach = middle.imag - half, beside + half
     along = placement(-reach, height, depth).after(ALONG_WIDTH)
     yield Occurrence(member("weft-tube", "tube behind the shuttle's bar", section, 2 * reach), (along,))
     front = loom.side.column + frame.column.side / 2
-    gap, beside = depth - section.side / 2 - front, face + section.side / 2
+    gap = depth - half - front
     if gap > LEAST:
         arm = member("weft-arm", "arm of the tube", section, gap)
         yield Occurrence(arm, tuple(placement(x, height, front) for x in (-beside, beside)))

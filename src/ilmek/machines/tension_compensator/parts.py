@@ -48,9 +48,10 @@ class BarSupports:
 
     @property
     def stations(self) -> tuple[float, ...]:
-        """Middles of equal parts of the width [m]."""
-        width, number = self.params.cloth.width, self.params.levers
-        return tuple(width * ((k + 0.5) / number - 0.5) for k in range(number))
+        """Middles of equal parts of the width [m]; of a narrow one as far apart as the springs of a lever are wide."""
+        number = self.params.levers
+        step = max(self.params.cloth.width / number, _springs_wide(self.sprung) + PLAY)
+        return tuple(step * (k + 0.5 - number / 2) for k in range(number))
 
     @property
     def bar(self) -> complex:

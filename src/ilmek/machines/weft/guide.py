@@ -120,6 +120,12 @@ class ShuttleGuide:
         return self.run + radius + thick, -self.row.block - PLAY - thick - radius
 
     @property
+    def drive_inner(self) -> float:
+        """Side of the drive towards the middle of the width, from there [m]."""
+        row = self.axis.drive.motor if self.axis.drive else None
+        return self.pulley[0] - (row.face if row else catalogue.SPECIAL_FACE) / 2
+
+    @property
     def box_end(self) -> float:
         """Outer end of a box from the middle of the width [m]."""
         return self.stroke / 2 + self.made.length / 2 + BOX_END
