@@ -1,6 +1,7 @@
 """`ilmek design`: design one machine from its parameters and report it."""
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 
 import click
@@ -158,8 +159,7 @@ def _give(
     call.give_page("--report", made.report)
     call.give_animation("--animation", made.report, motion)
     if mechanism_to is not None and made.mechanism is not None:
-        text = mechanism_text(made.mechanism, mechanism_to)
-        call.give("--to", lambda: text)
+        call.give("--to", partial(mechanism_text, made.mechanism, mechanism_to))
     for option in IN_SPACE:
         call.give_scene(option, made, pose)
     call.give_json(made.as_json)

@@ -134,12 +134,6 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
     )
 
 
-def _closed(loom: LoomDesign) -> Check:
-    """That every mesh encloses a volume: what an open one is through could not be seen."""
-    parts = open_parts(loom_tree(loom))
-    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
-
-
 def _joints(loom: LoomDesign) -> Check:
     """Every body is held by a joint, and what moves by one that lets it move."""
     without = [body for body in loom_tree(loom).bodies if _is_without_joint(body)]
