@@ -18,7 +18,7 @@ from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Check, Report, at_most, must
 
-NUMBER, SLOW = number(8, 24), ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
+NUMBER, SLOW = number(12, 24), ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
 """Designs of each machine, a quarter of those that take seconds each."""
 
 FEWER = {"path-four-bar": {"starts": "96"}}
