@@ -215,11 +215,13 @@ def _of_seat(  # noqa: PLR0917
 
 def _bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
     """The bores of a seat for its shaft and its screws, at its positions [m]: slots where it moves."""
-    screw = seat.screws.screw.diameter / 2
-    bores = [(0j, seat.bore / 2), *((complex(corner), screw) for corner in seat.corners())]
+    screw, corners = seat.screws.screw.diameter / 2, seat.corners()
     if len(moved) == 1:
-        return tuple(circle(complex(moved[0]) + axis, radius) for axis, radius in bores)
-    return tuple(rounded_hull(moved + axis, radius) for axis, radius in bores)
+        screws = tuple(circle(complex(moved[0] + corner), screw) for corner in corners)
+        return (circle(complex(moved[0]), seat.bore / 2), *screws)
+    sides = (corners[corners.real > 0], corners[corners.real < 0])
+    slots = tuple(rounded_hull(np.add.outer(moved, side).ravel(), screw) for side in sides)
+    return (rounded_hull(moved, seat.bore / 2), *slots)
 
 
 def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:

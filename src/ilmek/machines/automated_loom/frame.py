@@ -128,14 +128,8 @@ class LoomFrame:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Strength and stiffness of the columns and of the heads' rail, load of the feet."""
-        source, cure = f"rating of {self.foot.name}", "set a narrower carpet"
-        foot = at_most(
-            *("load of a levelling foot", self.foot_load, self.foot.rating, "N", source),
-            cure=cure,
-            parts=(part_id("levelling-foot"),),
-        )
-        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail), foot)
+        """Strength and stiffness of the columns and of the heads' rail."""
+        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail))
 
 
 def frame_for(task: FrameTask) -> LoomFrame:

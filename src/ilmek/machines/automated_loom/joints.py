@@ -85,8 +85,15 @@ def _round(title: str, part: str, side: float, wall: float, force: float, moment
 
 
 def joint_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
-    """Stress of each weld, and whether the loom tips."""
-    return (*(seam.check for seam in seams(loom, frame)), tipping(loom, frame))
+    """Stress of each weld, load of the feet, and whether the loom tips."""
+    return (*(seam.check for seam in seams(loom, frame)), foot_check(frame), tipping(loom, frame))
+
+
+def foot_check(frame: LoomFrame) -> Check:
+    """Load of a levelling foot against its rating."""
+    source, parts = f"rating of {frame.foot.name}", (part_id("levelling-foot"),)
+    cure = "set a narrower carpet"
+    return at_most("load of a levelling foot", frame.foot_load, frame.foot.rating, "N", source, cure=cure, parts=parts)
 
 
 def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:
