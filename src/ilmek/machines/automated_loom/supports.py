@@ -74,7 +74,8 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
         made.coupling.pull if isinstance(made, Shuttle) else 0.0,
         2 * brackets_of(loom).face + frame.column.side,
     )
-    tube = rapier = None
+    tube: HollowSquare | None = None
+    rapier: RapierSupport | None = None
     if not isinstance(made, Shuttle):
         rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
     else:

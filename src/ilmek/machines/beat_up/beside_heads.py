@@ -44,13 +44,20 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     source = "parameter clearance; the rail no larger than its room in the arrangement"
     return (
         at_least(
-            *("clearance: rocker at rest and heads that knot", min(_over(linkage, side)), clearance, "mm", source),
+            "clearance: rocker at rest and heads that knot",
+            min(_over(linkage, side)),
+            clearance,
+            "mm",
+            source,
             cure=cure,
             parts=(PART_IDS["rocker"],),
         ),
         at_least(
-            *("clearance: plate of the crank-rocker and heads that retreat", min(_before(linkage, side)), clearance),
-            *("mm", source),
+            "clearance: plate of the crank-rocker and heads that retreat",
+            min(_before(linkage, side)),
+            clearance,
+            "mm",
+            source,
             cure=cure,
             parts=(PLATE,),
         ),
