@@ -132,6 +132,46 @@ def test_no_dot_contrasts_with_its_tone(name: str) -> None:
     assert np.mean((chroma <= CHROMA)[where] | (contrast <= nearest + slack)[where]) > 0.98
 
 
+def ripples(seed: int) -> np.ndarray:
+    """Sand: low waves along a field that bends, with grain."""
+    rng = np.random.default_rng(seed)
+    bent = ndimage.gaussian_filter(rng.normal(0, 1, (150, 150)), 12) * 90
+    light = 7 * np.sin((np.mgrid[:150, :150][0] + bent) / 1.6) + rng.normal(0, 3, (150, 150))
+    return np.clip(np.array([196, 190, 166]) + light[..., None], 0, 255).astype(np.uint8)
+
+
+TEXTURES = {
+    "brick": (lambda: photo("brick.png", 150), 0.96),
+    "sand": (lambda: ripples(1), 0.9),
+    "other sand": (lambda: ripples(2), 0.9),
+}
+"""Textures, and least correlation of the lightness of their charts; with dots in them it was 0.95 and 0.82."""
+
+
+@pytest.mark.parametrize("name", TEXTURES)
+def test_a_texture_of_its_own_shades_is_not_hidden_by_dots(name: str) -> None:
+    picture, least = TEXTURES[name]
+    rgb = picture()
+    yarns = own_shades(rgb)
+    made = chart(rgb, yarns)
+    tones, tied = (rgb2lab(codes)[..., 0].ravel() for codes in (rgb, codes_of(made.knots, yarns)))
+    assert np.corrcoef(tones, tied)[0, 1] > least
+
+
+@pytest.mark.parametrize("name", ["chelsea.png", "coffee.png"])
+def test_dots_of_own_shades_hardly_contrast(name: str) -> None:
+    rgb = photo(name)
+    yarns = own_shades(rgb)
+    colours, labs = distinct_colours(rgb), yarn_labs(yarns)
+    index, off = nearest_yarns(colours, labs)
+    mean = float(np.average(off, weights=colours.counts))
+    made, dots = draw_halftone(paint(rgb, colours, index), rgb, labs, 1.0, off=mean)
+    where = np.repeat(np.repeat(dots, CELL, axis=0), CELL, axis=1)
+    rgb, made = rgb[: len(where), : where.shape[1]], made[: len(where), : where.shape[1]]
+    contrast = deltaE_ciede2000(seen(rgb, 0), seen(codes_of(made, yarns), 0))[where[: len(rgb), : rgb.shape[1]]]
+    assert np.quantile(contrast, 0.98) <= NEAR + WIDER * mean**2 + 3.0 < 0.6 * CONTRAST
+
+
 def test_greys_of_coloured_yarns_have_no_opposing_hues() -> None:
     rgb = np.repeat(np.arange(256, dtype=np.uint8)[None, :, None], 60, axis=0).repeat(3, axis=2)
     tied = {YARNS[yarn].name for yarn in np.unique(chart(rgb).knots)}

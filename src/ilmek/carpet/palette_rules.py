@@ -57,7 +57,7 @@ LEAST_DIFFERENCE = 2.0
 LEAST_EDGES, MOST_LOST = 0.85, 0.003
 """Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
 
-LEAST_DETAILS = MappingProxyType({"exact": 0.0, "flat": 0.6, "photo": 0.4})
+LEAST_DETAILS = MappingProxyType({"exact": 0.0, "flat": 0.6, "photo": 0.3})
 """Default of the least detail by the kind of reading, chosen so too: the lines of a drawing are all meant."""
 
 MOST_PROPOSED = 64
@@ -110,7 +110,7 @@ class PaletteParams(Params):
         at_least=0.0,
         at_most=1.0,
         doc="least share of the picture's detail that the chart keeps, of which less is a failed check; default: "
-        "flat 60 %, photo 40 %",
+        "flat 60 %, photo 30 %",
     )
     most_lost: float = param(
         MOST_LOST,
