@@ -11,8 +11,8 @@ from ilmek.part.shapes import CHORD, box
 from ilmek.records import record
 from ilmek.report.scene import Solid
 
-STEP = np.deg2rad(6.0)
-"""Twist between two sections of a mesh, at most."""
+STEP, COARSE = np.deg2rad(2.0), np.deg2rad(6.0)
+"""Twist between two sections of a mesh, and of its convex pieces, at most."""
 
 
 @record
@@ -45,7 +45,7 @@ class TwistedBar:
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles between turned sections; they are near enough for any deviation."""
         del deviation
-        rings = self._rings()
+        rings = self._rings(STEP)
         number, corner = len(rings), np.arange(4)
         following = np.roll(corner, -1)
         first = np.stack([corner, following, following + 4], axis=1)
@@ -57,12 +57,12 @@ class TwistedBar:
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
         """The convex hulls of neighbouring sections."""
         del deviation
-        rings = self._rings()
+        rings = self._rings(COARSE)
         return tuple(np.concatenate(pair) for pair in itertools.pairwise(rings))
 
-    def _rings(self) -> FloatArray:
-        """Corners of the sections, (sections, 4, 3) [m]."""
-        steps = np.maximum(np.ceil(np.abs(np.diff(self.angles)) / STEP), 1).astype(int)
+    def _rings(self, step: float) -> FloatArray:
+        """Corners of sections with a twist between them of a step at most [rad], (sections, 4, 3) [m]."""
+        steps = np.maximum(np.ceil(np.abs(np.diff(self.angles)) / step), 1).astype(int)
         shares = np.concatenate([[0.0], *(k + np.arange(1, n + 1) / n for k, n in enumerate(steps))])
         z = np.interp(shares, np.arange(len(self.stations)), self.stations)
         angle = np.interp(shares, np.arange(len(self.stations)), self.angles)
