@@ -9,6 +9,8 @@ import pytest
 from hypothesis import settings
 
 os.environ["ILMEK_LEAVE_NOTHING_OUT"] = "1"  # a figure that cannot be made is an error
+# Threads of small products of matrices wait for each other on busy processors: a run-up of 1 s took 35 s of their time.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # numpy is not imported yet, and workers inherit it
 
 # No test is a timed test. The examples are the same in every run, so that a change breaks it and not chance;
 # `make campaigns` looks for new ones, and so does `pytest --hypothesis-profile=explore`, 100 for each property.
