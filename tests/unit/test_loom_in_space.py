@@ -14,9 +14,9 @@ from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.bodies import beat_tip
 from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.in_space.scene import scene
 from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.beat_up import BeatUp
 from ilmek.machines.beat_up.tree import in_side_view
 from ilmek.plane.contours import area
