@@ -13,8 +13,11 @@ from collections.abc import Iterator
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.beat import GUIDED
+from ilmek.machines.weft.carriers import AXIS
 from ilmek.machines.weft.rapier_tree import SIDE, RapierSide
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
@@ -46,6 +49,7 @@ class RapierSupport:
 
     side    the rapier's, its carrier's middle in the side view [m]
     face, front, column  of the columns: inner face from the middle of the width, front in the side view, side [m]
+    gap     of the axis from brackets that let cams sink [m], None where they do not; clearance: allowed [m]
     """
 
     side: RapierSide
@@ -58,11 +62,25 @@ class RapierSupport:
     face: float
     front: float
     column: float
+    gap: float | None
+    clearance: float
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Deflection of arms and beams, buckling of the post."""
-        return _checks(self.section, self.weight, self.inertia, self.reach, self.height)
+        """Deflection of arms and beams, buckling of the post, room before the brackets of the cam shafts."""
+        bearing = _checks(self.section, self.weight, self.inertia, self.reach, self.height)
+        if self.gap is None:
+            return bearing
+        room = at_least(
+            "clearance: brackets of the cam shafts and axis of the rapier",
+            self.gap,
+            self.clearance,
+            "mm",
+            "parameter clearance; the axis begins beside the cloth, before the brackets",
+            cure="set weft=shuttle with another beat, or a larger lift",
+            parts=(AXIS,),
+        )
+        return (*bearing, room)
 
 
 def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSupport:
@@ -78,7 +96,11 @@ def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSuppor
     sections = ascending()
     bearing = (one for one in sections if all(c.ok for c in _checks(one, weight, inertia, reach, height)))
     section = next(bearing, sections[-1])
-    return RapierSupport(rapier, middle, section, weight, inertia, reach, height, face, front, column)
+    # Brackets that let the cams sink reach down to the axis.
+    _, _, *of_cams = brackets_of(loom).shafts
+    before = middle.real - SIDE / 2 - max(float(own.nodes.real.max()) + own.radius for own in of_cams)
+    gap, clearance = before if loom.params.beat == GUIDED else None, loom.params.clearance
+    return RapierSupport(rapier, middle, section, weight, inertia, reach, height, face, front, column, gap, clearance)
 
 
 def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, height: float) -> tuple[Check, Check]:
