@@ -155,7 +155,7 @@ def test_a_package_holds_its_yarn(mass: float) -> None:
 
 def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
     loom = _loom(heads=3)
-    places = creel_of(loom).places
+    places = creel_of(loom).axes
     assert len(places) == 3 * loom.weaver.params.tubes
     apart = min(math.dist(first, other) for first, other in combinations(places, 2))
     assert apart >= creel_of(loom).size + 50 * mm

@@ -87,7 +87,7 @@ class Creel:
     duct_end: float
 
     @property
-    def places(self) -> tuple[tuple[float, float], ...]:
+    def axes(self) -> tuple[tuple[float, float], ...]:
         """Height and depth of the axis of each package [m]."""
         every = ((y, z) for z in self.columns for y in self.rows)
         return tuple(every)[: self.number]

@@ -83,12 +83,12 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         device(BRAKE_ID, "yarn brake", BRAKE),
         device(signals.YARN_STOP, "stop motion of a yarn", YARN_SENSOR),
     )
-    on_pegs = tuple(placement(creel.base, y, z).after(ALONG_WIDTH) for y, z in creel.places)
+    on_pegs = tuple(placement(creel.base, y, z).after(ALONG_WIDTH) for y, z in creel.axes)
     yield Occurrence(peg, on_pegs)
     yield Occurrence(package, on_pegs)
-    yield Occurrence(brake, tuple(placed(creel.inner, y, z, TO_THE_LEFT) for y, z in creel.places))
+    yield Occurrence(brake, tuple(placed(creel.inner, y, z, TO_THE_LEFT) for y, z in creel.axes))
     above = (BRAKE.size[1] + YARN_SENSOR.size[1]) / 2
-    yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, TO_THE_LEFT) for y, z in creel.places))
+    yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, TO_THE_LEFT) for y, z in creel.axes))
 
 
 def _stand(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:

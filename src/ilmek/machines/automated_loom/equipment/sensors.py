@@ -45,7 +45,7 @@ LEAST_STRAIN = 20e-6
 
 
 @record
-class SensorPlace:
+class MountedSensor:
     """Where pieces of a sensor are on the body that carries it, and whether they have room there."""
 
     part: Part
@@ -55,7 +55,7 @@ class SensorPlace:
 
 
 @lru_cache(maxsize=4)
-def sensor_places(loom: LoomDesign) -> tuple[SensorPlace, ...]:
+def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     """The sensors of a loom."""
     near = surroundings(loom)
     return (
@@ -71,31 +71,31 @@ def sensor_places(loom: LoomDesign) -> tuple[SensorPlace, ...]:
 
 def sensors(loom: LoomDesign) -> Iterator[MachineTree]:
     """The sensors, each as a body on the body that carries it."""
-    for place in sensor_places(loom):
+    for place in mounted_sensors(loom):
         body = RigidBody(place.part.id, (Occurrence(place.part, place.positions),))
         yield MachineTree("automated-loom", Tree((body,)), parent=place.carrier)
 
 
-def _encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> SensorPlace:
+def _encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MountedSensor:
     """An encoder behind a motor, whose flange is at z = 0 and whose body lies behind it."""
     body, motor, position = near.occurrence(motors)
     assert motor.shape is not None
     rear = float(shape_box(motor.shape)[0][2])
-    return SensorPlace(device(name, title, ENCODER), body.id, (position.after(placement(z=rear - ENCODER.size[2])),))
+    return MountedSensor(device(name, title, ENCODER), body.id, (position.after(placement(z=rear - ENCODER.size[2])),))
 
 
 def _first_free(
     near: Surroundings, part: Part, carrier: str, offered: Iterable[tuple[Placement, ...]], on: str
-) -> SensorPlace:
+) -> MountedSensor:
     """The first of the places that are offered in which all pieces have room beside the part on which they are; where
     none has, the first.
     """
     first: tuple[Placement, ...] = ()
     for positions in offered:
         if all(near.free(*_boxed(part, own), but=on) for own in positions):
-            return SensorPlace(part, carrier, positions)
+            return MountedSensor(part, carrier, positions)
         first = first or positions
-    return SensorPlace(part, carrier, first, free=False)
+    return MountedSensor(part, carrier, first, free=False)
 
 
 def _boxed(part: Part, position: Placement) -> tuple[Corner, Corner]:
@@ -105,7 +105,7 @@ def _boxed(part: Part, position: Placement) -> tuple[Corner, Corner]:
     return points.min(0), points.max(0)
 
 
-def _on_the_axis(near: Surroundings) -> SensorPlace:
+def _on_the_axis(near: Surroundings) -> MountedSensor:
     """In the slot of an axis of the retreat, on one of its sides, as near to its lower end as there is room."""
     body, axis, position = near.occurrence((part_id("retreat-axis"),))
     assert axis.shape is not None
@@ -118,7 +118,7 @@ def _on_the_axis(near: Surroundings) -> SensorPlace:
     return _first_free(near, part, body.id, offered, axis.id)
 
 
-def _strain(near: Surroundings) -> SensorPlace:
+def _strain(near: Surroundings) -> MountedSensor:
     """Under the back rest's beam, along it."""
     beam, part = near.of(part_id("back-rest-beam"))[0], device(signals.TENSION, "sensor of the warps' tension", STRAIN)
     _, high, long = STRAIN.size
@@ -126,7 +126,7 @@ def _strain(near: Surroundings) -> SensorPlace:
     return _first_free(near, part, GROUND, ((placed(-long / 2, y, z, TO_THE_RIGHT),),), beam.part)
 
 
-def _barriers(loom: LoomDesign, near: Surroundings) -> SensorPlace:
+def _barriers(loom: LoomDesign, near: Surroundings) -> MountedSensor:
     """Sender and receiver on the inner faces of the upper brackets, below the level warps."""
     part, upper = device(signals.WARP_STOP, "light barrier for broken warps", BARRIER), brackets_of(loom).upper
     begin, end = loom.side.upper.at, loom.side.back_rest.at
@@ -142,7 +142,7 @@ def _barriers(loom: LoomDesign, near: Surroundings) -> SensorPlace:
     return _first_free(near, part, GROUND, offered, part_id("upper-bracket"))
 
 
-def _weft_sensor(loom: LoomDesign, near: Surroundings) -> SensorPlace:
+def _weft_sensor(loom: LoomDesign, near: Surroundings) -> MountedSensor:
     """On the front of the left column, looking at the weft between cloth and box, as near to its height as it can."""
     part, column = device(signals.WEFT_STOP, "sensor of the weft", YARN_SENSOR), near.of(part_id("column"))[0]
     wide, z, middle = YARN_SENSOR.size[0], float(column.high[2]), loom.side.weft_height
@@ -156,7 +156,7 @@ def sensor_checks(loom: LoomDesign) -> tuple[Check, ...]:
     made, long = brackets_of(loom), loom.task.width
     moment = uniform.moment_max(loom.task.cloth.pull / long, long)
     strain = float(uniform.bending_stress(moment, made.beam.side / 2, made.beam.inertia)) / STEEL.modulus
-    tight = tuple(place.part for place in sensor_places(loom) if not place.free)
+    tight = tuple(place.part for place in mounted_sensors(loom) if not place.free)
     return (
         at_most(
             "sensors without room",

@@ -55,10 +55,10 @@ class YarnPath:
     acceleration: float
     brake: float
 
-    wrap = computed("deg", "angle of wrap on that way", lambda it: it.wraps, name="yarn_wrap")
+    wrap = computed("deg", "angle of wrap on that path", lambda it: it.wraps, name="yarn_wrap")
     brake_force = computed("N", "force of the brakes of the creel", lambda it: it.brake, name="yarn_brake")
 
-    @computed("m", "way of a yarn from its package to its tube, the longest", name="yarn_way")
+    @computed("m", "path of a yarn from its package to its tube, the longest", name="yarn_path")
     def length(self) -> float:
         return math.fsum(step.length for step in self.steps)
 
@@ -116,7 +116,7 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
     (start, height, depth), (low, high) = creel.mouth, trough_box(loom)
     brake = creel.inner - BRAKE.size[2]
     nose, half = brake - creel.base - creel.size, creel.size / 2
-    y, z = max(creel.places, key=lambda one: math.hypot(one[0] - height, one[1] - depth))
+    y, z = max(creel.axes, key=lambda one: math.hypot(one[0] - height, one[1] - depth))
     along, up = float(low[0]) - creel.duct_end, float(low[1] + high[1]) / 2 - height
     loop = math.hypot(along, up)
     share, long = loom.task.cloth.width / loom.heads, float(high[0] - low[0])
@@ -177,5 +177,5 @@ def yarn_tables(loom: LoomDesign) -> tuple[Table, ...]:
     rows = tuple(
         (step.name, step.length, step.wrap, tension) for step, tension in zip(path.steps, path.tensions, strict=True)
     )
-    heads = columns("part of the way", "length [m]", "wrap [deg]", "tension behind it [N]")
-    return (Table("loom-yarn-path", "Way of a yarn from its package to its tube", heads, rows),)
+    heads = columns("part of the path", "length [m]", "wrap [deg]", "tension behind it [N]")
+    return (Table("loom-yarn-path", "Path of a yarn from its package to its tube", heads, rows),)
