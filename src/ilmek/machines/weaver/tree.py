@@ -51,9 +51,10 @@ def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placemen
 
 
 def _at_rail(weaver: Weaver) -> Placement:
-    """Under the axis of the rail, which runs in front of the magazine."""
+    """On the axis of the rail, which runs in front of the magazine."""
     shape = weaver.shape
-    return placement(weaver.width / 2, shape.rail - RAIL_AXIS / 2, shape.front).after(UPRIGHT)
+    upside_down = placement(about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
+    return placement(weaver.width / 2, shape.rail + RAIL_AXIS / 2, shape.front).after(upside_down)
 
 
 @lru_cache(maxsize=8)

@@ -88,8 +88,8 @@ def head_alone(loom: LoomDesign) -> Tree:
 
 
 def _drive(x: float) -> Placement:
-    """Under the axis of the rail, in front of which the rail stands."""
-    return placement(x, -RAIL_AXIS / 2, -RAIL_AXIS).after(UPRIGHT)
+    """On the axis of the rail, in front of which the rail stands: under it the heads' drives pass."""
+    return placement(x, RAIL_AXIS / 2, -RAIL_AXIS, about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
 
 
 def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
