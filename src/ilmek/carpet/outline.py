@@ -45,7 +45,7 @@ from ilmek.plane.curves import hull
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import Sentence
 
-LEAST_CLEARNESS = 0.8
+LEAST_CLEARNESS = 0.81
 """Least clearness of an outline that is used."""
 
 _LONG, _COARSE = 2400, 600
