@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import machines_of_bodies, row_windows
 from ilmek.part.clearances import TURN, approaches
 from ilmek.part.contacts import groups
+from ilmek.part.placement import Placement
 from ilmek.part.tree import Tree
 from ilmek.units import mm
 
@@ -35,7 +36,7 @@ def loom(settings: tuple[tuple[str, str], ...]) -> LoomDesign:
 def thinned(tree: Tree) -> Tree:
     """Of many like parts in a body the first, the middle and the last."""
 
-    def few(positions):
+    def few(positions: tuple[Placement, ...]) -> tuple[Placement, ...]:
         return positions if len(positions) < 4 else (positions[0], positions[len(positions) // 2], positions[-1])
 
     return Tree(
