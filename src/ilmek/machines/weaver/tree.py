@@ -25,24 +25,28 @@ from ilmek.machines.weaver.turning import turning_bodies
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.units import turn
+from ilmek.units import mm, turn
 
 HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
 CARRIAGE = part_id("drive of the carriage")
 """Ids of bodies."""
 
+BEFORE_MAGAZINE = 5 * mm
+"""Between the magazine and the motor of a carriage [m]; assumed by this project."""
+
 
 @lru_cache(maxsize=8)
 def tree(weaver: Weaver) -> Tree:
     """The head, and the motor of its carriage at the end of its share of the rail."""
-    return placed(weaver, (IDENTITY,), (_at_rail(weaver),))
+    shape = weaver.shape
+    axis = placement(0.0, shape.rail, shape.front)
+    return placed(weaver, (IDENTITY,), (axis.after(on_the_axis(weaver, weaver.width / 2, RAIL_AXIS / 2)),))
 
 
 def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placement]) -> Tree:
     """The tree of a loom's heads, and of the motors of their carriages, each at its places."""
     first, *others = head_tree(weaver).bodies
-    mass, params = head_mass(weaver), weaver.params
-    torque, turning = mass * params.carriage_acceleration * PULLEY, params.carriage_speed / PULLEY
+    torque, turning = _carriage_drive(weaver)
     motor = catalogue.motor(
         part_id("carriage-motor"), "motor of a carriage", smallest_motor(torque, turning), torque, turning
     )
@@ -50,11 +54,20 @@ def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placemen
     return Tree((replace(first, positions=tuple(heads)), *others, drive))
 
 
-def _at_rail(weaver: Weaver) -> Placement:
-    """On the axis of the rail, which runs in front of the magazine."""
-    shape = weaver.shape
-    upside_down = placement(about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
-    return placement(weaver.width / 2, shape.rail + RAIL_AXIS / 2, shape.front).after(upside_down)
+def _carriage_drive(weaver: Weaver) -> tuple[float, float]:
+    """Torque [N m] and speed [rad/s] of the motor of a carriage."""
+    params = weaver.params
+    return head_mass(weaver) * params.carriage_acceleration * PULLEY, params.carriage_speed / PULLEY
+
+
+def on_the_axis(weaver: Weaver, x: float, top: float) -> Placement:
+    """The motor of a carriage at the end of its share, over the axis, from whose back z counts: its flange on a height.
+
+    It stands before the magazine, which passes over the axis; the heads' drives pass under it.
+    """
+    chosen = smallest_motor(*_carriage_drive(weaver))
+    depth = BEFORE_MAGAZINE + (chosen.face if chosen else catalogue.SPECIAL_FACE) / 2
+    return placement(x, top, depth, about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
 
 
 @lru_cache(maxsize=8)

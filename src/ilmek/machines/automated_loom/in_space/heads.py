@@ -20,6 +20,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
     track_angles,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.head_shape import RAIL_AXIS, HeadTool
@@ -39,9 +40,9 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
-from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree, placed
+from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree, on_the_axis, placed
 from ilmek.machines.weaver.turning import HANDLER_BODY, PINION_BODY
-from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
@@ -73,10 +74,11 @@ def heads_tree(loom: LoomDesign) -> Tree:
     rail = loom.side.rail
     middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
+    axis, top = placement(z=-RAIL_AXIS), max(parts_of_loom(loom).frame.rail.side, RAIL_AXIS) / 2
     return placed(
         loom.weaver,
         [placement(x, -middle.imag, -middle.real) for x in middles],
-        [_drive(x + share / 2) for x in middles],
+        [axis.after(on_the_axis(loom.weaver, x + share / 2, top)) for x in middles],
     ).moving(motions(loom))
 
 
@@ -85,11 +87,6 @@ def head_alone(loom: LoomDesign) -> Tree:
     bodies = head_tree(loom.weaver).moving(motions(loom))
     # The carriage steps on at the end of a knot: the head by itself stands.
     return bodies.moving({HEAD: motion(loom.knot_cyclogram, np.array([0.0, turn]))})
-
-
-def _drive(x: float) -> Placement:
-    """On the axis of the rail, in front of which the rail stands: under it the heads' drives pass."""
-    return placement(x, RAIL_AXIS / 2, -RAIL_AXIS, about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
 
 
 def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
