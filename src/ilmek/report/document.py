@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any, TypeVar
 
 from ilmek.errors import ParameterError, did_you_mean
-from ilmek.records import record, shown_value
+from ilmek.records import JsonObject, record, shown_value
 from ilmek.report.bill import BillLine
 from ilmek.report.check import Check
 from ilmek.report.choice import Choice
@@ -167,12 +167,12 @@ class Report:
         held = len(self.all_checks) - len(self.failed)
         return f"<Report {self.machine}: {len(self.results)} results, {held} of {len(self.all_checks)} checks hold>"
 
-    def results_as_json(self) -> dict[str, Json]:
+    def results_as_json(self) -> JsonObject:
         """Name to value, and under the key of each machine in it its results."""
         own = {result.name: plain(result.value) for result in self.results}
         return own | {child.key: child.results_as_json() for child in self.children}
 
-    def as_json(self) -> dict[str, Json]:
+    def as_json(self) -> JsonObject:
         """The contract of `--json`: machine, verdict, parameters, results, checks, choices; SI, full precision.
 
         `machines` has the parameters in force of the machines in it.
@@ -191,7 +191,7 @@ class Report:
             **({"machines": self._machines()} if self.children else {}),
         }
 
-    def _machines(self) -> dict[str, Json]:
+    def _machines(self) -> JsonObject:
         """The parameters of the machines in it, by their names, each with those of its own machines."""
         return {
             child.machine: {"parameters": plain(child.parameters)}

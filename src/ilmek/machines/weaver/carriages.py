@@ -254,8 +254,8 @@ def _partition(weaver: Weaver) -> Occurrence:
             _around(1j * height, weaver.params.finger / 2),
             _around(1j * (height + ABOVE_CENTRE), ROD / 2, round_=True),
         ]
-    room = Guide(complex(beside, low), complex(inner, top))
-    within = [way for way in apart(ways) if way.within(room) or way.round]
+    plate = Guide(complex(beside, low), complex(inner, top))
+    within = [way for way in apart(ways) if way.within(plate) or way.round]
     section = Profile(polygon(np.array(corners)), tuple(way.contour for way in within))
     part = Part(
         part_id("partition"),
