@@ -29,7 +29,7 @@ def main() -> None:
         browser = launched(playwright)
         page = browser.new_page(viewport={"width": 1500, "height": 1000})
         page.goto(page_file.as_uri())
-        page.add_style_tag(content="nav { display: none }")
+        page.add_style_tag(content="nav { display: none !important }")
         page.get_by_role("button", name="Show the loom in space").click()
         views = [(name, _view(page, name)) for name in VIEWS]
         page.locator(".loom-picture input[value=knot]").check(force=True)

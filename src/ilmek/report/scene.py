@@ -151,7 +151,7 @@ class Scene:
     """A loom in space.
 
     periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
-    failures  the checks of the whole loom that fail
+    guards    names of the frames of fence and doors      failures  the checks of the whole loom that fail
     """
 
     title: str
@@ -162,5 +162,6 @@ class Scene:
     carpet: SceneCarpet
     periods: Mapping[str, float]
     heads: str
+    guards: tuple[str, ...]
     floor: float
     failures: tuple[Check, ...] = ()

@@ -52,6 +52,7 @@ def scene_data(scene: Scene) -> SceneData:
     about = {
         "title": scene.title,
         "heads": scene.heads,
+        "guards": list(scene.guards),
         "floor": scene.floor,
         "failures": [check.as_json() for check in scene.failures],
         "periods": dict(scene.periods),

@@ -43,6 +43,7 @@ export default {
   cut: "Cut at",
   explode: "Explode",
   labels: "Names in the picture",
+  guards: "Guards",
   measure: "Measure by two presses",
   measureOn: "to here …",
   distance: "{all} mm: across {x}, up {y}, to the front {z}",

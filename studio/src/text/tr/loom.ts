@@ -44,6 +44,7 @@ export default {
   cut: "Kesit yeri",
   explode: "Parçaları ayır",
   labels: "Resimde adlar",
+  guards: "Koruyucular",
   measure: "İki tıklamayla ölç",
   measureOn: "buraya …",
   distance: "{all} mm: enine {x}, yukarı {y}, öne {z}",

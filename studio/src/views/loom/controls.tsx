@@ -13,6 +13,7 @@ export interface PictureState {
   apart: number;
   names: boolean;
   measures: boolean;
+  guards: boolean;
   rows: number;
 }
 
@@ -87,6 +88,7 @@ export function Controls({ state, heads, rows, onShow, onChange }: ControlsProps
         />
       )}
       <Toggle label={t("loom.labels")} value={state.names} onChange={(names) => onChange({ names })} />
+      <Toggle label={t("loom.guards")} value={state.guards} onChange={(guards) => onChange({ guards })} />
       <Toggle label={t("loom.measure")} value={state.measures} onChange={(measures) => onChange({ measures })} />
     </>
   );

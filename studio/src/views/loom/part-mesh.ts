@@ -31,6 +31,8 @@ export class PartMesh {
   readonly edges: Edges;
   /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
   readonly apart = new three.Vector3();
+  /** Whether it is left out of the picture. */
+  hidden = false;
   private readonly levels: three.BufferGeometry[];
   private readonly sphere: three.Sphere;
   /** The matrices of all copies of a crowd; of others those that are drawn. */
@@ -92,8 +94,10 @@ export class PartMesh {
   detail(pixel: number, view: three.Frustum, right: boolean, most: number, fine: boolean): void {
     const deviations = this.part.solids.map((solid) => solid.deviation);
     this.mesh.geometry = this.levels[levelFor(deviations, COARSE * pixel)] ?? this.finest;
+    this.mesh.visible = !this.hidden;
     if (this.isCrowd) this.choose(pixel, view, right, most);
-    if (fine && !(this.isCrowd && this.spacing < DENSE * pixel)) this.edges.show(this.mesh.geometry, this.mesh.count);
+    if (fine && !this.hidden && !(this.isCrowd && this.spacing < DENSE * pixel))
+      this.edges.show(this.mesh.geometry, this.mesh.count);
     else this.edges.hide();
   }
 

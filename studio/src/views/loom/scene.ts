@@ -80,6 +80,8 @@ export type Drive = "row" | "knot";
 export interface SceneAbout {
   title: string;
   heads: string;
+  /** Frames of fence and doors. */
+  guards: string[];
   floor: number;
   /** The checks of the whole loom that fail, also those that concern no part alone. */
   failures: SceneCheck[];

@@ -150,7 +150,7 @@ export class Stage {
   /** What throws no shadow. */
   private shadowless(): three.Object3D[] {
     const lines = this.parts.map((one) => one.edges.lines);
-    const clear = this.parts.filter((one) => !one.solid).map((one) => one.mesh);
+    const clear = this.parts.filter((one) => !one.solid || one.hidden).map((one) => one.mesh);
     return [this.floor, this.threads.group, this.measured.line, ...lines, ...clear];
   }
 
@@ -238,6 +238,16 @@ export class Stage {
     else this.shadow.fit(this.box);
     this.threads.mark(this.opened ? this.headAt(this.followed ?? 0) : null);
     this.invalidate();
+  }
+
+  /** Shows the guards, or leaves them out. */
+  guard(shown: boolean): void {
+    for (const one of this.parts) if (this.isGuard(one)) one.hidden = !shown;
+    this.changed();
+  }
+
+  private isGuard({ placed }: PartMesh): boolean {
+    return this.model.about.guards.some((name) => isOf(placed, this.frames.byName.get(name) ?? null));
   }
 
   /** Moves the camera as a key says; whether it does anything. */
@@ -337,7 +347,7 @@ export class Stage {
     const ray = new three.Raycaster();
     ray.setFromCamera(new three.Vector2(x, y), this.camera.lens);
     const hits = ray.intersectObjects(
-      this.parts.filter((one) => one.solid || !this.opened).map((one) => one.mesh),
+      this.parts.filter((one) => !one.hidden && (one.solid || !this.opened)).map((one) => one.mesh),
       false,
     );
     return hits.find((one) => !this.isCut(one.point));
@@ -345,7 +355,13 @@ export class Stage {
 
   /** Positions in the picture, from -1 to 1, of parts; those behind the camera are left out. */
   labels(): { name: string; x: number; y: number }[] {
-    const parts = this.opened ? this.parts.filter((one) => this.tools.has(one.part.frame)) : this.parts;
+    const named = new Set<number>();
+    const parts = this.parts.filter((one) => {
+      if (!this.opened) return !one.hidden;
+      const tool = this.tools.get(one.part.frame);
+      if (tool === undefined || named.has(tool)) return false;
+      return named.add(tool);
+    });
     return parts.flatMap((one) => {
       const at = one.shownAt();
       if (this.isCut(at)) return [];
@@ -362,7 +378,7 @@ export class Stage {
   /** The loom's box, and where each part goes when it is exploded: away from the middle, machines apart. */
   private measure(): void {
     const own = new three.Box3();
-    for (const one of this.parts) if (!one.part.envelope) this.box.union(one.boxed(own));
+    for (const one of this.parts) if (!this.isGuard(one)) this.box.union(one.boxed(own));
     const middle = this.box.getCenter(new three.Vector3());
     for (const one of this.parts) {
       one.boxed(own).getCenter(one.apart).sub(middle).multiplyScalar(1.2);
@@ -401,11 +417,14 @@ function isOf(placed: Placed, other: Placed | null): boolean {
   return placed === other || (placed.parent !== null && isOf(placed.parent, other));
 }
 
-/** The frames whose parent is the head, or a frame that moves in it, and that move themselves: its tools. */
+/** The frames that shift in the head, and what stands on them: its tools, numbered by what moves by itself. */
 function toolsOf({ about }: SceneModel): ReadonlyMap<string, number> {
   const tools = new Map<string, number>();
-  for (const { name, parent, motion } of about.frames)
-    if ((parent === about.heads && motion?.shift) || tools.has(parent))
-      tools.set(name, tools.get(parent) ?? tools.size);
+  let number = 0;
+  for (const { name, parent, motion } of about.frames) {
+    const before = tools.get(parent);
+    if (before === undefined && !(parent === about.heads && motion?.shift)) continue;
+    tools.set(name, motion === null && before !== undefined ? before : number++);
+  }
   return tools;
 }

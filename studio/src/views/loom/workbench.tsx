@@ -44,6 +44,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     apart: 0,
     names: false,
     measures: false,
+    guards: false,
     rows: Math.round(0.6 * about.carpet.rows),
   }));
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -65,6 +66,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     [state.axis, state.cut],
   );
   useEffect(() => stage.current?.explode(state.apart), [state.apart]);
+  useEffect(() => stage.current?.guard(state.guards), [state.guards, model]);
   useEffect(() => stage.current?.measureByPress(state.measures), [state.measures]);
   useEffect(() => stage.current?.weave(state.rows), [state.rows]);
   useEffect(() => {

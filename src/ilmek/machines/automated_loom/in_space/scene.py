@@ -8,6 +8,7 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.equipment.tree import equipment
 from ilmek.machines.automated_loom.in_space.cams import warp_positions
 from ilmek.machines.automated_loom.in_space.heads import arms, knot_yarn
@@ -56,6 +57,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         carpet=_carpet(loom),
         periods=periods_of(loom),
         heads=HEAD,
+        guards=GUARDS,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
     )
