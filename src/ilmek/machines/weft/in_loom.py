@@ -7,15 +7,20 @@ from ilmek.machines.weft.design import Weft
 from ilmek.machines.weft.params import AUTO, RAPIER, WeftParams
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.report import Work
-from ilmek.units import turn
+from ilmek.units import mm, turn
+
+BESIDE_HEADS = 70 * mm
+"""From the cloth's edge to the devices that serve it: half a head passes between; assumed, and checked in space."""
 
 
 def fit(task: LoomTask) -> WeftParams:
     """The parameters for a loom's cloth and shed; cams that sink for the beat leave no room for shuttles' carriages."""
     params = task.params
     carrier = RAPIER if params.weft == AUTO and params.beat == GUIDED else params.weft
+    edge = BESIDE_HEADS if carrier == RAPIER else WeftParams().edge
     return WeftParams(
         carrier=carrier,
+        edge=edge,
         aim=params.aim,
         cloth=task.cloth,
         rows=task.rows,
