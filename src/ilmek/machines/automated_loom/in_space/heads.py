@@ -67,7 +67,7 @@ def arms(loom: LoomDesign) -> tuple[tuple[SceneFrame, ...], tuple[ScenePart, ...
 
 
 def heads_tree(loom: LoomDesign) -> Tree:
-    """The heads in the rail's axes: each in the middle of its share of the row, the motor of its carriage at its end.
+    """The heads in the rail's axes: each in the middle of its share of the row, the motor of its carriage beside it.
 
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
@@ -78,7 +78,7 @@ def heads_tree(loom: LoomDesign) -> Tree:
     return placed(
         loom.weaver,
         [placement(x, -middle.imag, -middle.real) for x in middles],
-        [axis.after(on_the_axis(loom.weaver, x + share / 2, top)) for x in middles],
+        [axis.after(on_the_axis(loom.weaver, x + share / 4, top)) for x in middles],
     ).moving(motions(loom))
 
 
