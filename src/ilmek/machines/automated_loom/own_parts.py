@@ -12,7 +12,7 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.frame import LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rail_supports import rail_brackets, rail_middle, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.weaver import head_mass
@@ -56,16 +56,14 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
     # At the upper end, above the post; wider than its axis, it reaches outwards.
-    face, slope = chosen.face if chosen else catalogue.SPECIAL_FACE, -cmath.phase(RETREAT)
-    outwards = (face - RAIL_AXIS) / 2
+    outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
         for own in held
         for x in own.stations
     ]
     flange = placement(outwards, z=-room)
-    if not loom.beat.crank_rockers:  # At the lower end: the posts of vertical axes stand behind the rail, beside it.
-        outwards = min(outwards, held[0].lever - (held[0].post.side + face) / 2 - ROOM)
+    if not loom.beat.crank_rockers:  # At the lower end: the posts of vertical axes stand behind the rail.
         flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
     return RigidBody(
         part_id("retreat"),
