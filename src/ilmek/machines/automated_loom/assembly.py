@@ -8,7 +8,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
-from ilmek.part.contacts import Contacts, contacts, open_parts
+from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
 from ilmek.part.mobility import TreeMobility
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
@@ -63,7 +63,7 @@ class LoomAssembly:
     @property
     def apart(self) -> tuple[NearParts, ...]:
         """What is through each other, then what moves against each other and does not touch, the nearest first."""
-        return (*self.through, *(near for near in self.nearest if near.approach.distance > 0))
+        return (*self.through, *(near for near in self.nearest if near.approach.distance > TOUCHING))
 
     @property
     def holds(self) -> bool:
