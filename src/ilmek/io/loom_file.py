@@ -19,8 +19,8 @@ LARGEST = 2_000_000
 """Largest size of a loom file [bytes]; a loom with all its machines has 100,000."""
 
 KNOWN = (
-    "machine", "weaves", "buildable", "row_pitch_left", "holds", "reasons", "nearest", "parameters", "results", "checks",
-    "self_tests", "choices", "warnings", "machines", "files",
+    "machine", "weaves", "buildable", "row_pitch_left", "holds", "reasons", "nearest", "parameters", "results",
+    "checks", "self_tests", "choices", "warnings", "machines", "files",
 )  # fmt: skip
 """Entries of a loom file, and of each machine in it."""
 
