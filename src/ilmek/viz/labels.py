@@ -1,6 +1,7 @@
 """Placement of names beside the parts that they name, clear of lines and of each other."""
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.records import record
@@ -73,11 +74,15 @@ def covered(centres: ComplexArray, half: complex, obstacles: ComplexArray) -> Fl
     if not len(obstacles):
         return np.zeros(len(centres))
     reach = half + (1 + 1j)
-    x, y = obstacles.real.copy(), obstacles.imag.copy()
-    near = _between(x, centres.real, reach.real) & _between(y, centres.imag, reach.imag)
-    across = np.abs(x[near] - centres.real[:, np.newaxis]) < reach.real
-    inside = across & (np.abs(y[near] - centres.imag[:, np.newaxis]) < reach.imag)
-    return np.asarray(np.minimum(inside.sum(axis=1), 12).astype(float))
+    near = _between(obstacles.real, centres.real, reach.real) & _between(obstacles.imag, centres.imag, reach.imag)
+    tree = KDTree(_scaled(obstacles[near], reach))
+    inside = tree.query_ball_point(_scaled(centres, reach), 1.0, p=np.inf, return_length=True)
+    return np.asarray(np.minimum(inside, 12).astype(float))
+
+
+def _scaled(points: ComplexArray, reach: complex) -> FloatArray:
+    """Coordinates in which a box of a reach is a square of the side 2."""
+    return np.stack([points.real / reach.real, points.imag / reach.imag], axis=1)
 
 
 def _between(values: FloatArray, middles: FloatArray, reach: float) -> BoolArray:
