@@ -58,13 +58,13 @@ def test_nothing_is_through_beat_or_weft(settings: dict[str, str]) -> None:
     windows = row_windows(made.row_cyclogram, made.beat.path)
     pairs = (
         *approaches(tree, ROW, 1 * mm, windows, required),
-        *approaches(tree, KNOT, 1 * mm, TURN, required, moving=True),
+        *approaches(tree, KNOT, 1 * mm, TURN, required),
     )
     assert [pair for pair in pairs if pair.distance < 0] == []
 
 
 def test_what_holds_a_rapier_is_missed_when_it_is_taken_away() -> None:
-    tree = thinned(loom_tree(loom(tuple(LOOMS[2].items()))))
+    tree = loom_tree(loom(tuple(LOOMS[2].items())))
     assert len(groups(tree)) == 1
     for name in ("weft-beam", "weft-arm"):
         without = Tree(

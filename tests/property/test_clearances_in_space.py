@@ -1,7 +1,7 @@
 """Least distances of parts in space: against closed forms, and against many poses computed without the package's own.
 
 Evidence: a box that passes a box at a known gap; a bar that turns beside a wall; two boxes through each other by a
-known volume; a bar on random cranks above a floor, its corners posed by scipy at 1,200 angles.
+known volume; a bar on random cranks above a floor, its corners posed by scipy at 12,000 angles.
 """
 
 import math
@@ -166,7 +166,11 @@ def test_a_pin_in_its_bore_touches_and_a_part_moved_by_a_millimetre_is_found():
     height=st.floats(150.0, 250.0),
 )
 def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
-    """A bar on a crank above a plane: its corners posed here, 1,200 times."""
+    """A bar on a crank above a plane: its corners posed here, 12,000 times.
+
+    A corner is lowered by at most a = 0.090 m 2² + 0.061 m 4² per rad²; between two of so many angles, which are
+    0.5 mrad apart, it is at most a / 8 (0.5 mrad)² = 0.05 um lower than at these.
+    """
     bar_part = Part("a/bar", "bar", "machined link", "", box(10 * mm, 10 * mm, 60 * mm), STEEL)
     crank = Part("a/crank", "crank", "machined link", "", box(10 * mm, 10 * mm, 10 * mm), STEEL)
     floor = Part("b/floor", "floor", "machined link", "", box(600 * mm, 600 * mm, 10 * mm), STEEL)
@@ -181,12 +185,12 @@ def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
     near = [pair for pair in approaches(tree, "row", required, required=lambda *_: required) if "bar" in pair.bodies]
     (pair,) = (pair for pair in near if "floor" in pair.bodies)
     corners = np.array([[x, y, z] for x in (-5, 5) for y in (-5, 5) for z in (0, 60)]) * mm
-    angle = np.linspace(0.0, turn, 1201)
+    angle = np.linspace(0.0, turn, 12001)
     carried = Rotation.from_rotvec(np.outer(turns[0] * angle, X))
     own = Rotation.from_rotvec(np.outer(turns[1] * angle, X))
     lowest = min(
-        carried[k].apply(own[k].apply(corners) + np.array([0.0, arm * mm, 0.0]))[:, 2].min() + height * mm
-        for k in range(len(angle))
+        carried.apply(own.apply(corner) + np.array([0.0, arm * mm, 0.0]))[:, 2].min() + height * mm
+        for corner in corners
     )
     assert lowest > 0
     assert lowest - 1e-6 <= pair.distance <= lowest + TOLERANCE

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams
 from ilmek.machines.weaver.cam_belt import cam_belt
-from ilmek.machines.weaver.levers import Lever
+from ilmek.machines.weaver.levers import FollowerLever
 from ilmek.machines.weaver.return_springs import SEATS, spring_of
 from ilmek.machines.weaver.tool_parts import LEFT, RIGHT
 from ilmek.machines.weaver.tree import head_tree
@@ -31,7 +31,7 @@ def _head() -> Weaver:
 def test_both_pins_stay_in_their_slots_while_the_tool_moves_by_the_ratio(
     arm: float, ratio: float, lift: float, straight: bool, share: float
 ) -> None:
-    lever = Lever(0.1 + 0.2j, arm, ratio, lift, straight)
+    lever = FollowerLever(0.1 + 0.2j, arm, ratio, lift, straight)
     up = (share - 0.5) * lift
     back = np.exp(-1j * float(lever.turned(share * lift)))
     follower = (arm + 1j * up) * back

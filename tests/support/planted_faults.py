@@ -22,7 +22,7 @@ from ilmek.io.glb import glb_bytes
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.clearances import approaches
-from ilmek.part.contacts import groups, open_parts
+from ilmek.part.contacts import contacts, open_parts
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.poses import chains, poses
@@ -48,10 +48,11 @@ class Verdict:
 
 
 def own_verdict(tree: Tree) -> Verdict:
-    """By the project, at the start of a row."""
-    pairs = approaches(tree, DRIVE, 0.1 * mm, ((0.0, 1e-3),))
+    """By the project, at the start of a row: of parts that move against each other, and of those that do not."""
+    standing = contacts(tree)
+    pairs = (*approaches(tree, DRIVE, 0.1 * mm, ((0.0, 1e-3),)), *standing.through)
     return Verdict(
-        len(groups(tree)),
+        len(standing.groups),
         frozenset(frozenset(pair.parts) for pair in pairs if pair.distance < 0),
         frozenset(open_parts(tree)),
     )

@@ -41,6 +41,9 @@ COARSE, MANY = 1 * mm, 40
 PLAY = 0.25 * mm
 """How far the faces of the pieces are moved inwards [m]: what slides on a rail does not contact it."""
 
+_SAME_AXIS = 1e-9
+"""Distance of two axes [m], and difference of their directions, that count as rounding."""
+
 TIME_STEP = 0.5e-3
 """Time step of a simulation [s]."""
 
@@ -166,13 +169,16 @@ class _Model:
             SubElement(contact, "exclude", body1=first, body2=other)
 
     def _held(self) -> Iterator[tuple[Chain, Chain]]:
-        """Each moving body and its parent, and what is fixed with its parent and has a seat of its joint."""
+        """Each moving body and its parent, and what is fixed with its parent, or turns on it about the same axis, and
+        has a seat of its joint.
+        """
         for chain in dict.fromkeys(chain for chain, _ in self.mobility.coordinates):
             if chain[:-1]:
                 yield chain, chain[:-1]
             seats = {seat.rpartition(":")[0] for seat in chain[-1].body.joint.seats}
             for other in self.places:
-                if _fixed_with(other) == _fixed_with(chain[:-1]) and seats & _parts(other[-1].body):
+                on_it = _fixed_with(other) == _fixed_with(chain[:-1]) or _coaxial(chain, other)
+                if on_it and seats & _parts(other[-1].body):
                     yield chain, other
 
     def _closures(self, equality: Element) -> None:
@@ -262,6 +268,17 @@ def _fixed_with(chain: Chain) -> Chain:
 
 def _moves(body: RigidBody) -> bool:
     return body.joint.motion is not None or body.joint.kind not in {JointKind.FIXED, JointKind.MISSING}
+
+
+def _coaxial(chain: Chain, other: Chain) -> bool:
+    """Whether two bodies, not one at two positions, turn about the same axis on the same parent."""
+    first, its = chain[-1], other[-1]
+    kinds = {first.body.joint.kind, its.body.joint.kind}
+    if first.body.id == its.body.id or chain[:-1] != other[:-1] or kinds != {JointKind.PIN}:
+        return False
+    axis = first.position.rotation @ first.body.joint.axis
+    along = np.stack([its.position.rotation @ its.body.joint.axis, its.position.origin - first.position.origin])
+    return bool(np.abs(np.cross(along, axis)).max() < _SAME_AXIS)
 
 
 def _parts(body: RigidBody) -> set[str]:

@@ -131,7 +131,7 @@ def _rotations(axis: Sequence[float], angle: FloatArray) -> Float[np.ndarray, "n
 
 
 @record
-class Extent:
+class BodyPoints:
     """Points of a body [m]; of a body of revolution also where its axis lies, along which z points.
 
     A body of revolution stays where it is when it turns about its own axis: its reach is then that of its axis.
@@ -202,7 +202,7 @@ class ChainTravel:
                 pivot = own
         return whole
 
-    def reaches(self, extents: Sequence[Extent]) -> Float[np.ndarray, "n links"]:
+    def reaches(self, extents: Sequence[BodyPoints]) -> Float[np.ndarray, "n links"]:
         """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each."""
         # From the last link to the first: the points' distance from the axis, their distance from the origin, the axis.
         axis = _unit(self.chain[-1].body.joint.axis)

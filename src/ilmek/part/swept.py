@@ -10,7 +10,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray
 from ilmek.part.colliders import MANY, Collider, collider, row
 from ilmek.part.placement import IDENTITY, Placement
-from ilmek.part.poses import Chain, ChainLink, ChainTravel, Extent, poses
+from ilmek.part.poses import BodyPoints, Chain, ChainLink, ChainTravel, poses
 from ilmek.part.shapes import Shape, Sum
 from ilmek.part.tree import RigidBody
 from ilmek.units import turn
@@ -34,9 +34,9 @@ class Piece:
     few: Collider | None = None
 
     @cached_property
-    def extent(self) -> Extent:
+    def extent(self) -> BodyPoints:
         """Corners of its convex hull in the body's axes [m]."""
-        return Extent(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
+        return BodyPoints(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
 
 
 @dataclass(frozen=True, eq=False)

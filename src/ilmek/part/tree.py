@@ -42,7 +42,8 @@ class Joint:
     """The joint of a body to its parent.
 
     axis    in the body's frame: of a pin, along a slide          motion  what drives it; None: it stands, or hangs free
-    seats   seat of the body and seat of the parent that meet in it, each `part id:seat`; none where it is not designed
+    seats   seat of the body and seat of the parent, or of a body that moves on the same parent about the same axis,
+            that meet in it, each `part id:seat`; none where it is not designed
     """
 
     kind: JointKind = JointKind.FIXED

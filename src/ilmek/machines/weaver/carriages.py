@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ilmek.machines.weaver.case import ALUMINIUM, Guide, apart
+from ilmek.machines.weaver.case import ALUMINIUM, GuideHole, apart
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import (
     ABOVE_CENTRE,
@@ -228,7 +228,7 @@ def _nut(weaver: Weaver) -> Occurrence:
 
 
 def _partition(weaver: Weaver) -> Occurrence:
-    """The plate across the case, with the ways of all that passes; lower at the right, where the handler's shaft is."""
+    """The plate across the case, with a hole for all that passes; lower at the right, where the handler's shaft is."""
     shape, at, by = weaver.shape, pivot(weaver), weaver.grippers
     track = opener_track(weaver)
     top = (shape.body + shape.size).imag - sheet(weaver)
@@ -244,19 +244,22 @@ def _partition(weaver: Weaver) -> Occurrence:
         *(left if over < top - SUPPORT and beside > -inner else [complex(beside, top)]),
         *(complex(beside, low), complex(split, low)),
     ]
-    ways = [*(_around(rod, ROD / 2, round_=True) for rod in _rods(weaver)), _around(at, HANDLER_SHAFT / 2, round_=True)]
+    guides = [
+        *(_around(rod, ROD / 2, round_=True) for rod in _rods(weaver)),
+        _around(at, HANDLER_SHAFT / 2, round_=True),
+    ]
     if not weaver.params.with_arms:
         tied, height, room = weaver.tool_bodies.tied, _centre_height(weaver), SCREW / 2 * 1.5
-        ways += [
-            Guide(
+        guides += [
+            GuideHole(
                 complex(-by.axis - room, tied - by.lift / 2 - room), complex(by.axis + room, tied + by.lift / 2 + room)
             ),
             _around(1j * height, weaver.params.finger / 2),
             _around(1j * (height + ABOVE_CENTRE), ROD / 2, round_=True),
         ]
-    plate = Guide(complex(beside, low), complex(inner, top))
-    within = [way for way in apart(ways) if way.within(plate) or way.round]
-    section = Profile(polygon(np.array(corners)), tuple(way.contour for way in within))
+    plate = GuideHole(complex(beside, low), complex(inner, top))
+    within = [guide for guide in apart(guides) if guide.within(plate) or guide.round]
+    section = Profile(polygon(np.array(corners)), tuple(guide.contour for guide in within))
     part = Part(
         part_id("partition"),
         "plate across behind the carriages",
@@ -329,8 +332,8 @@ def _springs(weaver: Weaver) -> Iterator[Occurrence]:
     yield _at(spring, axis, end)
 
 
-def _around(at: complex, half: float, *, round_: bool = False) -> Guide:
-    return Guide(at - complex(half, half), at + complex(half, half), round_)
+def _around(at: complex, half: float, *, round_: bool = False) -> GuideHole:
+    return GuideHole(at - complex(half, half), at + complex(half, half), round_)
 
 
 def _at(part: Part, at: complex, depth: float) -> Occurrence:

@@ -60,28 +60,28 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
 
 
-class Guide(NamedTuple):
+class GuideHole(NamedTuple):
     """A guide in a plate, seen along the tools: its lower left and upper right corner [m]; round: a bore."""
 
     low: complex
     high: complex
     round: bool = False
 
-    def meets(self, other: "Guide") -> bool:
+    def meets(self, other: "GuideHole") -> bool:
         """Whether less than a web is between this guide and another."""
         apart = max(self.low.real - other.high.real, other.low.real - self.high.real)
         above = max(self.low.imag - other.high.imag, other.low.imag - self.high.imag)
         return max(apart, above) < WEB
 
-    def within(self, room: "Guide") -> bool:
+    def within(self, room: "GuideHole") -> bool:
         """Whether it is in a room with a web around it."""
         low, high = self.low - room.low, room.high - self.high
         return min(low.real, low.imag, high.real, high.imag) >= WEB
 
-    def with_other(self, other: "Guide") -> "Guide":
+    def with_other(self, other: "GuideHole") -> "GuideHole":
         """One window in place of two guides."""
         low = complex(min(self.low.real, other.low.real), min(self.low.imag, other.low.imag))
-        return Guide(low, complex(max(self.high.real, other.high.real), max(self.high.imag, other.high.imag)))
+        return GuideHole(low, complex(max(self.high.real, other.high.real), max(self.high.imag, other.high.imag)))
 
     @property
     def contour(self) -> Contour:
@@ -96,7 +96,7 @@ def _face(weaver: Weaver) -> Prism:
     """A plate over the case, wider where the opener or the sley needs it."""
     params, shape = weaver.params, weaver.shape
     axle = pivot(weaver)
-    shaft = Guide(axle - complex(1, 1) * HANDLER_SHAFT / 2, axle + complex(1, 1) * HANDLER_SHAFT / 2, round=True)
+    shaft = GuideHole(axle - complex(1, 1) * HANDLER_SHAFT / 2, axle + complex(1, 1) * HANDLER_SHAFT / 2, round=True)
     guides = apart((*_guides(weaver.tool_bodies), shaft))
     low = complex(min(guide.low.real for guide in guides), min(guide.low.imag for guide in guides))
     high = complex(max(guide.high.real for guide in guides), max(guide.high.imag for guide in guides))
@@ -108,30 +108,30 @@ def _face(weaver: Weaver) -> Prism:
     return Prism(Profile(polygon(outline), tuple(guide.contour for guide in guides)), sheet(weaver))
 
 
-def _guides(by: ToolBodies) -> Iterator[Guide]:
+def _guides(by: ToolBodies) -> Iterator[GuideHole]:
     """Bores and slots, each of a tool's own section."""
     params, grippers, half = by.params, by.grippers, by.opener_half
     for name in (LOWER_PLATE, UPPER_PLATE):
         plate = by.tools.tool(name)
-        yield Guide(complex(-half, plate.corner.imag), complex(half, (plate.corner + plate.size).imag))
+        yield GuideHole(complex(-half, plate.corner.imag), complex(half, (plate.corner + plate.size).imag))
     sley = by.tools.tool(SLEY_TOOL).corner.imag
     low, high = sley - params.sley_stroke, sley + SLEY_HEIGHT
-    yield Guide(complex(-by.sley_arm, low), complex(SLEY_ARM - by.sley_arm, high))
+    yield GuideHole(complex(-by.sley_arm, low), complex(SLEY_ARM - by.sley_arm, high))
     if params.with_arms:
         arm = by.tools.tool(CENTRE_ARM)
-        yield Guide(complex(-grippers.axis, arm.corner.imag), complex(grippers.axis, (arm.corner + arm.size).imag))
+        yield GuideHole(complex(-grippers.axis, arm.corner.imag), complex(grippers.axis, (arm.corner + arm.size).imag))
         return
     finger = complex(1, 1) * grippers.finger / 2
     for hand in (-1, 1):
         rod = complex(hand * grippers.axis, by.tied + hand * grippers.lift / 2)
-        yield Guide(rod - finger, rod + finger, round=True)
+        yield GuideHole(rod - finger, rod + finger, round=True)
     centre = 1j * (by.tied + grippers.height)
-    yield Guide(centre - finger, centre + finger)
+    yield GuideHole(centre - finger, centre + finger)
 
 
-def apart(guides: Sequence[Guide]) -> tuple[Guide, ...]:
+def apart(guides: Sequence[GuideHole]) -> tuple[GuideHole, ...]:
     """The guides, those without a web between them as one window, which guides nothing."""
-    kept: list[Guide] = []
+    kept: list[GuideHole] = []
     for guide in guides:
         window = guide
         while (other := next((each for each in kept if each.meets(window)), None)) is not None:

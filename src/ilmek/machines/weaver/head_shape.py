@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, Lever, least_arm
+from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, FollowerLever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
 from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
@@ -93,7 +93,7 @@ class HeadShape:
     size: complex
     axis: complex
     guide: float
-    levers: Mapping[str, Lever]
+    levers: Mapping[str, FollowerLever]
     carriage: float
     partition: float
     tools: tuple[HeadTool, ...]
@@ -252,14 +252,14 @@ def head_shape(
     )
 
 
-def _lever(reaching: HeadTools, cam: LoadedPlateCam, line: float, arm: float) -> Lever | None:
+def _lever(reaching: HeadTools, cam: LoadedPlateCam, line: float, arm: float) -> FollowerLever | None:
     """The lever of a cam, None where it has none; line: of its follower from the warps, arm: of all bell cranks [m]."""
     if cam.name in BELL_CRANKS:
         height = reaching.tool(LOWER_PLATE).corner.imag - UNDER
-        return Lever(complex(line - arm, height - cam.ratio * arm), arm, cam.ratio, cam.lift)
+        return FollowerLever(complex(line - arm, height - cam.ratio * arm), arm, cam.ratio, cam.lift)
     if cam.name == SLEY:
         tool = reaching.tool(SLEY_TOOL)
         far = line - (tool.corner + tool.size).real - SLEY_BLOCK - SLEY_PIN
         own, height = far / (1 + cam.ratio), tool.corner.imag + SLEY_HEIGHT / 2 - cam.ratio * cam.lift / 2
-        return Lever(complex(line - own, height), own, cam.ratio, cam.lift, straight=True)
+        return FollowerLever(complex(line - own, height), own, cam.ratio, cam.lift, straight=True)
     return None

@@ -61,13 +61,13 @@ class Rocker:
     """A rocker while its carriage is at rest.
 
     axle  z + i y [m]      tips  height of the axis of each gripper over its arm's tip, x of it: x + i y [m]
-    track  of the jaws     way  travel of the carriage forward and back [m]
+    track  of the jaws     travel  of the carriage forward and back [m]
     """
 
     track: str
     axle: complex
     grippers: tuple[complex, ...]
-    way: tuple[float, float]
+    travel: tuple[float, float]
 
 
 def rocker(weaver: Weaver, track: str) -> Rocker:
@@ -115,7 +115,7 @@ def drawn(weaver: Weaver, track: str, number: int, lift: RealField) -> FloatArra
 def rail_of(weaver: Weaver, track: str) -> Rail:
     """The rail of a jaws' follower."""
     by, cam = rocker(weaver, track), weaver.cam(track)
-    forward, back = by.way
+    forward, back = by.travel
     roller = by.axle.real - arm_of(weaver, track)
     top = by.axle.imag - ROLLER / 2 - cam.lift / 2
     return Rail(roller - forward - ROLLER / 2, roller + back + ROLLER / 2, top)

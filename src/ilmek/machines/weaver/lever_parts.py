@@ -8,7 +8,7 @@ from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.followers import lever_pin
 from ilmek.machines.weaver.head_shape import DRAWBAR
-from ilmek.machines.weaver.levers import HALF, LEVER_AXLE, OVER, PIN, Lever
+from ilmek.machines.weaver.levers import HALF, LEVER_AXLE, OVER, PIN, FollowerLever
 from ilmek.machines.weaver.stations import cheek, lever_thickness, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import stack_width
@@ -52,7 +52,7 @@ def lever_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         yield RigidBody(lever_id(track), (Occurrence(part),), parent, Joint(JointKind.PIN), (rest,))
 
 
-def _section(lever: Lever) -> Profile:
+def _section(lever: FollowerLever) -> Profile:
     """Two arms about the pivot, each with the slot of a pin."""
     tool = -1 + 0j if lever.straight else 1j
     (near, far), (inner, outer) = lever.slot(lever.arm), lever.slot(lever.ratio * lever.arm)

@@ -28,7 +28,7 @@ OVER, SOLID = 6 * mm, 12 * mm
 
 
 @record
-class Lever:
+class FollowerLever:
     """A lever between a follower, in front of its pivot, and a tool.
 
     pivot  [m]      arm  a, to the follower's line [m]      ratio  b / a      lift  of the follower [m]

@@ -12,7 +12,7 @@ def hull_of_circles(first: float, other: float, apart: complex) -> Contour:
     """The hull of a circle about the origin and of one at a place, by their radii [m], as a polygon on both.
 
     >>> from ilmek.plane.contours import bounds
-    >>> bounds(hull_of_circles(2.0, 1.0, 5 + 0j))[1].real.round(6)
+    >>> round(bounds(hull_of_circles(2.0, 1.0, 5 + 0j))[1].real, 6)
     6.0
     """
     length = abs(apart)

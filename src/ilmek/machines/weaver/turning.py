@@ -21,7 +21,7 @@ from ilmek.machines.weaver.return_springs import longest
 from ilmek.machines.weaver.stations import follower_half, sheet, station
 from ilmek.machines.weaver.tool_parts import HANDLER_ARM, part_id
 from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT as SHAFT
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, Seat
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, tube
@@ -125,7 +125,15 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     (points,) = (tool.corner.real for tool in weaver.shape.tools if tool.name == LOWER_PLATE)
     begin, end = points - BEFORE - HANDLER_ARM[1], wheel_at(weaver) + FACE
     arm = weaver.tool_bodies.handler_arm
-    shaft = Part(HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", _mm(SHAFT), bar(SHAFT, end - begin), STEEL)
+    shaft = Part(
+        HANDLER_SHAFT,
+        "shaft of the pile handler",
+        "pin or bush",
+        _mm(SHAFT),
+        bar(SHAFT, end - begin),
+        STEEL,
+        seats={"journal": Seat(placement(z=end - begin - FACE), SHAFT)},
+    )
     yield RigidBody(
         HANDLER_BODY,
         (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),))),
@@ -143,13 +151,14 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         "bearing",
         shape=tube(outer, (outer - SHAFT) / 2, wide),
         purchase=Bought("HF0406", 0.001),
+        seats={"bore": Seat(placement(), SHAFT)},
         envelope=True,
     )
     yield RigidBody(
         PINION_BODY,
         (Occurrence(pinion), Occurrence(clutch, (placement(z=FACE - wide),))),
         parent,
-        Joint(JointKind.PIN, about),
+        Joint(JointKind.PIN, about, seats=(f"{FREEWHEEL}:bore", f"{HANDLER_SHAFT}:journal")),
         (placement(at.real, at.imag, wheel_at(weaver), about=about, angle=_meshing(weaver)),),
     )
 
