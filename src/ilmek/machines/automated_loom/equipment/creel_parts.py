@@ -156,17 +156,19 @@ def _chains(loom: LoomDesign) -> RigidBody:
     section = _channel(TROUGH_SIZE[0], TROUGH_SIZE[1], WALL)
     trough = Part(TROUGH, "trough of the energy chains", "laser-cut part", "folded sheet", Prism(section, long), STEEL)
     share = long / loom.heads
+    # A head whose share is short has a gap of half of it.
+    gap = min(BETWEEN, share / 2)
     chain = Part(
         CHAIN,
         "energy chain of a head with cables and conduits",
         "energy chain",
         "",
-        box(*CHAIN_SIZE, share - BETWEEN),
+        box(*CHAIN_SIZE, share - gap),
         purchase=Bought("chain 40 mm", CHAIN_MASS * share, length=share),
         envelope=True,
     )
     y, z = float(low[1]) + WALL + CHAIN_SIZE[1] / 2, float(middle[2])
-    starts = [float(low[0]) + k * share + BETWEEN / 2 for k in range(loom.heads)]
+    starts = [float(low[0]) + k * share + gap / 2 for k in range(loom.heads)]
     return RigidBody(
         part_id("chains"),
         (
