@@ -1,6 +1,7 @@
 """The loom of the thesis (chapter 3): 600 warps at 2 mm, 15 N each, tube 140 x 5 mm, cams at 5 rpm, four steps."""
 
 import pytest
+from default_machines import loom_report
 
 from ilmek.elements.carpet_yarns import CarpetYarnParams
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
@@ -67,7 +68,7 @@ def test_four_steps_of_chapter_3_3(loom: LoomDesign) -> None:
 
 def test_the_thesis_loom_has_no_room_behind_the_warps_for_what_drags_its_shuttles(loom: LoomDesign) -> None:
     """The thesis prints no drive of the shuttle; a carriage behind the warps is in the way of cams that sink."""
-    (failed,) = MACHINE.report(loom).failed
+    (failed,) = loom_report(loom).failed
     assert failed.name == "clearance: guide cams that sink and carriage of the shuttle"
     cam, carrier = loom.side.cams[0], loom.side.carrier
     sunk = cam.at.imag - cam.guide_radius - loom.side.beat_stroke
