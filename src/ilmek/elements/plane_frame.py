@@ -74,7 +74,8 @@ def frame_frequencies(
         raise ParameterError("a frame that moves as a mechanism", do="hold its feet, or join its members")
     half = np.linalg.solve(lower, inertia[np.ix_(free, free)])
     slowness = np.linalg.eigvalsh(np.linalg.solve(lower, half.T))[::-1][:count]
-    return np.asarray(1 / np.sqrt(slowness) / (2 * math.pi))
+    # Eigenvalues differ in their last digits by the number of threads: ten digits are the same on every machine.
+    return np.array([float(f"{one:.10g}") for one in 1 / np.sqrt(slowness) / (2 * math.pi)])
 
 
 def _assembled(
