@@ -20,6 +20,9 @@ from ilmek.units import mm
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
+BESIDE_MOTOR = 3 * mm
+"""From the motor of the colours to the axis of the rail before it [m]; assumed by this project."""
+
 RAIL_AXIS = 40 * mm
 """Side of the section of the linear axis that carries the heads [m]; assumed by this project."""
 
@@ -223,7 +226,7 @@ def head_shape(
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
-    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face)
+    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face + 2 * BESIDE_MOTOR)
     largest, radius = max(cam.radius for cam in cams), max(cam.cam.roller_radius for cam in cams)
     line = max(face + CASE + largest, reaching.partition + PARTITION + SOLID)
     cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
