@@ -107,6 +107,7 @@ def _tree(name: str, settings: dict[str, str]) -> Tree:
         ("cam", {"kind": "face"}),
         ("weft", {}),
         ("knotting-dyad", {}),
+        ("weaver", {}),
     ],
 )
 def test_a_file_has_every_part_where_it_stands_with_its_name_colour_and_mass(

@@ -63,7 +63,7 @@ def frame_frequencies(
     for node, mass in masses.items():
         inertia[3 * node, 3 * node] += mass
         inertia[3 * node + 1, 3 * node + 1] += mass
-    fixed = [3 * node + way for node, held in supports.items() for way in range(3) if held[way]]
+    fixed = [3 * node + direction for node, held in supports.items() for direction in range(3) if held[direction]]
     free = np.setdiff1d(np.arange(len(stiffness)), fixed)
     held = stiffness[np.ix_(free, free)]
     try:

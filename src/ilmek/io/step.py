@@ -15,6 +15,7 @@ from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Splitter
 from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_MakeEdge,
     BRepBuilderAPI_MakeFace,
+    BRepBuilderAPI_MakePolygon,
     BRepBuilderAPI_MakeSolid,
     BRepBuilderAPI_MakeWire,
     BRepBuilderAPI_Sewing,
@@ -22,6 +23,7 @@ from OCP.BRepBuilderAPI import (
 )
 from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
+from OCP.BRepOffsetAPI import BRepOffsetAPI_ThruSections
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
 from OCP.GC import GC_MakeArcOfCircle
 from OCP.GeomAbs import GeomAbs_Shape
@@ -46,6 +48,7 @@ from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, Placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Sum, Turned
+from ilmek.part.twisted import TwistedBar
 from ilmek.plane.biarcs import fitted
 from ilmek.plane.contours import STRAIGHT, circle, on_piece
 from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
@@ -138,21 +141,42 @@ def part_solid(part: Part) -> TopoDS_Shape:
 
 
 def _of_shape(shape: object) -> TopoDS_Shape:
-    """A shape of the package `part` [mm]: prisms, turned profiles, and sums of them as one compound of solids."""
+    """A shape of the package `part` [mm]: prisms, turned profiles; twisted bars and sums as one compound of solids."""
     if isinstance(shape, Prism):
         return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
     if isinstance(shape, Turned):
         around_x = BRepPrimAPI_MakeRevol(_face(shape.profile), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0))).Shape()
         return _placed(around_x, ALONG_WIDTH.inverse)
-    if not isinstance(shape, Sum):
-        raise OutputError(f"no solid of {type(shape).__name__}", allowed="prisms, turned profiles and sums of them")
     whole, builder = TopoDS_Compound(), BRep_Builder()
     builder.MakeCompound(whole)
+    if isinstance(shape, TwistedBar):
+        for stretch in shape.stretches(_TWIST):
+            builder.Add(whole, _lofted(stretch))
+        return whole
+    if not isinstance(shape, Sum):
+        allowed = "prisms, turned profiles, twisted bars and sums of them"
+        raise OutputError(f"no solid of {type(shape).__name__}", allowed=allowed)
     for member in shape.members:
         solid = _of_shape(member.shape)
         for position in member.positions:
             builder.Add(whole, _placed(solid, position))
     return whole
+
+
+_TWIST = np.deg2rad(5.0)
+"""Twist between two sections of a twisted bar, between which its sides are smooth."""
+
+
+def _lofted(sections: FloatArray) -> TopoDS_Shape:
+    """A solid through plane sections, (sections, corners, 3) [m]; straight between two."""
+    loft = BRepOffsetAPI_ThruSections(True, len(sections) == 2, 1e-7)
+    for section in sections / mm:
+        polygon = BRepBuilderAPI_MakePolygon()
+        for corner in section.tolist():
+            polygon.Add(gp_Pnt(*corner))
+        polygon.Close()
+        loft.AddWire(polygon.Wire())
+    return loft.Shape()
 
 
 def _placed(solid: TopoDS_Shape, position: Placement) -> TopoDS_Shape:

@@ -37,7 +37,7 @@ _UNITS = np.eye(3)
 
 @record
 class BodyCoordinate:
-    """One way in which a body moves in its parent: it turns about an axis [rad], or shifts along it [m].
+    """A coordinate of a body in its parent: it turns about an axis [rad], or shifts along it [m].
 
     turns   whether it turns       axis  unit vector in the body's frame       point  on the axis of a turn [m]
     motion  that it has part in; None: nothing moves it     value  of the coordinate at the samples of the motion

@@ -60,6 +60,13 @@ class TwistedBar:
         rings = self._rings(COARSE)
         return tuple(np.concatenate(pair) for pair in itertools.pairwise(rings))
 
+    def stretches(self, step: float) -> tuple[FloatArray, ...]:
+        """The corners of the sections of each stretch between two stations, as `_rings` has them [m]."""
+        ends, angles = itertools.pairwise(self.stations), itertools.pairwise(self.angles)
+        return tuple(
+            TwistedBar(self.side, between, twist)._rings(step) for between, twist in zip(ends, angles, strict=True)
+        )
+
     def _rings(self, step: float) -> FloatArray:
         """Corners of sections with a twist between them of a step at most [rad], (sections, 4, 3) [m]."""
         steps = np.maximum(np.ceil(np.abs(np.diff(self.angles)) / step), 1).astype(int)

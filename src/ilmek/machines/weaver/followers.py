@@ -77,11 +77,6 @@ def follower_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
 _DOWN = placement(about=(0.0, 0.0, 1.0), angle=-turn / 4)
 
 
-def follower_mass(weaver: Weaver, cam: LoadedPlateCam) -> float:
-    """Mass of the follower of a cam, with roller and pins [kg]."""
-    return sum(occurrence.part.mass for occurrence in _follower(weaver, cam))
-
-
 def fork_stress(weaver: Weaver, cam: LoadedPlateCam) -> float:
     """Greatest stress of a fork's cheeks beside the pin, by half the contact force each [Pa]."""
     fork, pin = _sizes(weaver)

@@ -1,7 +1,7 @@
 """The rapier as bodies: tube with gripper and clamp, the belt axis under it, the devices that serve the cloth's edges.
 
 Axes as in `tree`. The axis stands beside the cloth, its drive upright below its far end. At each edge a plate before
-the rapier's way carries what cuts, tucks in and offers the wefts, side by side, with the motors below.
+the rapier's path carries what cuts, tucks in and offers the wefts, side by side, with the motors below.
 """
 
 import math
@@ -38,7 +38,7 @@ PITCH = 50 * mm
 """Distance of the devices of an edge along the width [m]."""
 
 PLATE, BEFORE_WAY = 6 * mm, 3 * mm
-"""Thickness of an edge's plate, and its distance from the way of rapier and carriage [m]; assumed by this project."""
+"""Thickness of an edge's plate, and its distance from the path of rapier and carriage [m]; assumed by this project."""
 
 
 @record
@@ -73,7 +73,7 @@ class RapierSide:
 
     @property
     def plate_back(self) -> float:
-        """Back of the plates at the edges [m]: before the way of rapier and carriage."""
+        """Back of the plates at the edges [m]: before the path of rapier and carriage."""
         return max(self.made.depth, SIDE) / 2 + BEFORE_WAY
 
     def bodies(self) -> Iterator[RigidBody]:

@@ -34,7 +34,7 @@ export class Shadow {
     this.stale = true;
   }
 
-  /** Draws what throws shadows where it has moved, and shows them in a camera's picture. */
+  /** Draws what throws shadows, where something has moved. */
   throw(renderer: three.WebGLRenderer, scene: three.Scene, hidden: three.Object3D[], cuts: three.Plane[]): void {
     if (!this.stale) return;
     this.stale = false;

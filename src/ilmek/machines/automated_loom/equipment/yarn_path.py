@@ -26,7 +26,7 @@ from ilmek.units import turn
 from ilmek.weaving.tension import capstan
 
 STRENGTH_USED = 0.1
-"""Tension of a yarn on its way over its breaking force, at most; assumed by this project."""
+"""Tension of a yarn along its path over its breaking force, at most; assumed by this project."""
 
 
 @record
