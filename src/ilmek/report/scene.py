@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Int
-from ilmek.records import record
+from ilmek.records import JsonObject, record
 from ilmek.report.check import Check
 
 ACROSS = (1.0, 0.0, 0.0)
@@ -152,6 +152,7 @@ class Scene:
 
     periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
     guards    names of the frames of fence and doors      failures  the checks of the whole loom that fail
+    nearest   the pairs of parts that come nearest: its result `nearest_pairs`; None: they are not compared
     """
 
     title: str
@@ -165,3 +166,4 @@ class Scene:
     guards: tuple[str, ...]
     floor: float
     failures: tuple[Check, ...] = ()
+    nearest: tuple[JsonObject, ...] | None = None
