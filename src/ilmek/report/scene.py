@@ -69,6 +69,7 @@ class ScenePart:
     number       of the parts list              checks    that concern it
     plate        name of its drawing for the workshop; "": none
     envelope     the solid is the room that the design keeps for it: its shape is not designed
+    ids          of the part, and of the body that it is on; "": it is no part of the tree
     """
 
     name: str
@@ -83,6 +84,7 @@ class ScenePart:
     checks: tuple[Check, ...] = ()
     plate: str = ""
     envelope: bool = False
+    ids: tuple[str, str] = ("", "")
 
 
 @record

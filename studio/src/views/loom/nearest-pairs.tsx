@@ -1,7 +1,7 @@
 /** The pairs of parts that come nearest to each other, or are through each other: a press shows two of them. */
 import { t } from "../../text";
 import { Button, formatQuantity, Progress } from "../../ui";
-import type { NearPair, SceneAbout } from "./scene";
+import { type NearPair, partsOf, type SceneAbout } from "./scene";
 
 interface NearestProps {
   about: SceneAbout;
@@ -13,8 +13,6 @@ interface NearestProps {
 export function NearestPairs({ about, chosen, onChoose }: NearestProps) {
   if (about.nearest === null) return <Progress label={t("loom.comparing")} />;
   if (about.nearest.length === 0) return <p class="ui-muted">{t("loom.noneNear")}</p>;
-  const titles = new Map(about.parts.map((part) => [part.name, part.title]));
-  const titled = (pair: NearPair) => pair.parts.map((name) => titles.get(name) ?? name).join(" – ");
   return (
     <section class="loom-nearest" aria-label={t("loom.clearances")}>
       <p class="ui-muted">{t("loom.clearancesHelp")}</p>
@@ -27,7 +25,9 @@ export function NearestPairs({ about, chosen, onChoose }: NearestProps) {
               disabled={onChoose === null}
               onClick={() => onChoose?.(pair)}
             >
-              {titled(pair)}
+              {partsOf(about, pair)
+                .map((part) => part.title)
+                .join(" – ")}
             </Button>
             <b>{formatQuantity(pair.distance, "mm")}</b>
             <span class="ui-muted">{occasion(pair)}</span>

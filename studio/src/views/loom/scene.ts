@@ -49,6 +49,8 @@ export interface ScenePart {
   checks: SceneCheck[];
   plate: string;
   envelope: boolean;
+  /** Of the part, and of the body that it is on. */
+  ids: [part: string, body: string];
 }
 
 /** The model with its parts compared in space: the checks of the loom and of its parts are those of the comparison. */
@@ -86,6 +88,7 @@ export type Drive = "row" | "knot";
 /** Two parts that come near to each other; what they share where the distance [m] is below 0. */
 export interface NearPair {
   parts: [string, string];
+  bodies: [string, string];
   distance: number;
   /** What turns when they do, and where [rad]; the heads alone, or nothing, for any other word. */
   cyclogram: string;
@@ -100,6 +103,11 @@ export interface Judgement {
   failures: SceneCheck[];
   /** The pairs of parts that come nearest; null: they are not compared yet. */
   nearest: NearPair[] | null;
+}
+
+/** The two parts of a pair, as they are in the scene. */
+export function partsOf({ parts }: SceneAbout, pair: NearPair): ScenePart[] {
+  return pair.parts.flatMap((id, k) => parts.filter(({ ids }) => ids[0] === id && ids[1] === pair.bodies[k]));
 }
 
 /** What the comparison of the parts in space adds to a scene: all of it again, and the checks of each part. */

@@ -21,6 +21,9 @@ const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
 /** Time without a change after which a picture is drawn with edges, shadows and all pixels by a processor [ms]. */
 const REST = 200;
 
+/** What is shown around the point at which two parts come nearest [m]. */
+const AROUND = 0.03;
+
 /** Copies of a part that are drawn at most while pictures are coarse. */
 const FEW = 40;
 
@@ -289,13 +292,15 @@ export class Stage {
     this.changed();
   }
 
-  /** Marks parts. */
+  /** Marks a part; of two all others are looked through, and the first is marked. */
   choose(...names: string[]): void {
     this.chosen = names;
     const heads = this.frames.byName.get(this.model.about.heads) ?? null;
     for (const one of this.parts) {
-      const open = this.opened && isOf(one.placed, heads) && !this.tools.has(one.part.frame);
-      one.paint(this.look, names.includes(one.part.name), open, this.tools.get(one.part.frame));
+      const { name, frame } = one.part;
+      const isCase = this.opened && isOf(one.placed, heads) && !this.tools.has(frame);
+      const open = names.length > 1 ? !names.includes(name) : isCase;
+      one.paint(this.look, name === names[0], open, this.tools.get(frame));
     }
     this.changed();
   }
@@ -306,6 +311,7 @@ export class Stage {
     const [first, ...others] = boxes;
     if (first === undefined) return;
     for (const box of others) meeting(first, box);
+    if (others.length > 0) first.expandByScalar(AROUND);
     this.camera.look(first, undefined, 1.6);
     this.invalidate();
   }

@@ -10,7 +10,7 @@ import { TURN } from "./motion";
 import { NearestPairs } from "./nearest-pairs";
 import { Failures, neighbour, PartDetails, PartList } from "./parts";
 import { type Player, usePlayer } from "./player";
-import type { Drive, NearPair, SceneModel } from "./scene";
+import { type Drive, type NearPair, partsOf, type SceneModel } from "./scene";
 import type { Stage } from "./stage";
 import { graphics } from "./surroundings";
 import { usePicture } from "./use-picture";
@@ -67,7 +67,10 @@ export function Workbench({ model, above, below, running, drawing, live = null }
       stage.current?.choose(chosen);
       return undefined;
     }
-    meet(stage.current, pair);
+    const names = partsOf(about, pair).map((part) => part.name);
+    stage.current?.shiftHeads(pair.heads_shift);
+    stage.current?.choose(...names);
+    stage.current?.lookAt(...names);
     return () => stage.current?.shiftHeads(0);
   }, [chosen, pair]);
   useEffect(() => stage.current?.followHead(state.followed === "" ? null : Number(state.followed)), [state.followed]);
@@ -171,13 +174,6 @@ export function Workbench({ model, above, below, running, drawing, live = null }
       </div>
     </div>
   );
-}
-
-/** Shows two parts where they come nearest. */
-function meet(stage: Stage | null, { parts, heads_shift }: NearPair): void {
-  stage?.shiftHeads(heads_shift);
-  stage?.choose(...parts);
-  stage?.lookAt(...parts);
 }
 
 /** What a key does to the camera; whether it does anything. */
