@@ -12,8 +12,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Int
-from ilmek.records import JsonObject, record
+from ilmek.records import record
 from ilmek.report.check import Check
+from ilmek.report.json import Json
 
 ACROSS = (1.0, 0.0, 0.0)
 """Axis of what turns in the side view: a positive angle turns from y to z, from up to the front."""
@@ -168,4 +169,4 @@ class Scene:
     guards: tuple[str, ...]
     floor: float
     failures: tuple[Check, ...] = ()
-    nearest: tuple[JsonObject, ...] | None = None
+    nearest: Json = None

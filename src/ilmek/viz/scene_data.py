@@ -87,7 +87,7 @@ def scene_data(scene: Scene) -> SceneData:
 def judgement(scene: Scene) -> JsonObject:
     """What is found of a loom: the checks that fail, and the pairs of parts that come nearest; null: not compared."""
     failures = [check.as_json() for check in scene.failures]
-    return {"failures": failures, "nearest": None if scene.nearest is None else list(scene.nearest)}
+    return {"failures": failures, "nearest": scene.nearest}
 
 
 def checks_of_parts(scene: Scene) -> JsonObject:

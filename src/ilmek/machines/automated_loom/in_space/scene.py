@@ -63,7 +63,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         guards=GUARDS,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
-        nearest=tuple(report[NEAREST_PAIRS]) if NEAREST_PAIRS in report.names() else None,
+        nearest=report[NEAREST_PAIRS] if NEAREST_PAIRS in report.names() else None,
     )
 
 
