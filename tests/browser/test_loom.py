@@ -142,6 +142,28 @@ def test_a_part_has_the_numbers_of_the_design_and_its_drawing(page: Page, runnin
     assert violations(page) == []
 
 
+def test_the_pairs_that_come_nearest_are_listed_and_shown_by_a_press(page: Page, running: Studio) -> None:
+    open_view(page, running, "loom/machines/loom.toml")
+    page.get_by_role("tab", name="Clearances").click()
+    pairs = page.locator(".loom-nearest li")
+    expect(pairs.first).to_be_visible(timeout=PATIENCE)
+    compared = page.evaluate(
+        """async () => (await fetch("/api/loom/space", {method: "POST",
+          headers: {"content-type": "application/json"},
+          body: JSON.stringify({file: "machines/loom.toml"})})).text()"""
+    )
+    nearest = json.JSONDecoder().raw_decode(compared, compared.index("{"))[0]["nearest"]
+    shown = [float(re.sub(r"[^-.\d]", "", text)) for text in pairs.locator("b").all_inner_texts()]
+    assert shown == pytest.approx([1000 * pair["distance"] for pair in nearest], rel=1e-3)
+    numbers = [k for k, pair in enumerate(nearest) if pair["cyclogram"] in {"row", "knot"} and pair["angle"] > 0.01]
+    before = picture(page)
+    pairs.nth(numbers[0]).get_by_role("button").click()
+    until_changed(page, before, 0.2)
+    angle = round(np.degrees(nearest[numbers[0]]["angle"]) * 2) / 2
+    assert float(page.get_by_label("Master angle").input_value()) == pytest.approx(np.radians(angle), abs=0.01)
+    assert violations(page) == []
+
+
 def _is_picked_by_its_label(page: Page, label: Locator) -> bool:
     """Whether a click on the point that a label names shows the part of that name; another may stand before it."""
     name, box = label.inner_text().removeprefix("⚠ "), label.bounding_box()

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from types import MappingProxyType
 
@@ -189,15 +190,22 @@ def _order_on(
 
 
 def make_loomed(
-    loom_order: LoomOrder, charted: ChartResult, progress: Progress = SILENT, *, illustrated: bool = True
+    loom_order: LoomOrder,
+    charted: ChartResult,
+    progress: Progress = SILENT,
+    *,
+    illustrated: bool = True,
+    assembled: bool = True,
 ) -> LoomResult:
     """The loom for a chart, with the number of heads required, and its programme.
 
     illustrated  False: the report of a loom that is designed has no tables and figures
+    assembled    False: nor its parts against each other in space
     A loom that cannot be designed is a result without design, with the reason as a failed check.
     Raises ParameterError for wishes that contradict each other, and the errors of a design that only settings prevent.
     """
     chart, params = charted.chart, params_for(loom_order, charted)
+    reported = partial(MACHINE.report, illustrated=illustrated, assembled=assembled)
     if loom_order.existing is not None:
         return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
@@ -205,14 +213,14 @@ def make_loomed(
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
         colours = () if made.params.tubes is None else (colours_check(chart, made.heads, made.params),)
         if any(not check.ok for check in colours):
-            report = with_nearest(MACHINE.report(made, illustrated=illustrated), params, progress.part(0.7, 1.0))
+            report = with_nearest(reported(made), params, progress.part(0.7, 1.0))
             return LoomResult(report, colours, made, row_pitch_left=made.beat.row_pitch_left)
         programme = _programme(made, carpet, made.heads, made.bobbins, progress.part(0.7, 0.9, "programme"))
     except IlmekError as error:
         if loom_order.settings and _can_be_designed(_without_settings(params)):
             raise
         return LoomResult(with_nearest(_without_design(params, error), params, progress.part(0.7, 1.0)), ())
-    report = MACHINE.report(made, illustrated=illustrated)
+    report = reported(made)
     report = replace(report, choices=(*choices, *report.choices))
     report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)

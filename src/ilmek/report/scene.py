@@ -14,6 +14,7 @@ import numpy as np
 from ilmek.arrays import Float, FloatArray, Int
 from ilmek.records import record
 from ilmek.report.check import Check
+from ilmek.report.json import Json
 
 ACROSS = (1.0, 0.0, 0.0)
 """Axis of what turns in the side view: a positive angle turns from y to z, from up to the front."""
@@ -69,6 +70,7 @@ class ScenePart:
     number       of the parts list              checks    that concern it
     plate        name of its drawing for the workshop; "": none
     envelope     the solid is the room that the design keeps for it: its shape is not designed
+    ids          of the part, and of the body that it is on; "": it is no part of the tree
     """
 
     name: str
@@ -83,6 +85,7 @@ class ScenePart:
     checks: tuple[Check, ...] = ()
     plate: str = ""
     envelope: bool = False
+    ids: tuple[str, str] = ("", "")
 
 
 @record
@@ -152,6 +155,7 @@ class Scene:
 
     periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
     guards    names of the frames of fence and doors      failures  the checks of the whole loom that fail
+    nearest   the pairs of parts that come nearest: its result `nearest_pairs`; None: they are not compared
     """
 
     title: str
@@ -165,3 +169,4 @@ class Scene:
     guards: tuple[str, ...]
     floor: float
     failures: tuple[Check, ...] = ()
+    nearest: Json = None

@@ -54,7 +54,7 @@ def scene_data(scene: Scene) -> SceneData:
         "heads": scene.heads,
         "guards": list(scene.guards),
         "floor": scene.floor,
-        "failures": [check.as_json() for check in scene.failures],
+        **judgement(scene),
         "periods": dict(scene.periods),
         "frames": [_frame(blocks, one) for one in scene.frames],
         "parts": [_part(blocks, one) for one in scene.parts],
@@ -82,6 +82,17 @@ def scene_data(scene: Scene) -> SceneData:
         },
     }
     return SceneData(about, _bytes(blocks.floats, "<f4"), _bytes(blocks.integers, "<u4"))
+
+
+def judgement(scene: Scene) -> JsonObject:
+    """What is found of a loom: the checks that fail, and the pairs of parts that come nearest; null: not compared."""
+    failures = [check.as_json() for check in scene.failures]
+    return {"failures": failures, "nearest": scene.nearest}
+
+
+def checks_of_parts(scene: Scene) -> JsonObject:
+    """The checks of each part that has some, by its name."""
+    return {part.name: [check.as_json() for check in part.checks] for part in scene.parts if part.checks}
 
 
 def _bytes(values: Iterable[FloatArray | IntArray], kind: str) -> bytes:
@@ -146,6 +157,7 @@ def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:
         "checks": [check.as_json() for check in one.checks],
         "plate": one.plate,
         "envelope": one.envelope,
+        "ids": list(one.ids),
     }
 
 

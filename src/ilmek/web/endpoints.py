@@ -158,6 +158,15 @@ ENDPOINTS: tuple[Endpoint, ...] = (
     ),
     Endpoint(
         "POST",
+        "/loom/space",
+        "studio.loom.scene:in_space",
+        "What a scene leaves open: the parts of the loom against each other in space (packed).",
+        limit=300 * SECOND,
+        affinity="loom",
+        answer=PACKED,
+    ),
+    Endpoint(
+        "POST",
         "/loom/plate",
         "studio.loom.scene:plate",
         "The drawing of a plate of a loom of the project.",

@@ -5,7 +5,13 @@ from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
+from ilmek.machines.automated_loom.nearest_parts import (
+    MIDDLE,
+    NearParts,
+    machines_of_bodies,
+    nearest_parts,
+    range_of_a_head,
+)
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
@@ -58,7 +64,7 @@ class LoomAssembly:
         "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
     )
     def nearest_pairs(self) -> list[Json]:
-        return [_as_json(near) for near in self.apart[:NEAREST]]
+        return [_as_json(near, range_of_a_head(self.loom)) for near in self.apart[:NEAREST]]
 
     @property
     def apart(self) -> tuple[NearParts, ...]:
@@ -204,7 +210,7 @@ def _where(near: NearParts) -> str:
     return f"at {pair.angle / deg:.1f} deg of a {pair.drive}{heads}"
 
 
-def _as_json(near: NearParts) -> Json:
+def _as_json(near: NearParts, range_: float) -> Json:
     pair = near.approach
     return {
         "parts": list(pair.parts),
@@ -214,4 +220,5 @@ def _as_json(near: NearParts) -> Json:
         "cyclogram": pair.drive,
         "angle": pair.angle,
         "heads": near.heads,
+        "heads_shift": near.heads_shift(range_),
     }

@@ -51,6 +51,12 @@ class NearParts:
     approach: Approach
     heads: str
 
+    def heads_shift(self, range_: float) -> float:
+        """Distance of the heads from the middles of their shares, whose length is given [m]."""
+        if self.heads == BETWEEN:
+            return (self.approach.angle / turn - 0.5) * range_
+        return {LEFT: -0.5, RIGHT: 0.5}.get(self.heads, 0.0) * range_
+
 
 @lru_cache(maxsize=4)
 def nearest_parts(loom: LoomDesign) -> tuple[NearParts, ...]:
@@ -74,13 +80,18 @@ def _passes(loom: LoomDesign) -> Iterator[tuple[str, tuple[Approach, ...]]]:
     yield MIDDLE, approaches(tree, ROW, HORIZON, windows, required)
     yield MIDDLE, approaches(tree, KNOT, HORIZON, TURN, required)
     on_heads = frozenset(tree.carried_by(HEAD))
-    range_ = loom.task.cloth.width / loom.heads - loom.knot_pitch
+    range_ = range_of_a_head(loom)
     for heads, shift in ((LEFT, -range_ / 2), (RIGHT, range_ / 2)):
         moved = _shifted(tree, shift)
         yield heads, approaches(moved, ROW, HORIZON, windows, required, on_heads)
         yield heads, approaches(moved, KNOT, HORIZON, TURN, required, on_heads)
     run = SceneMotion(ALONG, np.array([0.0, turn]), np.outer([-range_ / 2, range_ / 2], (1.0, 0.0, 0.0)), np.zeros(2))
     yield BETWEEN, approaches(tree.moving({HEAD: run}), ALONG, HORIZON, TURN, required, on_heads)
+
+
+def range_of_a_head(loom: LoomDesign) -> float:
+    """Length of the share of the row that a head ties, between its first and its last knot [m]."""
+    return loom.task.cloth.width / loom.heads - loom.knot_pitch
 
 
 def _shifted(tree: Tree, shift: float) -> Tree:

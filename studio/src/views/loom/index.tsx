@@ -11,7 +11,7 @@ import { type Live, liveOf } from "./live";
 import { PlateSketch } from "./plate";
 import { findRun, run } from "./run";
 import { RunPanel } from "./run-panel";
-import { modelOf, type SceneAbout, type SceneModel } from "./scene";
+import { type Comparison, modelOf, type SceneAbout, type SceneModel, takeComparison } from "./scene";
 import type { WorkbenchProps } from "./workbench";
 import "./loom.css";
 
@@ -61,6 +61,21 @@ function LoomOf({ file, files }: LoomOfProps) {
     );
     return () => control.abort();
   }, [isRead]);
+  const [, setCompared] = useState(false);
+  useEffect(() => {
+    if (model === null || model.about.nearest !== null) return undefined;
+    const control = new AbortController();
+    postPacked<Comparison>("/loom/space", { file }, control.signal).then(
+      ({ about }) => {
+        takeComparison(model, about);
+        setCompared(true);
+      },
+      (reason: unknown) => {
+        if (!control.signal.aborted) toast(reason instanceof Error ? reason.message : String(reason));
+      },
+    );
+    return () => control.abort();
+  }, [model]);
   const live = useLive(file, model);
   useReady(model !== null || error !== "");
   if (error !== "") return <Sorry file={file} files={files} reason={error} />;

@@ -49,6 +49,14 @@ export interface ScenePart {
   checks: SceneCheck[];
   plate: string;
   envelope: boolean;
+  /** Of the part, and of the body that it is on. */
+  ids: [part: string, body: string];
+}
+
+/** The model with its parts compared in space: the checks of the loom and of its parts are those of the comparison. */
+export function takeComparison(model: SceneModel, space: Comparison): void {
+  Object.assign(model.about, { failures: space.failures, nearest: space.nearest });
+  for (const part of model.about.parts) part.checks = space.checks[part.name] ?? [];
 }
 
 /** The checks that a part fails. */
@@ -77,14 +85,42 @@ export interface SceneChart {
 /** What turns: the cyclogram of a row, or that of a knot. */
 export type Drive = "row" | "knot";
 
-export interface SceneAbout {
+/** Two parts that come near to each other; what they share where the distance [m] is below 0. */
+export interface NearPair {
+  parts: [string, string];
+  bodies: [string, string];
+  distance: number;
+  /** What turns when they do, and where [rad]; the heads alone, or nothing, for any other word. */
+  cyclogram: string;
+  angle: number;
+  /** Distance of the heads from the middles of their shares of the row [m]. */
+  heads_shift: number;
+}
+
+/** What is found of a loom. */
+export interface Judgement {
+  /** The checks of the whole loom that fail, also those that concern no part alone. */
+  failures: SceneCheck[];
+  /** The pairs of parts that come nearest; null: they are not compared yet. */
+  nearest: NearPair[] | null;
+}
+
+/** The two parts of a pair, as they are in the scene. */
+export function partsOf({ parts }: SceneAbout, pair: NearPair): ScenePart[] {
+  return pair.parts.flatMap((id, k) => parts.filter(({ ids }) => ids[0] === id && ids[1] === pair.bodies[k]));
+}
+
+/** What the comparison of the parts in space adds to a scene: all of it again, and the checks of each part. */
+export interface Comparison extends Judgement {
+  checks: Record<string, SceneCheck[]>;
+}
+
+export interface SceneAbout extends Judgement {
   title: string;
   heads: string;
   /** Frames of fence and doors. */
   guards: string[];
   floor: number;
-  /** The checks of the whole loom that fail, also those that concern no part alone. */
-  failures: SceneCheck[];
   periods: Record<Drive, number>;
   frames: SceneFrame[];
   parts: ScenePart[];

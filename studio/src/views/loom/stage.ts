@@ -21,6 +21,9 @@ const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
 /** Time without a change after which a picture is drawn with edges, shadows and all pixels by a processor [ms]. */
 const REST = 200;
 
+/** What is shown around the point at which two parts come nearest [m]. */
+const AROUND = 0.03;
+
 /** Copies of a part that are drawn at most while pictures are coarse. */
 const FEW = 40;
 
@@ -67,7 +70,7 @@ export class Stage {
   private followedAt = new three.Vector3();
   private exploded = 0;
   private cuts: three.Plane[] = [];
-  private chosen = "";
+  private chosen: readonly string[] = [];
 
   constructor(
     readonly model: SceneModel,
@@ -188,7 +191,7 @@ export class Stage {
     screenColour(this.look.ground, uniforms["ground"]?.value);
     screenColour(this.look.line, uniforms["line"]?.value);
     this.threads.paint(this.look);
-    this.choose(this.chosen);
+    this.choose(...this.chosen);
   }
 
   /** Turns row and knot to angles [rad]. */
@@ -231,7 +234,7 @@ export class Stage {
   /** A standard view; that of a head looks through its case. */
   show(name: ViewName): void {
     this.opened = name === "head";
-    this.choose(this.chosen);
+    this.choose(...this.chosen);
     const box = this.boxOf(name);
     this.camera.look(box, DIRECTIONS[name]);
     if (this.opened) this.shadow.fit(box.clone().expandByVector(box.getSize(new three.Vector3())));
@@ -289,23 +292,37 @@ export class Stage {
     this.changed();
   }
 
-  /** Marks a part; "": none. */
-  choose(name: string): void {
-    this.chosen = name;
+  /** Marks a part; of two all others are looked through, and the first is marked. */
+  choose(...names: string[]): void {
+    this.chosen = names;
     const heads = this.frames.byName.get(this.model.about.heads) ?? null;
     for (const one of this.parts) {
-      const open = this.opened && isOf(one.placed, heads) && !this.tools.has(one.part.frame);
-      one.paint(this.look, one.part.name === name, open, this.tools.get(one.part.frame));
+      const { name, frame } = one.part;
+      const isCase = this.opened && isOf(one.placed, heads) && !this.tools.has(frame);
+      const open = names.length > 1 ? !names.includes(name) : isCase;
+      one.paint(this.look, name === names[0], open, this.tools.get(frame));
     }
     this.changed();
   }
 
-  /** Brings a part into the middle of the picture. */
-  lookAt(name: string): void {
-    const found = this.parts.find((one) => one.part.name === name);
-    if (found === undefined) return;
-    this.camera.look(found.boxed(new three.Box3()), undefined, 1.6);
+  /** Brings parts into the middle of the picture: of several what is between them, or what they share. */
+  lookAt(...names: string[]): void {
+    const boxes = this.parts.filter((one) => names.includes(one.part.name)).map((one) => one.boxed(new three.Box3()));
+    const [first, ...others] = boxes;
+    if (first === undefined) return;
+    for (const box of others) meeting(first, box);
+    if (others.length > 0) first.expandByScalar(AROUND);
+    this.camera.look(first, undefined, 1.6);
     this.invalidate();
+  }
+
+  /** Puts the heads beside the middles of their shares of the row [m]. */
+  shiftHeads(shift: number): void {
+    const { about } = this.model;
+    const heads = about.frames.find((one) => one.name === about.heads);
+    if (heads === undefined) return;
+    const origins = this.model.floats(heads.origins);
+    this.putHeads([...origins].filter((_, k) => k % 3 === 0).map((x) => x + shift));
   }
 
   /** The name of the part under a point of the picture, from -1 to 1; "": none. */
@@ -409,6 +426,15 @@ export class Stage {
     this.camera.shift(at.clone().sub(this.followedAt));
     this.followedAt.copy(at);
     if (this.opened) this.threads.mark(at);
+  }
+}
+
+/** What two boxes share, or what lies between them. */
+function meeting(first: three.Box3, other: three.Box3): void {
+  for (const axis of ["x", "y", "z"] as const) {
+    const low = Math.max(first.min[axis], other.min[axis]);
+    const high = Math.min(first.max[axis], other.max[axis]);
+    [first.min[axis], first.max[axis]] = [Math.min(low, high), Math.max(low, high)];
   }
 }
 

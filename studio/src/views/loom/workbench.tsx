@@ -7,9 +7,10 @@ import { Controls, type PictureState } from "./controls";
 import { DriveBar } from "./drive-bar";
 import type { Live } from "./live";
 import { TURN } from "./motion";
+import { NearestPairs } from "./nearest-pairs";
 import { Failures, neighbour, PartDetails, PartList } from "./parts";
 import { type Player, usePlayer } from "./player";
-import type { Drive, SceneModel } from "./scene";
+import { type Drive, type NearPair, partsOf, type SceneModel } from "./scene";
 import type { Stage } from "./stage";
 import { graphics } from "./surroundings";
 import { usePicture } from "./use-picture";
@@ -26,7 +27,7 @@ export interface WorkbenchProps {
   live?: Live | null;
 }
 
-type Tab = "look" | "parts" | "run";
+type Tab = "look" | "parts" | "clearances" | "run";
 
 /** A press of "," or "." turns by so much, with Shift by ten times [rad]. */
 const SCRUB = TURN / 360;
@@ -36,6 +37,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   const drawn = graphics() !== "none";
   const [drive, setDrive] = useState<Drive>("row");
   const [chosen, setChosen] = useState("");
+  const [pair, setPair] = useState<NearPair | null>(null);
   const [tab, setTab] = useState<Tab>(drawn ? "look" : "parts");
   const [state, setState] = useState<PictureState>(() => ({
     followed: "",
@@ -51,6 +53,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   const labels = useRef<HTMLDivElement>(null);
   const pick = (name: string) => {
     setChosen(name);
+    setPair(null);
     if (name !== "") setTab("parts");
   };
   const stage = usePicture(model, canvas, labels, { names: state.names, onPick: pick });
@@ -59,7 +62,17 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     [drive, model],
   );
   const player = usePlayer(about.periods[drive], show);
-  useEffect(() => stage.current?.choose(chosen), [chosen]);
+  useEffect(() => {
+    if (pair === null) {
+      stage.current?.choose(chosen);
+      return undefined;
+    }
+    const names = partsOf(about, pair).map((part) => part.name);
+    stage.current?.shiftHeads(pair.heads_shift);
+    stage.current?.choose(...names);
+    stage.current?.lookAt(...names);
+    return () => stage.current?.shiftHeads(0);
+  }, [chosen, pair]);
   useEffect(() => stage.current?.followHead(state.followed === "" ? null : Number(state.followed)), [state.followed]);
   useEffect(
     () => stage.current?.section(state.axis === "none" ? null : state.axis, state.cut),
@@ -80,6 +93,13 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   useEffect(() => {
     if (live?.going) setTab("run");
   }, [live?.going]);
+  const onPair = (next: NearPair) => {
+    const turns = next.cyclogram === "row" || next.cyclogram === "knot" ? next.cyclogram : null;
+    player.playing.value = false;
+    if (turns !== null && turns !== drive) setDrive(turns);
+    player.angle.value = turns === null ? 0 : next.angle;
+    setPair(next);
+  };
   const onKey = (event: KeyboardEvent) => {
     const next = neighbour(about.parts, chosen, event.key);
     if (next !== null) pick(next);
@@ -91,6 +111,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   const tabs = [
     ...(drawn ? [{ value: "look" as Tab, label: t("loom.look") }] : []),
     { value: "parts" as Tab, label: t("loom.parts") },
+    { value: "clearances" as Tab, label: t("loom.clearances") },
     ...(running === undefined ? [] : [{ value: "run" as Tab, label: t("loom.run") }]),
   ];
   return (
@@ -139,12 +160,13 @@ export function Workbench({ model, above, below, running, drawing, live = null }
                 onChange={(change) => setState((now) => ({ ...now, ...change }))}
               />
             )}
-            {tab === "parts" && <PartList parts={about.parts} chosen={chosen} onChoose={setChosen} />}
+            {tab === "parts" && <PartList parts={about.parts} chosen={chosen} onChoose={pick} />}
             {tab === "parts" && part && (
               <PartDetails model={model} part={part} onLook={drawn ? () => stage.current?.lookAt(part.name) : null}>
                 {part.plate !== "" && drawing?.(part.plate)}
               </PartDetails>
             )}
+            {tab === "clearances" && <NearestPairs about={about} chosen={pair} onChoose={byHand ? onPair : null} />}
             {tab === "run" && running}
           </div>
         </Tabs>

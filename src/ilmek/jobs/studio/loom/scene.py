@@ -14,7 +14,7 @@ from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
 from ilmek.jobs.loom_space import scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.project.folder import ProjectFolder, digest_of, kind_of, read_bytes
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -24,6 +24,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.report import Contour, Plate, Report
 from ilmek.report.scene import Scene
 from ilmek.units import mm
+from ilmek.viz.scene_data import checks_of_parts, judgement
 
 GLB = "model/gltf-binary"
 RECIPE = "carpet.toml"
@@ -64,7 +65,7 @@ class PlateDrawing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProjectLoom:
-    """A designed loom with its report; the carpet that it is for and its programme, if any."""
+    """A designed loom with its report, without its parts against each other; its carpet and its programme, if any."""
 
     design: LoomDesign
     report: Report
@@ -84,6 +85,16 @@ def scene(request: LoomRequest, context: Context) -> Binary:
     """
     loom = project_loom(context.folder, request.file, context.progress)
     return scene_answer(loom.scene, None if loom.charted is None else loom.charted.chart)
+
+
+def in_space(request: LoomRequest, context: Context) -> Binary:
+    """What a scene leaves open, some seconds of work: the parts of the loom against each other in space.
+
+    The checks that fail, those of each part by its name, and the pairs of parts that come nearest.
+    """
+    loom = project_loom(context.folder, request.file, context.progress)
+    whole = scene_of(loom.design, MACHINE.report(loom.design, illustrated=False))
+    return packed({**judgement(whole), "checks": checks_of_parts(whole)})
 
 
 def glb(request: LoomRequest, context: Context) -> Binary:
@@ -138,7 +149,7 @@ def _of_machine(path: str, _digest: str) -> ProjectLoom:
     if order.machine != MACHINE.name:
         raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=_NO_LOOM)
     design = MACHINE.designed(MACHINE.params.read(order.settings))
-    return ProjectLoom(design, MACHINE.report(design, illustrated=False))
+    return ProjectLoom(design, MACHINE.report(design, illustrated=False, assembled=False))
 
 
 _recipes: dict[tuple[str, str], ProjectLoom] = {}
@@ -152,7 +163,7 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
         order = read_order(Path(path))
         charted = make_charted(order, progress.part(0.0, 0.5, "picture"))
         part = progress.part(0.5, 1.0, "loom")
-        loomed = make_loomed(read_loom_order(order), charted, part, illustrated=False)
+        loomed = make_loomed(read_loom_order(order), charted, part, illustrated=False, assembled=False)
         if loomed.design is None:
             reason = next((check for check in loomed.report.checks if not check.ok), None)
             raise ParameterError(

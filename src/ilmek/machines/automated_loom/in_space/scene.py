@@ -26,6 +26,9 @@ from ilmek.report.scene import Scene, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
+NEAREST_PAIRS = "nearest_pairs"
+"""Name of the result with the pairs of parts that come nearest, in a report that compares them."""
+
 _ARC = 7
 """Points of the warps' line over the back rest."""
 
@@ -60,6 +63,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         guards=GUARDS,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
+        nearest=report[NEAREST_PAIRS] if NEAREST_PAIRS in report.names() else None,
     )
 
 
