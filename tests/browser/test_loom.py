@@ -134,6 +134,7 @@ def test_a_part_has_the_numbers_of_the_design_and_its_drawing(page: Page, runnin
         assert ": holds" in words if checks[name]["ok"] else ": fails" in words
         if checks[name]["unit"] == "1":
             assert words.startswith(f"{checks[name]['value']:.4g} ")
+    expect(page.locator(".loom-holding li").last).to_contain_text("the standing frame")
     drawing = page.locator(".loom-plate svg path")
     expect(drawing).to_be_visible(timeout=PATIENCE)
     box = drawing.evaluate("path => { const box = path.getBBox(); return [box.height, box.width] }")

@@ -89,6 +89,15 @@ class ScenePart:
 
 
 @record
+class SceneBody:
+    """What moves as one: the body that holds it, "" for the floor; by what joint; its drive, "" where none moves it."""
+
+    parent: str
+    joint: str
+    drive: str
+
+
+@record
 class SceneWarps:
     """The warps: their x [m], and in the side view the line of one that is lifted by shares of its track.
 
@@ -155,6 +164,7 @@ class Scene:
 
     periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
     guards    names of the frames of fence and doors      failures  the checks of the whole loom that fail
+    bodies    by id: what holds each body of parts
     nearest   the pairs of parts that come nearest: its result `nearest_pairs`; None: they are not compared
     """
 
@@ -168,5 +178,6 @@ class Scene:
     heads: str
     guards: tuple[str, ...]
     floor: float
+    bodies: Mapping[str, SceneBody]
     failures: tuple[Check, ...] = ()
     nearest: Json = None

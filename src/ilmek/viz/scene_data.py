@@ -54,6 +54,7 @@ def scene_data(scene: Scene) -> SceneData:
         "heads": scene.heads,
         "guards": list(scene.guards),
         "floor": scene.floor,
+        "bodies": {name: [body.parent, body.joint, body.drive] for name, body in scene.bodies.items()},
         **judgement(scene),
         "periods": dict(scene.periods),
         "frames": [_frame(blocks, one) for one in scene.frames],

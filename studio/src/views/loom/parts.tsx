@@ -1,9 +1,9 @@
 /** The list of parts, and what is known of one. */
 import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
-import { t } from "../../text";
+import { t, textIfKnown } from "../../text";
 import { Button, formatQuantity } from "../../ui";
-import { failures, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
+import { carriers, failures, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
 
 interface ListProps {
   parts: readonly ScenePart[];
@@ -141,6 +141,7 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
           </div>
         ))}
       </dl>
+      <Holding model={model} part={part} />
       <h3>{t("loom.checks")}</h3>
       {part.checks.length === 0 ? (
         <p class="ui-muted">{t("loom.noChecks")}</p>
@@ -163,6 +164,42 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
     </section>
   );
 }
+
+/** What holds a part, joint by joint down to the floor, and what moves it. */
+function Holding({ model, part }: { model: SceneModel; part: ScenePart }) {
+  const chain = carriers(model.about, part.ids[1]);
+  if (chain.length === 0) return null;
+  const moved = chain.filter((held) => held.drive !== "");
+  return (
+    <>
+      <h3>{t("loom.heldBy")}</h3>
+      <ol class="loom-holding">
+        {chain.map(({ parent, joint, drive }) => (
+          <li key={parent}>
+            {textIfKnown(JOINTS[joint] ?? "", { parent: parent === "" ? t("loom.floor") : named(parent) }) ?? joint}
+            {drive === "row" && <span class="ui-muted"> {t("loom.movesWithRow")}</span>}
+            {drive === "knot" && <span class="ui-muted"> {t("loom.movesWithKnot")}</span>}
+          </li>
+        ))}
+      </ol>
+      {moved.length === 0 && <p class="ui-muted">{t("loom.stands")}</p>}
+    </>
+  );
+}
+
+/** The text of each kind of joint; the kinds are those of `JointKind` in the server's part/tree.py. */
+const JOINTS: Record<string, string> = {
+  fixed: "loom.jointFixed",
+  pin: "loom.jointPin",
+  slide: "loom.jointSlide",
+  screw: "loom.jointScrew",
+  rolling: "loom.jointRolling",
+  "cam and follower": "loom.jointCam",
+  missing: "loom.jointMissing",
+};
+
+/** A body in words: its id without the machine's name. */
+const named = (body: string) => body.slice(body.indexOf("/") + 1).replaceAll("-", " ");
 
 /** A check in a line: value, relation, limit, and in words whether it holds. */
 export function judged(check: SceneCheck): string {

@@ -115,7 +115,19 @@ export interface Comparison extends Judgement {
   checks: Record<string, SceneCheck[]>;
 }
 
+/** The body that holds a body, "" for the floor; by what joint; what drives it, "" where nothing moves it. */
+export type SceneBody = [parent: string, joint: string, drive: string];
+
+/** What holds a body, and what holds that, down to the floor. */
+export function carriers({ bodies }: SceneAbout, body: string): { parent: string; joint: string; drive: string }[] {
+  const held = bodies[body];
+  if (held === undefined) return [];
+  const [parent, joint, drive] = held;
+  return [{ parent, joint, drive }, ...(parent === "" ? [] : carriers({ bodies } as SceneAbout, parent))];
+}
+
 export interface SceneAbout extends Judgement {
+  bodies: Record<string, SceneBody>;
   title: string;
   heads: string;
   /** Frames of fence and doors. */

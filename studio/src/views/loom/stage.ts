@@ -71,6 +71,7 @@ export class Stage {
   private exploded = 0;
   private cuts: three.Plane[] = [];
   private chosen: readonly string[] = [];
+  private alone = false;
 
   constructor(
     readonly model: SceneModel,
@@ -191,7 +192,7 @@ export class Stage {
     screenColour(this.look.ground, uniforms["ground"]?.value);
     screenColour(this.look.line, uniforms["line"]?.value);
     this.threads.paint(this.look);
-    this.choose(...this.chosen);
+    this.choose(this.chosen, this.alone);
   }
 
   /** Turns row and knot to angles [rad]. */
@@ -234,7 +235,7 @@ export class Stage {
   /** A standard view; that of a head looks through its case. */
   show(name: ViewName): void {
     this.opened = name === "head";
-    this.choose(...this.chosen);
+    this.choose(this.chosen, this.alone);
     const box = this.boxOf(name);
     this.camera.look(box, DIRECTIONS[name]);
     if (this.opened) this.shadow.fit(box.clone().expandByVector(box.getSize(new three.Vector3())));
@@ -292,14 +293,15 @@ export class Stage {
     this.changed();
   }
 
-  /** Marks a part; of two all others are looked through, and the first is marked. */
-  choose(...names: string[]): void {
+  /** Marks the first of some parts; alone: all others are looked through. */
+  choose(names: readonly string[], alone = false): void {
     this.chosen = names;
+    this.alone = alone;
     const heads = this.frames.byName.get(this.model.about.heads) ?? null;
     for (const one of this.parts) {
       const { name, frame } = one.part;
       const isCase = this.opened && isOf(one.placed, heads) && !this.tools.has(frame);
-      const open = names.length > 1 ? !names.includes(name) : isCase;
+      const open = alone ? !names.includes(name) : isCase;
       one.paint(this.look, name === names[0], open, this.tools.get(frame));
     }
     this.changed();
@@ -311,8 +313,8 @@ export class Stage {
     const [first, ...others] = boxes;
     if (first === undefined) return;
     for (const box of others) meeting(first, box);
-    if (others.length > 0) first.expandByScalar(AROUND);
-    this.camera.look(first, undefined, 1.6);
+    first.expandByScalar(AROUND);
+    this.camera.look(first, undefined, 1.3);
     this.invalidate();
   }
 

@@ -64,12 +64,12 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   const player = usePlayer(about.periods[drive], show);
   useEffect(() => {
     if (pair === null) {
-      stage.current?.choose(chosen);
+      stage.current?.choose([chosen]);
       return undefined;
     }
     const names = partsOf(about, pair).map((part) => part.name);
     stage.current?.shiftHeads(pair.heads_shift);
-    stage.current?.choose(...names);
+    stage.current?.choose(names, true);
     stage.current?.lookAt(...names);
     return () => stage.current?.shiftHeads(0);
   }, [chosen, pair]);
@@ -99,6 +99,10 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     if (turns !== null && turns !== drive) setDrive(turns);
     player.angle.value = turns === null ? 0 : next.angle;
     setPair(next);
+  };
+  const onLook = (name: string) => {
+    stage.current?.choose([name], true);
+    stage.current?.lookAt(name);
   };
   const onKey = (event: KeyboardEvent) => {
     const next = neighbour(about.parts, chosen, event.key);
@@ -162,7 +166,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
             )}
             {tab === "parts" && <PartList parts={about.parts} chosen={chosen} onChoose={pick} />}
             {tab === "parts" && part && (
-              <PartDetails model={model} part={part} onLook={drawn ? () => stage.current?.lookAt(part.name) : null}>
+              <PartDetails model={model} part={part} onLook={drawn ? () => onLook(part.name) : null}>
                 {part.plate !== "" && drawing?.(part.plate)}
               </PartDetails>
             )}

@@ -20,9 +20,9 @@ from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
-from ilmek.part.tree import GROUND, Tree
+from ilmek.part.tree import GROUND, RigidBody, Tree
 from ilmek.report import Report
-from ilmek.report.scene import Scene, SceneCarpet, SceneFrame, SceneWarps
+from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
@@ -63,6 +63,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         guards=GUARDS,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
+        bodies={body.id: _held(body) for body in loom_tree(loom).bodies},
         nearest=report[NEAREST_PAIRS] if NEAREST_PAIRS in report.names() else None,
     )
 
@@ -92,6 +93,11 @@ def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
     return joined(branches_of(loom))
+
+
+def _held(body: RigidBody) -> SceneBody:
+    drive = "" if body.joint.motion is None else body.joint.motion.drive
+    return SceneBody("" if body.parent == GROUND else body.parent, body.joint.kind.value, drive)
 
 
 def _warps(loom: LoomDesign) -> SceneWarps:
