@@ -15,7 +15,7 @@ from ilmek.errors import IlmekError
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
-from ilmek.machines.automated_loom.selection import design
+from ilmek.machines.automated_loom.selection import design, with_room
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import format_quantity
@@ -49,6 +49,8 @@ def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:
     """
     try:
         loom = design(params)
+        if in_space and all(check.ok for check in all_checks(loom)):
+            loom = with_room(loom, params)
         return all(check.ok for check in all_checks(loom)) and (not in_space or assembly(loom).holds)
     except IlmekError:
         return False
