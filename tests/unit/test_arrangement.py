@@ -1,4 +1,4 @@
-"""The side view of a loom: spans from what must have room, coordinates, and the clearances of all that moves."""
+"""The side view of a loom: spans from what must have room, coordinates, distances from warps and carpet."""
 
 import math
 from dataclasses import replace
@@ -8,23 +8,28 @@ import numpy as np
 import pytest
 from examples import draw_arrangement
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.machines.arrangement.clearances import (
-    MovingBody,
-    least_clearances,
-    moving,
-    samples,
-    standing,
-)
+from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.arrangement.spans import ShedRoom, shed_spans, spans_at
 from ilmek.machines.automated_loom import LoomDesign, design
-from ilmek.machines.automated_loom.bodies import CARRIER, GUIDE_CAMS, LEAVES, knot_bodies, row_bodies
+from ilmek.machines.automated_loom.cloth_clearances import (
+    CAMS,
+    CARPET,
+    CARRIER,
+    HEAD,
+    WARPS,
+    WORKING,
+    cloth_checks,
+    cloth_clearances,
+    cloth_table,
+)
+from ilmek.machines.automated_loom.cyclogram import EVEN, ODD, weft_windows
 from ilmek.machines.automated_loom.motion.row_views import row_from_the_side
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.machines.automated_loom.room import TOUCHING, clearances, room_checks, room_tables
 from ilmek.machines.automated_loom.views import front, room, side
+from ilmek.machines.weaver.head_shape import SLEY_TOOL
+from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
 ROOM = ShedRoom(24 * mm, 36 * mm, 54 * mm, 20 * mm, 80 * mm, 30 * mm, 0.28, 0.35, 70 * mm, 1 * mm, 3 * mm)
@@ -87,100 +92,65 @@ def test_spans_that_are_given_stay_and_carry_comb_and_carrier_with_them() -> Non
     assert spans_at(ROOM, 78 * mm, 148 * mm, (0.08,), (0.08,)).carrier == ROOM.clearance
 
 
-@pytest.mark.parametrize("turned", [0.0, 0.3, 0.7, 1.1])
-def test_distances_of_bodies_are_those_of_brute_force(turned: float) -> None:
-    rng = np.random.default_rng(7)
-    square = np.array([0, 0.1, 0.1 + 0.05j, 0.05j]) * np.exp(1j * turned)
-    triangle = np.array([0, 0.08 + 0.01j, 0.03 + 0.06j])
-    for offset in 0.3 * (rng.random(12) - 0.5 + 1j * (rng.random(12) - 0.5)):
-        bodies = (MovingBody("a", (standing(square),)), MovingBody("b", (standing(triangle + offset),)))
-        (found,) = least_clearances(bodies, samples(), 1.0)
-        assert max(found.value, 0.0) == pytest.approx(brute(square, triangle + offset), abs=0.2 * mm)
+def _from_sheet(made: LoomDesign, moved: ComplexArray, lift: float) -> float:
+    """Distance of a polygon, by points along its edges, from a sheet with a lift at its cams [m]."""
+    top, rest = complex(lift, made.side.cams[0].at.imag), 1j * made.side.spans.back_rest
+    share = np.linspace(0.0, 1.0, 5_001)
+    line = np.concatenate([top * share, top + (rest - top) * share])
+    return float(np.abs(edge_points(moved)[:, None] - line).min()) - made.side.room.warp / 2
 
 
-def test_a_disc_and_a_bar_that_passes_it_are_nearest_where_brute_force_finds_them() -> None:
-    bar = np.array([0, 0.2, 0.2 + 0.01j, 0.01j])
-
-    def path(angle: FloatArray) -> ComplexArray:
-        return np.asarray(complex(-0.1, 0.03) + 0.4 * (angle / turn - 0.5))
-
-    bodies = (MovingBody("disc", (standing(np.array([0j]), 0.02),)), MovingBody("bar", (moving(bar, path),)))
-    (found,) = least_clearances(bodies, samples(), 1.0)
-    expected = min(brute(bar + path(np.array([angle]))[0], disc(0j, 0.02)) for angle in np.linspace(0, turn, 25))
-    assert found.value == pytest.approx(0.01, abs=1e-9)
-    assert found.value == pytest.approx(expected, abs=0.2 * mm)
-
-
-def test_a_least_distance_between_two_samples_is_found() -> None:
-    """A point that runs 1 m within a degree passes a point 3 mm beside its path, between the samples."""
-
-    def path(angle: FloatArray) -> ComplexArray:
-        return np.asarray(np.clip((angle - 1.0) / deg, 0.0, 1.0) - 0.37 + 0.003j)
-
-    bodies = (MovingBody("a", (moving(np.array([0j]), path),)), MovingBody("b", (standing(np.array([0j])),)))
-    angles = samples([1.0, 1.0 + deg])
-    sampled = np.abs(path(angles)).min()
-    (found,) = least_clearances(bodies, angles, 5 * mm)
-    assert sampled > 0.05
-    assert found.value == pytest.approx(0.003, abs=0.03 * mm)
-    assert found.angle == pytest.approx(1.0 + 0.37 * deg, abs=0.01 * deg)
+@pytest.mark.parametrize("settings", [{}, {"width": "0.6m", "lift": "55mm"}, {"knot": "asymmetric"}], ids=str)
+def test_the_carrier_is_as_far_from_the_warps_as_points_along_its_edges(settings: dict[str, str]) -> None:
+    made = loom(**settings)
+    found = {(one.body, one.cloth): one for one in cloth_clearances(made)}[CARRIER, WARPS]
+    corner, size = made.side.carrier.corner, made.side.carrier.size
+    box = corner + np.array([0, size.real, size, 1j * size.imag])
+    tracks = [made.row_cyclogram.track(name) for name in (EVEN, ODD)]
+    passing = [np.linspace(*window, 40) for window in weft_windows(made.row_cyclogram)]
+    angles = np.append(np.concatenate(passing), found.angle) % turn
+    lifts = {float(lift) for track in tracks for lift in sample(track, angles).position}
+    assert found.value == pytest.approx(min(_from_sheet(made, box, lift) for lift in lifts), abs=0.02 * mm)
 
 
-def test_moving_a_part_away_by_a_distance_adds_it_to_the_clearance() -> None:
-    base = np.array([0, 0.05, 0.05 + 0.05j, 0.05j])
-    values = []
-    for apart in (0.0, 7 * mm):
-        bodies = (MovingBody("a", (standing(base),)), MovingBody("b", (standing(base + 0.06 + apart),)))
-        values.append(least_clearances(bodies, samples(), 1.0)[0].value)
-    assert values[1] - values[0] == pytest.approx(7 * mm)
-    assert values[0] == pytest.approx(10 * mm)
-
-
-def test_bodies_that_are_never_in_the_loom_together_have_no_clearance() -> None:
-    base = np.array([0, 1, 1 + 1j, 1j])
-    first = MovingBody("a", (standing(base),), ((0.0, 1.0),))
-    assert least_clearances((first, MovingBody("b", (standing(base),), ((2.0, 3.0),))), samples([1.0, 2.0]), 1.0) == ()
+@pytest.mark.parametrize("settings", [{}, {"width": "0.6m"}, {"beat": "linkage"}], ids=str)
+def test_distances_from_the_carpet_are_those_of_points_along_the_edges(settings: dict[str, str]) -> None:
+    made = loom(**settings)
+    side, row = made.side, made.row_cyclogram
+    low, back = side.lower.at.imag, -side.room.warp
+    carpet = np.array([complex(back, low), complex(side.pile, low), side.pile, back])
+    away = sample(row.track("heads"), np.arange(0.0, turn, 2 * deg)).position * RETREAT
+    head = side.head.body + np.array([0, side.head.size.real, side.head.size, 1j * side.head.size.imag])
+    found = {(one.body, one.cloth): one.value for one in cloth_clearances(made)}
+    tools = [
+        tool.corner + np.array([0, tool.size.real, tool.size, 1j * tool.size.imag])
+        for tool in side.head.tools
+        if tool.name != SLEY_TOOL
+    ]
+    nearest = min(brute(box + shift, carpet) for box in (head, *tools) for shift in away)
+    assert found[HEAD, CARPET] == pytest.approx(nearest, abs=0.6 * mm)
 
 
 def test_everything_on_the_default_loom_has_room() -> None:
-    found = clearances(loom())
-    assert all(check.ok for check in room_checks(loom(), found, 0.1))
-    pairs = {frozenset((one.distance.first, one.distance.second)) for one in found}
-    assert frozenset((CARRIER, "even warps")) in pairs
-    assert frozenset((GUIDE_CAMS, LEAVES)) in pairs
-    assert not pairs & set(TOUCHING)
+    assert all(check.ok for check in cloth_checks(loom()))
+    pairs = {(one.body, one.cloth) for one in cloth_clearances(loom())}
+    assert {(CARRIER, WARPS), (HEAD, CARPET), (HEAD, WARPS)} <= pairs
+    assert not pairs & WORKING
 
 
-def test_clearances_of_the_loom_are_those_of_brute_force_at_every_degree() -> None:
-    made = loom()
-    bodies = {body.name: body for body in row_bodies(made.side, made.row_cyclogram, made.beat.path, stack=False)}
-    found = {frozenset((one.distance.first, one.distance.second)): one.distance for one in clearances(made)}
-    angles = np.arange(0.0, turn, deg)
-    for first, second in (("comb's bar", "sley"), ("comb's leaves", CARRIER), ("head", "comb's bar")):
-        near = math.inf
-        for angle in angles:
-            at = np.array([angle])
-            both = [bodies[name] for name in (first, second)]
-            if not all(any(low <= angle <= high for low, high in body.windows) for body in both):
-                continue
-            one, other = (body.parts[0].corners(at)[0] for body in both)
-            near = min(near, brute(one, other))
-        assert found[frozenset((first, second))].value == pytest.approx(near, abs=1.5 * mm)
-
-
-def test_half_spans_of_80_mm_let_cams_run_into_what_holds_the_warps() -> None:
-    """The thesis' loom with spans too short: the clearances find it."""
+def test_spans_too_short_let_the_guide_cams_run_into_the_carpet() -> None:
+    """The thesis' loom with half spans of 80 mm: a disc against the fell, by hand."""
     made = loom(**{"shedding.half_span": "80mm"})
-    failed = [check for check in room_checks(made, clearances(made), 0.1) if not check.ok]
-    worst = {check.name: check.value for check in failed}
-    assert worst["clearance: guide cams and carpet"] < 0
-    assert worst["clearance: guide cams and back rest"] < 0
-    assert all(check.cure for check in failed)
+    worst = {check.name: check for check in cloth_checks(made) if not check.ok}
+    (cam,) = made.side.cams
+    edge = complex(-made.side.room.warp, 0.0)
+    assert worst["clearance: guide cams and carpet"].value == pytest.approx(abs(cam.at - edge) - cam.guide_radius)
+    assert all(check.cure for check in worst.values())
 
 
-def test_a_shed_too_low_for_its_carrier_fails_its_clearance() -> None:
-    made = loom(lift="15mm")
-    assert not next(check for check in room_checks(made, clearances(made), 0.1) if CARRIER in check.name).ok
+@pytest.mark.parametrize("lift", ["15mm", "20mm"])
+def test_a_shed_too_low_for_its_carrier_fails_its_clearance(lift: str) -> None:
+    assert not next(check for check in cloth_checks(loom(lift=lift)) if CARRIER in check.name).ok
 
 
 def test_heads_retreat_until_they_are_below_what_beats() -> None:
@@ -195,25 +165,12 @@ def test_heads_retreat_until_they_are_below_what_beats() -> None:
 
 
 def test_the_stack_goes_down_with_the_comb_on_the_guide_cams() -> None:
+    """It is as much nearer to the fell as the comb's stroke says."""
     made = loom(beat="guide-cams")
-    (cams,) = (
-        body
-        for body in row_bodies(made.side, made.row_cyclogram, made.beat.path, stack=True)
-        if body.name == GUIDE_CAMS
-    )
-    heights = cams.parts[0].corners(samples())[:, 0].imag
-    assert heights.max() - heights.min() == pytest.approx(made.side.beat_stroke, rel=1e-3)
-
-
-def test_tools_reach_behind_the_warps_while_they_knot_and_stand_clear_in_the_row() -> None:
-    made = loom()
-    knot, row = made.cyclograms
-    deepest = {body.name: body.parts[0].corners(samples()).real.min() for body in knot_bodies(made.side, knot)}
-    in_row = row_bodies(made.side, row, made.beat.path, stack=False)
-    clear = {body.name: body.parts[0].corners(np.array([turn / 4])).real.min() for body in in_row}
-    for tool in ("side grippers", "opener", "centre gripper"):
-        assert deepest[tool] < -made.side.room.warp / 2
-        assert clear[tool] > made.side.retreat * RETREAT.real
+    sunk = {(one.body, one.cloth): one.value for one in cloth_clearances(made)}[CAMS, CARPET]
+    (cam,) = made.side.cams
+    low = cam.at - 1j * made.side.beat_stroke
+    assert sunk == pytest.approx(abs(low + made.side.room.warp) - cam.guide_radius, abs=0.2 * mm)
 
 
 def test_coordinates_agree() -> None:
@@ -273,15 +230,13 @@ def test_front_and_side_show_the_same_heights() -> None:
 )
 def test_other_looms_have_their_views_and_clearances(settings: dict[str, str]) -> None:
     made = loom(**settings)
-    found = clearances(made)
+    found = cloth_clearances(made)
     assert found
     assert len(side(made).strokes) > 20
     assert len(room(made).strokes) > 10
-    kept = all(check.ok for check in room_checks(made, found, 0.1))
+    kept = all(check.ok for check in cloth_checks(made))
     assert kept == ("shedding.half_span" not in settings)
-    tables = room_tables(found)
-    assert len(tables[0].rows) == len(found)
-    assert all(all(row) for row in tables[1].rows)
+    assert len(cloth_table(made).rows) == len(found)
 
 
 def test_the_row_from_the_side_has_its_shuttle_only_in_the_shed() -> None:
@@ -310,4 +265,4 @@ def test_machines_are_designed_for_the_lengths_that_the_view_reports(settings: d
 def test_more_colours_than_a_tier_holds_make_the_head_deeper_not_the_row_wider() -> None:
     few, many = loom(), loom(colours="200")
     assert many.side.head.magazine_size.imag > few.side.head.magazine_size.imag
-    assert all(check.ok for check in room_checks(many, clearances(many), 0.1))
+    assert all(check.ok for check in cloth_checks(many))

@@ -12,7 +12,7 @@ from plate_solids import plate_solid
 from ilmek.elements.columns import STEEL
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom import MACHINE
-from ilmek.machines.automated_loom.bodies import beat_tip
+from ilmek.machines.automated_loom.beat_motion import beat_tip
 from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT

@@ -109,7 +109,7 @@ def design_machine(
         write = workshop_writer(workshop, made)
         machine = find_machine(name)
         params = machine.params.read(settings)
-        designed = machine.designed(params, progress.part(0.0, 0.6, "design"))
+        designed = machine.with_room(machine.designed(params, progress.part(0.0, 0.6, "design")), params)
         progress.part(0.6, 0.8, "report")
         report = machine.report(designed, illustrated=illustrated)
         if report.machine == LOOM:

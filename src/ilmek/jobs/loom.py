@@ -211,6 +211,7 @@ def make_loomed(
     try:
         carpet = CarpetPile(chart, knot_yarns(charted))
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
+        made = MACHINE.with_room(made, replace(params, heads=made.heads))
         colours = () if made.params.tubes is None else (colours_check(chart, made.heads, made.params),)
         if any(not check.ok for check in colours):
             report = with_nearest(reported(made), params, progress.part(0.7, 1.0))

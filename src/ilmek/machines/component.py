@@ -57,6 +57,10 @@ def _nothing(_item: object) -> tuple[()]:
     return ()
 
 
+def _first(design: D, _params: object) -> D:
+    return design
+
+
 def _parameters(design: MachineDesign) -> Params:
     return design.params
 
@@ -99,6 +103,7 @@ class Component(Generic[P, D, A]):
     beat        loom's task, kind of beat -> its planned beat, for a machine that can beat (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
     assembly    design -> its parts against each other in space; takes about a second
+    with_room   design, parameters -> the design, or the next choice whose parts have room in space; takes seconds
     verdict     report -> a record with results that follow from all checks, of the machines in it too
     headline    names of results that stand at the top level of the JSON too
     """
@@ -132,6 +137,7 @@ class Component(Generic[P, D, A]):
     beat: Callable[[LoomTask, str], PlannedBeat] | None = None
     own_figures: tuple[str, ...] = ()
     assembly: Callable[[D], PartsInSpace] | None = None
+    with_room: Callable[[D, P], D] = _first
     verdict: Callable[[Report], object] | None = None
     headline: tuple[str, ...] = ()
     long_design: Callable[[P, Progress], D] | None = None

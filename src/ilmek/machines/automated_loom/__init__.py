@@ -32,7 +32,7 @@ from ilmek.machines.automated_loom.report import (
     tables,
     warnings,
 )
-from ilmek.machines.automated_loom.selection import design
+from ilmek.machines.automated_loom.selection import design, with_room
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.part.plates import pieces_of
@@ -89,6 +89,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),
     assembly=assembly,
+    with_room=with_room,
     verdict=LoomVerdict,
     headline=("weaves", BUILDABLE, "row_pitch_left"),
 )

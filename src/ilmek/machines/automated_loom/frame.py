@@ -16,12 +16,15 @@ Sections are the lightest square hollow ones of a table that keep the limits, th
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
 from ilmek.elements.beam import uniform
+from ilmek.elements.beam.model import Beam
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
+from ilmek.elements.whirl import Mass, frequencies
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.feet import FEET, Foot
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
@@ -29,7 +32,7 @@ from ilmek.part.part import Part
 from ilmek.part.shapes import square_tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
-from ilmek.units import mm
+from ilmek.units import mm, turn
 
 EULER = "Euler's load; assumed by this project: parameter buckling_safety"
 
@@ -74,6 +77,7 @@ class FrameTask:
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     room            for the side of a column [m]               rail_drop  of a support before the rail, below it [m]
+    frequency       least natural frequency of the rail [Hz]
     """
 
     width: float
@@ -92,6 +96,7 @@ class FrameTask:
     bow_limit: float
     room: float = math.inf
     rail_drop: float = 0.0
+    frequency: float = 0.0
 
     @property
     def force(self) -> float:
@@ -132,33 +137,51 @@ class LoomFrame:
         return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail))
 
 
-def frame_for(task: FrameTask) -> LoomFrame:
+def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] = lambda _frame: ()) -> LoomFrame:
     """The frame of the lightest sections that keep their checks; of the largest where none of the table does.
 
-    A side has one column if any has room that keeps its checks, else the least number of them.
+    A side has one column if any has room that keeps its checks, else the least number of them. Where none is as stiff
+    as required, the columns are those that strength, bow and buckling need, and the frame fails the checks of its sway.
+
+    sway  frame -> checks of its stiffness as a whole
     """
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
     columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
-    (number, column), of_column = _chosen("columns", columns, lambda one: column_checks(task, one[1], one[0]))
     (_, rail), of_rail = _chosen("rail", [(1, one) for one in sections], lambda one: rail_checks(task, one[1]))
-    stress, bow = column_load(task, column, number)
-    factor, sag = number * euler(task.height, column) / task.force, rail_sag(task, rail)
-    return LoomFrame(task, (of_column, of_rail), column, rail, number, stress, bow, factor, sag)
+
+    def framed(column: tuple[int, HollowSquare], *choices: Choice) -> LoomFrame:
+        number, section = column
+        stress, bow = column_load(task, section, number)
+        factor, sag = number * euler(task.height, section) / task.force, rail_sag(task, rail)
+        return LoomFrame(task, choices, section, rail, number, stress, bow, factor, sag)
+
+    def strength(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
+        return column_checks(task, column[1], column[0])
+
+    def stiffness(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
+        own = strength(column)
+        return (*own, *sway(framed(column))) if all(check.ok for check in own) else own
+
+    column, of_column = _chosen("columns", columns, stiffness, strength)
+    return framed(column, of_column, of_rail)
 
 
 def _chosen(
     name: str,
     offered: Sequence[tuple[int, HollowSquare]],
-    checks_of: Callable[[tuple[int, HollowSquare]], tuple[Check, ...]],
+    *rules: Callable[[tuple[int, HollowSquare]], tuple[Check, ...]],
 ) -> tuple[tuple[int, HollowSquare], Choice]:
-    """The first number and section that keep their checks, or the last, and the choice."""
+    """The first number and section that keep the checks of a rule, of the first rule that any keeps, or the last."""
     names = [section.name if number == 1 else f"{number} x ({section.name})" for number, section in offered]
-    candidates = [Alternative(label, checks_of(one)) for label, one in zip(names, offered, strict=True)]
-    index, choice = choose(f"frame_{name}", candidates)
-    if not candidates[index].failed:
-        return offered[index], choice
-    return offered[-1], Choice(choice.name, names[-1], "the largest that has room")
+    for checks_of in rules:
+        tried: list[Alternative] = []
+        for label, one in zip(names, offered, strict=True):
+            tried.append(Alternative(label, checks_of(one)))
+            if not tried[-1].failed:
+                index, choice = choose(f"frame_{name}", tried)
+                return offered[index], choice
+    return offered[-1], Choice(f"frame_{name}", names[-1], "the largest that has room")
 
 
 def column_load(task: FrameTask, section: HollowSquare, number: int = 1) -> tuple[float, float]:
@@ -187,14 +210,42 @@ def column_checks(task: FrameTask, section: HollowSquare, number: int = 1) -> tu
     )
 
 
-def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check]:
-    """Sag of the heads' rail of a section."""
-    cure, sag = "set a shorter rail_span or a larger rail_sag", rail_sag(task, section)
+def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, Check]:
+    """Sag and natural frequency of the heads' rail of a section."""
+    cure, parts = "set a shorter rail_span or a larger rail_sag", (part_id("rail"),)
     return (
         at_most(
-            "frame: sag of the heads' rail", sag, task.sag_limit, "mm", "rail_sag", cure=cure, parts=(part_id("rail"),)
+            "frame: sag of the heads' rail",
+            rail_sag(task, section),
+            task.sag_limit,
+            "mm",
+            "rail_sag",
+            cure=cure,
+            parts=parts,
+        ),
+        at_least(
+            "frame: heads' rail bends: natural frequency",
+            rail_frequency(task, section),
+            task.frequency,
+            "Hz",
+            "least that the drives allow; assumed by this project",
+            cure="set a shorter rail_span, or a slower knot_cycle",
+            parts=parts,
         ),
     )
+
+
+@lru_cache(maxsize=64)
+def rail_frequency(task: FrameTask, section: HollowSquare) -> float:
+    """Lowest natural frequency of the rail on its supports [Hz], the heads that find room on a span in the middle of
+    the first.
+    """
+    span = task.width / task.rail_spans
+    mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
+    beam = Beam(task.width, tuple(k * span for k in range(task.rail_spans + 1)))
+    stiffness = STEEL.modulus * section.inertia
+    lowest = frequencies(beam, stiffness, section.line_mass, (Mass(span / 2, mass),), count=1)[0]
+    return float(lowest) / turn
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:

@@ -22,7 +22,7 @@ from ilmek.elements.plane_frame import FrameMember, frame_frequencies
 from ilmek.elements.whirl import Mass, frequencies
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, part_id
+from ilmek.machines.automated_loom.frame import LoomFrame, part_id, rail_frequency
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.automated_loom.steady_posts import cam_beam
@@ -54,26 +54,10 @@ class FrameModes:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """The distance of each from the drives."""
-        name = max(self.drives, key=self.drives.__getitem__)
-        rows = (
-            ("frame: sway across the width", self.across, "column"),
-            ("frame: sway along the warps", self.along, "column"),
-            ("frame: heads' rail bends", self.rail, "rail"),
-            ("frame: beam of the beat bends", self.beam, "beat-post"),
-        )
-        source = f"{DISTANCE:g} times the {name}, {self.fastest:.3g} Hz; assumed by this project"
-        return tuple(
-            at_least(
-                f"{title}: natural frequency",
-                value,
-                DISTANCE * self.fastest,
-                "Hz",
-                source,
-                cure="set a slower beat, or a narrower carpet",
-                parts=(part_id(part),),
-            )
-            for title, value, part in rows
+        """The distance of each but the rail's, which its section is chosen for [`frame`], from the drives."""
+        return (
+            *_sway_checks(self.drives, self.across, self.along),
+            _frequency_check("frame: beam of the beat bends", self.beam, self.drives, "beat-post"),
         )
 
 
@@ -83,9 +67,39 @@ def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
     return FrameModes(
         across=_across(loom, frame),
         along=_along(loom, frame),
-        rail=_rail(frame),
+        rail=rail_frequency(frame.task, frame.rail),
         beam=_beat_beam(loom),
         drives=drive_frequencies(loom),
+    )
+
+
+def sway_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
+    """Whether both natural frequencies of the frame as a whole keep their distance from those of the drives."""
+    return _sway_checks(drive_frequencies(loom), _across(loom, frame), _along(loom, frame))
+
+
+def least_frequency(loom: LoomDesign) -> float:
+    """Least natural frequency that the drives of a loom allow [Hz]."""
+    return DISTANCE * max(drive_frequencies(loom).values())
+
+
+def _sway_checks(drives: Mapping[str, float], across: float, along: float) -> tuple[Check, ...]:
+    return (
+        _frequency_check("frame: sway across the width", across, drives, "column"),
+        _frequency_check("frame: sway along the warps", along, drives, "column"),
+    )
+
+
+def _frequency_check(title: str, value: float, drives: Mapping[str, float], part: str) -> Check:
+    name = max(drives, key=drives.__getitem__)
+    return at_least(
+        f"{title}: natural frequency",
+        value,
+        DISTANCE * drives[name],
+        "Hz",
+        f"{DISTANCE:g} times the {name}, {drives[name]:.3g} Hz; assumed by this project",
+        cure="set a slower beat, fewer heads, or a narrower carpet",
+        parts=(part_id(part),),
     )
 
 
@@ -100,7 +114,8 @@ def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:
     }
 
 
-def carried_masses(loom: LoomDesign) -> Iterator[tuple[float, float]]:
+@lru_cache(maxsize=4)
+def carried_masses(loom: LoomDesign) -> tuple[tuple[float, float], ...]:
     """Masses that both sides of the frame carry [kg], each with its height above the floor [m]."""
     side = loom.side
     heights = {
@@ -109,12 +124,14 @@ def carried_masses(loom: LoomDesign) -> Iterator[tuple[float, float]]:
         "tension-compensator": [(side.compensator.corner + side.compensator.size / 2).imag],
         "weft": [(side.carrier.corner + side.carrier.size / 2).imag],
     }
+    carried: list[tuple[float, float]] = []
     for name, own in heights.items():
         machine = loom.machines.get(name)
         mass = 0.0 if machine is None else sum(machine.number * part.mass_all for part in machine.parts)
-        yield from ((mass / len(own), height - side.floor) for height in own)
+        carried += [(mass / len(own), height - side.floor) for height in own]
     for one in brackets_of(loom).plates:
-        yield 2 * one.plate.volume * STEEL.density, float(one.nodes.imag.mean()) - side.floor
+        carried.append((2 * one.plate.volume * STEEL.density, float(one.nodes.imag.mean()) - side.floor))
+    return tuple(carried)
 
 
 def _member(start: int, end: int, section: HollowSquare, number: int = 1) -> FrameMember:
@@ -183,15 +200,6 @@ def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, H
     yield post_depth(loom), held.height, held.post, sum(part.mass_all for part in loom.beat.parts) / 2
     ends, rail = rail_supports(loom, frame)[0], frame.rail.line_mass * frame.task.width
     yield ends.depth, ends.height, ends.post, (loom.heads * frame.task.head_mass + rail) / (2 * frame.task.rail_spans)
-
-
-def _rail(frame: LoomFrame) -> float:
-    """The rail on its supports, the heads that find room on a span in the middle of the first."""
-    task = frame.task
-    span = task.width / task.rail_spans
-    mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
-    beam = Beam(task.width, tuple(k * span for k in range(task.rail_spans + 1)))
-    return _lowest(beam, frame.rail, Mass(span / 2, mass))
 
 
 def _beat_beam(loom: LoomDesign) -> float:

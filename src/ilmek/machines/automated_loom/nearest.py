@@ -13,9 +13,10 @@ from ilmek.carpet.sizes import SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import IlmekError
 from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
-from ilmek.machines.automated_loom.selection import design
+from ilmek.machines.automated_loom.selection import design, with_room
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import format_quantity
@@ -49,9 +50,16 @@ def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:
     """
     try:
         loom = design(params)
-        return all(check.ok for check in all_checks(loom)) and (not in_space or assembly(loom).holds)
+        if not _holds(loom) or not in_space:
+            return _holds(loom)
+        stands = with_room(loom, params)
+        return assembly(stands).holds and _holds(stands)
     except IlmekError:
         return False
+
+
+def _holds(loom: LoomDesign) -> bool:
+    return all(check.ok for check in all_checks(loom))
 
 
 def _coarser(params: AutomatedLoomParams) -> Iterator[NearestFit]:

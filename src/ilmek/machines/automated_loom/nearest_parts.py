@@ -14,7 +14,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.machines.automated_loom.bodies import beat_windows
+from ilmek.machines.automated_loom.beat_motion import beat_windows
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import branches_of, loom_tree

@@ -12,7 +12,7 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import LoomFrame, member, part_id
+from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rail_supports import rail_brackets, rail_middle, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.weaver import head_mass
@@ -30,46 +30,51 @@ RAIL = "heads' rail"
 
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
-    """What the frame carries beside the machines: axes and motor of the rail's retreat."""
+    """What the frame carries beside the machines: axes and motors of the rail's retreat."""
     return Tree((_retreat(loom, frame),))
 
 
 def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
-    """The axes of the rail's retreat at its ends and between, and their motor at an end.
+    """The axes of the rail's retreat at its ends and between; each of those at the ends has its motor.
 
-    The motor accelerates heads and rail, and lifts them: m (a + g sin) along the retreat.
+    The motors accelerate heads and rail, and lift them: m (a + g sin) along the retreat, m at an end half of the rail
+    and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
     """
     row, held = loom.row_cyclogram, rail_supports(loom, frame)
     heads, room = row.track(HEADS), loom.side.rail.size.real / 2  # the axes carry the rail beyond both ends of its run
-    mass = loom.heads * head_mass(loom.weaver) + frame.rail.line_mass * frame.task.width
+    mass = ((loom.heads + 1) * head_mass(loom.weaver) + frame.rail.line_mass * frame.task.width) / 2
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
+    chosen = smallest_motor(torque, turning)
+    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
+    wider = (chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS
+    low = heads.stroke + room
+    if not loom.beat.crank_rockers and wider > held[0].reach - ROOM:  # The motors lie before the posts.
+        low = max(low, (RAIL_AXIS / 2 + ROOM - (wider + RAIL_AXIS) / 2 * RETREAT.imag) / RETREAT.real)
     axis = Part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
         "linear axis",
         "belt drive, one at each support of the rail",
-        box(RAIL_AXIS, RAIL_AXIS, heads.stroke + 2 * room),
+        box(RAIL_AXIS, RAIL_AXIS, low + room),
         purchase=Bought("belt drive", length=heads.stroke),
         envelope=True,
     )
-    chosen = smallest_motor(torque, turning)
-    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
-    # At the upper end, above the post; wider than its axis, it reaches outwards.
-    outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
-    ends = [
+    slope, upper = -cmath.phase(RETREAT), placement(z=-room)
+    stations = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
         for own in held
         for x in own.stations
     ]
-    flange = placement(outwards, z=-room)
-    if not loom.beat.crank_rockers:  # At the lower end: the posts of vertical axes stand behind the rail.
-        flange = placement(outwards, z=heads.stroke + room, about=(1.0, 0.0, 0.0), angle=math.pi)
+    # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
+    flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
+    outwards = (placement(wider / 2), placement(-wider / 2))
+    ends = zip(stations[: len(held[0].stations)], outwards, strict=True)
     return RigidBody(
         part_id("retreat"),
         (
-            Occurrence(axis, tuple(end.after(placement(z=-room)) for end in ends)),
-            Occurrence(motor, (ends[0].after(flange),)),
+            Occurrence(axis, tuple(station.after(upper) for station in stations)),
+            Occurrence(motor, tuple(end.after(aside).after(flange) for end, aside in ends)),
         ),
     )
 

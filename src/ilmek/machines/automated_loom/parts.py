@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from itertools import chain
 
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
@@ -11,7 +12,9 @@ from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, bel
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.frame_modes import least_frequency, sway_checks
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
+from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.bill import bill
@@ -59,13 +62,22 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     machines, on_posts = tuple(_of_machines(loom)), sum(part.mass_all for part in loom.beat.parts)
-    frame = frame_for(frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
+    frame = _frame(loom, frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
     carried = (*machines, *bill(carried_tree(loom, frame)))
     own = bill(frame_tree(loom, frame, driven_axes(carried)))
     load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
     mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
     frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
     return PartsList((*carried, *bill(frame_tree(loom, frame, driven_axes(carried)))), prices, frame)
+
+
+def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
+    """The frame, with more spans of the rail where the supports of those that its parameter sets do not hold."""
+    offered = [replace(task, rail_spans=number) for number in range(task.rail_spans, 2 * task.rail_spans + 1)]
+    frames = (frame_for(own, lambda frame: sway_checks(loom, frame)) for own in offered)
+    first = next(frames)
+    held = (one for one in chain((first,), frames) if all(c.ok for own in rail_supports(loom, one) for c in own.checks))
+    return next(held, first)
 
 
 def own_tree(loom: LoomDesign) -> Tree:
@@ -102,6 +114,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         bow_limit=params.column_bow,
         room=before - behind - 2 * ROOM,
         rail_drop=_rail_drop(loom),
+        frequency=least_frequency(loom),
     )
 
 

@@ -58,7 +58,7 @@ class RailSupport:
     reach    free length of the arm [m]            load, push   on it, down and to the front [N]
     post, arm   sections                           depth    of the post's axis in the side view [m]
     axis     where the axis of the retreat begins while the heads knot, in the side view [m]
-    stations of the axes of the retreat across the width [m], that with the motor first
+    stations of the axes of the retreat across the width [m]
     """
 
     name: str

@@ -9,6 +9,7 @@ from ilmek.carpet.pile import pile_check
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
+from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
 from ilmek.machines.automated_loom.cyclogram import (
     BEATER,
     CARRIAGE,
@@ -26,7 +27,6 @@ from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.rail_supports import rail_supports
-from ilmek.machines.automated_loom.room import HORIZON, RoomFound, clearances, room_checks, room_tables
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -68,7 +68,6 @@ class LoomAnalysis:
     listed: PartsList
     energy: Energy
     beat: BeatDrive
-    room: tuple[RoomFound, ...]
 
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
@@ -88,11 +87,12 @@ class LoomAnalysis:
     knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
     warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.warps)
     warp_pitch = computed("mm", "distance of two warps", lambda it: it.loom.task.cloth.warp_pitch)
+    cloth_clearance = computed(
+        "mm",
+        "least distance of what moves in a row from warps and carpet; below 0 it is in them",
+        lambda it: min((one.value for one in cloth_clearances(it.loom)), default=HORIZON),
+    )
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.cloth.warp_tension)
-
-    @computed("mm", "least clearance of two bodies that must not touch, over both cyclograms; below 0 they collide")
-    def least_clearance(self) -> float:
-        return min((one.distance.value for one in self.room), default=HORIZON)
 
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:
@@ -105,7 +105,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = whole_list(loom)
     energy = energy_of(loom, listed.axes)
-    return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat, clearances(loom))
+    return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat)
 
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
@@ -160,7 +160,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
             replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
             for one in knot.exclusions
         ),
-        *room_checks(loom, found.room, found.listed.frame.column.side),
+        *cloth_checks(loom),
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
@@ -220,7 +220,7 @@ def _least_room(loom: LoomDesign) -> float:
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
     listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
-    return (*listed, *room_tables(found.room), *yarn_tables(found.loom))
+    return (*listed, cloth_table(found.loom), *yarn_tables(found.loom))
 
 
 def _heads_table(found: LoomAnalysis) -> Table:

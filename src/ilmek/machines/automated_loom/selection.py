@@ -2,15 +2,21 @@
 
 Kinds of beat are tried in ascending order of what the aim makes least: first by the checks of the drive alone, then in
 the whole loom, until one keeps every limit. With a deadline a quicker beat may save heads: then the price of the whole
-loom decides.
+loom decides. These checks are formulas. Where the parts of the chosen loom have no room in space, the next kind is
+tried [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
+from types import MappingProxyType
 
+from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
 from ilmek.machines.automated_loom.report import analyse, checks
-from ilmek.report import Alternative, choose
+from ilmek.report import Alternative, Check, choose
+
+_ALL: Mapping[str, tuple[Check, ...]] = MappingProxyType({})
 
 
 @lru_cache(maxsize=8)
@@ -22,12 +28,30 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     Raises LoomError where more heads are given than fit, or the shed leaves no time for the weft; CarpetError for a
     carpet without knots; the errors of the machines where their parameters contradict each other.
     """
+    return _chosen(params, _ALL)
+
+
+def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
+    """The loom, or where its parts have no room in space and its beat was left open, that with the next kind that has.
+
+    params  of the choice: with the heads of the loom, these stay
+    Where no kind has room, the loom with the beat whose heaviest failed check weighs least.
+    """
+    refused: dict[str, tuple[Check, ...]] = {}
+    while params.beat == AUTO and loom.params.beat not in refused and not assembly(loom).holds:
+        refused[loom.params.beat] = assembly(loom).checks
+        loom = _chosen(params, refused)
+    return loom
+
+
+def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
+    """The loom with the first kind of beat that keeps every limit; refused: checks in space by kinds."""
     ready = ready_loom(params)
     if len(ready.options) == 1:
         return with_beat(ready, ready.options[0])
     if params.deadline is not None and params.heads is None and params.aim == "price":
-        return _by_whole_price(ready)
-    alternatives = [Alternative(one.kind, one.checks) for one in ready.options]
+        return _by_whole_price(ready, refused)
+    alternatives = [Alternative(one.kind, (*one.checks, *refused.get(one.kind, ()))) for one in ready.options]
     looms: dict[int, LoomDesign] = {}
     for index, option in enumerate(ready.options):
         if alternatives[index].failed:
@@ -40,7 +64,7 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
     return looms.get(index) or with_beat(ready, ready.options[index], (choice,))
 
 
-def _by_whole_price(ready: ReadyLoom) -> LoomDesign:
+def _by_whole_price(ready: ReadyLoom, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The cheapest loom of those with each kind of beat, each with the heads that its deadline needs."""
     whole = sorted(
         (
@@ -50,6 +74,9 @@ def _by_whole_price(ready: ReadyLoom) -> LoomDesign:
         ),
         key=lambda one: one[:2],
     )
-    found = [Alternative(kind, (*option.checks, *checks(analyse(loom)))) for _, kind, option, loom in whole]
+    found = [
+        Alternative(kind, (*option.checks, *checks(analyse(loom)), *refused.get(kind, ())))
+        for _, kind, option, loom in whole
+    ]
     index, choice = choose("beat", found)
     return with_beat(ready, whole[index][2], (choice,))

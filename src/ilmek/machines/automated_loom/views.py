@@ -12,7 +12,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.side_view import SideView
-from ilmek.machines.automated_loom.bodies import beat_windows
+from ilmek.machines.automated_loom.beat_motion import beat_windows
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.guards import GUARDS

@@ -8,7 +8,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.linkage.solve import solve
-from ilmek.machines.automated_loom.bodies import beat_tip, beat_windows
+from ilmek.machines.automated_loom.beat_motion import beat_tip, beat_windows
 from ilmek.machines.automated_loom.cyclogram import SLIDE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import ROW, MachineTree, along_track, half_width

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.automated_loom.bodies import beat_displacement, beat_joints
+from ilmek.machines.automated_loom.beat_motion import beat_displacement, beat_joints
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -49,5 +49,5 @@ def _sinking(loom: LoomDesign) -> SceneMotion | None:
         return None
     row = loom.row_cyclogram
     angle = np.unique(np.concatenate([[0.0, turn], beat_joints(loom.beat.path, row)]))
-    down = beat_displacement(loom.beat.path, row)(angle)
+    down = beat_displacement(loom.beat.path, row, angle)
     return SceneMotion(ROW, angle, np.stack([down.real, down.imag, np.zeros(len(down))], axis=1), np.zeros(len(angle)))
