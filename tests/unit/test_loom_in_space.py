@@ -188,7 +188,7 @@ def test_what_beats_is_in_space_where_its_clearances_have_it(settings: tuple[tup
     loom, found = _made(*settings)
     names = ("beat-up/tooth", "beat-up/beater-bar") if loom.beat.name == "beat-up" else ("hammer/leaf", "hammer/bar")
     path = loom.beat.path
-    assert any(check.name.startswith("clearance: ") for check in _part(found, names[1]).checks)
+    assert any(check.name.startswith("beat: stroke") for check in _part(found, names[1]).checks)
     for angle in np.linspace(0.0, 2 * math.pi, 23):
         tip = beat_tip(path, loom.row_cyclogram, np.array([angle]))
         for name, polygon in zip(names, path.outline[:2], strict=True):

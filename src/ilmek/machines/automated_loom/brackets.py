@@ -208,8 +208,11 @@ def _of_seat(  # noqa: PLR0917
     at, seat, force = carried
     moved = at + (np.zeros(1, complex) if shift is None else shift)
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
-    radius = min(_radius(loom, moment, seat.radius), max(most, seat.side / 2))
-    nodes = np.concatenate([moved, loom.side.column + 1j * moved.imag])
+    radius, half = min(_radius(loom, moment, seat.radius), max(most, seat.side / 2)), seat.side / 2
+    # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
+    beyond = max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
+    end = moved + math.copysign(beyond, at.real - loom.side.column)
+    nodes = np.concatenate([end, loom.side.column + 1j * moved.imag])
     return Bracket(name, title, far + seat.bearing.width, nodes, radius, _bores(seat, moved), seat, force, moment)
 
 
