@@ -28,6 +28,8 @@ from ilmek.timing.track import peak_acceleration, peak_speed
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
+RETREAT_MOTOR = part_id("retreat-motor")
+
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
     """What the frame carries beside the machines: axes and motor of the rail's retreat."""
@@ -54,7 +56,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         envelope=True,
     )
     chosen = smallest_motor(torque, turning)
-    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
+    motor = catalogue.motor(RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning)
     # At the upper end, above the post; wider than its axis, it reaches outwards.
     outwards, slope = ((chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS) / 2, -cmath.phase(RETREAT)
     ends = [
@@ -98,7 +100,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
             RigidBody(
                 RAIL,
                 (Occurrence(rail, (along,)), Occurrence(axis, (before,)), *rail_brackets(loom, frame)),
-                joint=Joint(JointKind.SLIDE, motion=retreat),
+                joint=Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),
         )
