@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.tufting.design import Tufting
+from ilmek.part.freedoms import freedoms
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
 from ilmek.units import mm, turn
@@ -23,7 +24,7 @@ pytest.importorskip("mujoco", reason="mujoco is not installed")
 
 import mujoco
 from mujoco_judge import Judge
-from planted_faults import pushed
+from planted_faults import pushed, without
 
 from ilmek.io.mjcf import mjcf_text
 
@@ -107,6 +108,7 @@ def test_the_loom_follows_its_cyclograms_and_touches_nothing_but_its_joints() ->
     """Both side grippers meet in the knot: found here, 6 mm³; the comparison of meshes counts from 50 mm³ on."""
     tree, judge = _loom()
     assert judge.degrees_of_freedom() == judge.model.nu
+    assert judge.degrees_of_freedom(transmissions=True) == freedoms(tree).axes + 1  # the sprung bar beside the motors
     mujoco.mj_resetDataKeyframe(judge.model, judge.data, 0)
     assert _farthest(tree, judge, "row", 0.0) <= 0.1 * mm
     touched: set[tuple[str, str]] = set()
@@ -117,6 +119,13 @@ def test_the_loom_follows_its_cyclograms_and_touches_nothing_but_its_joints() ->
             assert _farthest(tree, judge, drive, angle) <= 0.1 * mm
     assert touched <= {("weaver/left side gripper", "weaver/right side gripper")}
     assert judge.model.body_mass.sum() == pytest.approx(tree.mass, rel=1e-6)
+
+
+def test_a_spring_less_leaves_a_degree_of_freedom_more() -> None:
+    tree, judge = _loom()
+    removed = without(tree, "weaver/sley-spring")
+    left = Judge(mjcf_text(removed, "loom", {}))
+    assert left.degrees_of_freedom(transmissions=True) == judge.degrees_of_freedom(transmissions=True) + 1
 
 
 def test_a_rail_that_is_moved_into_the_carriage_on_it_contacts_it() -> None:

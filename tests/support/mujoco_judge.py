@@ -52,9 +52,12 @@ class Judge:
             jacobian[:] = data.efc_J.reshape(data.nefc, model.nv)
         return data.efc_pos[rows].copy(), jacobian[rows]
 
-    def degrees_of_freedom(self) -> int:
-        """Joints less the rank of the closures, at the present position."""
+    def degrees_of_freedom(self, *, transmissions: bool = False) -> int:
+        """Joints less the rank of the closures, at the present position; of transmissions, too, if these are asked."""
+        if transmissions:
+            self.data.eq_active[:] = 1
         _, jacobian = self.closures()
+        self.data.eq_active[:] = self.model.eq_active0
         return int(self.model.nv - (np.linalg.matrix_rank(jacobian, tol=1e-7) if len(jacobian) else 0))
 
     def follow(self, drive: str, angle: float) -> None:

@@ -23,9 +23,9 @@ def motor_part(name: str, motor: Motor | None, torque: float, speed: float, numb
     torque, speed  required [N m, rad/s]
     """
     if motor is not None:
-        return BillLine(name, number, motor.name, "", motor.kind, motor.mass, power=motor.power, drives=True)
+        return BillLine(name, number, motor.name, "", motor.kind, motor.mass, power=motor.power, drives=1)
     required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
-    return BillLine(name, number, required, "", "servo", power=torque * speed, drives=True)
+    return BillLine(name, number, required, "", "servo", power=torque * speed, drives=1)
 
 
 def belt_motor_part(name: str, thrust: float, speed: float, number: int = 1) -> BillLine:

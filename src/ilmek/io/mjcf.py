@@ -3,13 +3,13 @@
     body        each body at each of its places, in its parent, with its inertia; the tree's y is up, as z is there
     geom        the convex pieces of its parts, which contact only what no joint holds to them
     joint       a hinge or a slide for each coordinate [`part.mobility`]; its range is not limited
-    equality    connect, weld or joint for each closure of the tree
-    actuator    a position servo for each coordinate that drives the tree: `joint`, set to the value of its motion
+    equality    connect, weld or joint for each closure of the tree; a transmission, its tangent at rest, is not active
+    actuator    a position servo for each coordinate that no active one determines: set to the value of its motion
     numeric     `DRIVE: joint`: angle of the drive [rad] and value, in turns, straight between; `period of DRIVE` [s]
     keyframe    `start`: where every drive is at 0
 
-What a cam moves has a servo of its own: its law is no polynomial of the cam's angle. Parts that are not weighed have no
-mass.
+What a transmission moves has a servo of its own: the law of a cam is no polynomial of its angle. Parts that are not
+weighed have no mass.
 [MuJoCo XML reference: https://mujoco.readthedocs.io/en/stable/XMLreference.html]
 """
 
@@ -25,11 +25,11 @@ from scipy.spatial.transform import Rotation
 
 from ilmek.arrays import FloatArray
 from ilmek.io.colours import colour_of
-from ilmek.part.mobility import BodyCoordinate, TreeMobility
+from ilmek.part.mobility import BodyCoordinate, TreeMobility, rate
 from ilmek.part.moments import Moments
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains
-from ilmek.part.tree import JointKind, RigidBody, Tree
+from ilmek.part.tree import Closure, JointKind, RigidBody, Tree
 from ilmek.units import mm, turn
 
 DEVIATION = 0.2 * mm
@@ -160,9 +160,9 @@ class _Model:
 
     def _contacts(self, contact: Element) -> None:
         """Bodies that a joint holds together do not contact each other."""
+        closed = (places for closure, *places in self.mobility.closed if not _transmits(closure))
         pairs = dict.fromkeys(
-            frozenset((self.places[first], self.places[other]))
-            for first, other in (*self._held(), *(places for _, *places in self.mobility.closed))
+            frozenset((self.places[first], self.places[other])) for first, other in (*self._held(), *closed)
         )
         for pair in pairs:
             first, other = sorted(pair)
@@ -183,6 +183,9 @@ class _Model:
 
     def _closures(self, equality: Element) -> None:
         for closure, first, other in self.mobility.closed:
+            if _transmits(closure):
+                self._transmission(equality, closure, first, other)
+                continue
             if closure.kind == JointKind.ROLLING:
                 names = (self._turning(place) for place in (other, first))
                 joints = dict(zip(("joint1", "joint2"), names, strict=True))
@@ -194,12 +197,24 @@ class _Model:
             else:
                 SubElement(equality, "connect", bodies, anchor=_text(*closure.position.origin))
 
+    def _transmission(self, equality: Element, closure: Closure, first: Chain, other: Chain) -> None:
+        numbers = self.mobility.transmission(closure, first, other)
+        if numbers is None:
+            return
+        leading, following = (self.mobility.coordinates[number][1] for number in numbers)
+        drive = leading.motion.drive if leading.motion is not None else ""
+        slope, (start, own) = rate(leading, following, drive, 0.0), (one.at(drive, 0.0) for one in (leading, following))
+        names = dict(zip(("joint2", "joint1"), (self.joints[number] for number in numbers), strict=True))
+        curve = _text(own - slope * start, slope, 0, 0, 0)
+        SubElement(equality, "joint", names, polycoef=curve, active="false")
+
     def _turning(self, chain: Chain) -> str:
         coordinates = zip(self.joints, self.mobility.coordinates, strict=True)
         return next(name for name, (own, one) in coordinates if own == chain and one.turns)
 
     def _servos(self, actuator: Element) -> None:
-        for number in self.mobility.driven:
+        active = (closure for closure in self.tree.closures if not _transmits(closure))
+        for number in TreeMobility(Tree(self.tree.bodies, tuple(active))).driven:
             chain, one = self.mobility.coordinates[number]
             stiffness = max(self._inertia(chain, one), 1e-6) * STIFF**2
             name = self.joints[number]
@@ -230,6 +245,10 @@ class _Model:
             if one.motion is not None and one.value is not None:
                 data = np.stack([one.motion.angle, one.value], axis=1)
                 SubElement(custom, "numeric", name=f"{one.motion.drive}: {name}", data=_text(*data.ravel()))
+
+
+def _transmits(closure: Closure) -> bool:
+    return closure.kind == JointKind.TRANSMISSION
 
 
 def _smaller(corners: FloatArray) -> FloatArray:

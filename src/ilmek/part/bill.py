@@ -22,6 +22,6 @@ def line_of(part: Part, number: int = 1) -> BillLine:
         mass=part.mass,
         length=bought.length if bought else 0.0,
         power=bought.power if bought else 0.0,
-        drives=bool(bought and bought.drives),
+        drives=bought.drives if bought else 0,
         part=part.id,
     )

@@ -25,17 +25,20 @@ FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
 
 
-def motor(name: str, title: str, row: Motor | None, torque: float, speed: float) -> Part:
+def motor(  # noqa: PLR0917
+    name: str, title: str, row: Motor | None, torque: float, speed: float, together: int = 1
+) -> Part:
     """A motor, which drives an axis of the control: its flange at z = 0, its shaft towards +z.
 
+    together  how many of them move one body
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     """
     if row is not None:
-        bought = Bought(row.name, row.mass, power=row.power, drives=True)
+        bought = Bought(row.name, row.mass, power=row.power, drives=together)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
         required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
-        bought = Bought(required, power=torque * speed, drives=True)
+        bought = Bought(required, power=torque * speed, drives=together)
         room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
     behind = Sum((Placed(room, (placement(z=-room.length),)),))
     return Part(name, title, kind, shape=behind, purchase=bought, envelope=True)

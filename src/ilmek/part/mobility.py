@@ -26,6 +26,12 @@ from ilmek.report.scene import SceneMotion
 _ROUNDING = 1e-9
 """Shift [m], or share of a column of the Jacobian, that counts as rounding."""
 
+_INDEPENDENT = 1e-7
+"""Length of what is left of a row of the Jacobian that counts as rounding."""
+
+_PARALLEL = 0.99
+"""Least cosine of the directions of a slide and of the transmission to it."""
+
 _PIVOT = 1e-6
 """How far a body may be from turning about a point [m]."""
 
@@ -48,6 +54,14 @@ class BodyCoordinate:
     point: Axis = (0.0, 0.0, 0.0)
     motion: SceneMotion | None = None
     value: FloatArray | None = None
+
+    def slope(self, drive: str, angle: float) -> float:
+        """Its derivative by the angle of a drive, all other drives at 0."""
+        if self.motion is None or self.value is None or self.motion.drive != drive:
+            return 0.0
+        after = int(np.clip(np.searchsorted(self.motion.angle, angle, side="right"), 1, len(self.motion.angle) - 1))
+        rise, run = np.diff(self.value[after - 1 : after + 1]), np.diff(self.motion.angle[after - 1 : after + 1])
+        return float(rise[0] / run[0])
 
     def at(self, drive: str, angle: float) -> float:
         """Its value at an angle of a drive [rad], all other drives at 0."""
@@ -137,43 +151,82 @@ class TreeMobility:
 
     @cached_property
     def closed(self) -> tuple[tuple[Closure, Chain, Chain], ...]:
-        """The closures, one for each two places of bodies that it holds together."""
+        """The closures, one for each two places of bodies that it holds together; none that lacks what keeps it."""
+        parts = {part.id for part, _ in self.tree.occurrences()}
         places: dict[str, list[Chain]] = {body.id: [] for body in self.tree.bodies}
         for chain in chains(self.tree):
             places[chain[-1].name].append(chain)
         return tuple(
             (closure, *pair)
             for closure in self.tree.closures
+            if parts.issuperset(closure.kept_by)
             for pair in _pairs(*(places[of] for of in closure.bodies))
         )
 
-    @cached_property
+    @property
     def driven(self) -> tuple[int, ...]:
         """Numbers of the coordinates that the closures leave free: the others follow."""
-        following: list[int] = []
-        for jacobian in self._jacobians():
-            moved = [column for column in reversed(range(jacobian.shape[1])) if np.abs(jacobian[:, column]).max() > 0]
-            dependent: list[int] = []
-            for column in moved:
-                if np.linalg.matrix_rank(jacobian[:, [*dependent, column]], tol=_ROUNDING * 1e2) > len(dependent):
-                    dependent.append(column)
-            following = max(following, dependent, key=len)
-        return tuple(number for number in range(len(self.coordinates)) if number not in following)
+        return left_free(self.jacobian)
 
     @property
     def degrees_of_freedom(self) -> int:
         """Number of coordinates less the rank of the closures."""
         return len(self.driven)
 
-    def _jacobians(self) -> Iterator[Float[np.ndarray, "rows coordinates"]]:
-        """What the closures require of the velocities, at generic poses."""
-        if not self.closed:
-            return
+    def transmission(self, closure: Closure, first: Chain, second: Chain) -> tuple[int, int] | None:
+        """Numbers of the coordinates of a transmission, the one that follows last; None: the second has none."""
+        (leading, *_), following = self._columns.get(first, (0,)), self._columns.get(second, ())
+        if closure.along is not None:
+            along = np.array(closure.along)
+            slides = [(number, self.coordinates[number][1]) for number in following]
+            following = tuple(number for number, one in slides if not one.turns and abs(along @ one.axis) > _PARALLEL)
+        return (leading, following[0]) if following else None
+
+    @cached_property
+    def jacobian(self) -> Float[np.ndarray, "rows coordinates"]:
+        """What the closures require of the velocities: of several generic poses the one of the greatest rank."""
         drives = {one.motion.drive for _, one in self.coordinates if one.motion is not None} or {""}
-        for drive in sorted(drives):
-            for angle in _GENERIC:
-                at = _Pose(self, drive, angle)
-                yield np.concatenate([at.rows(*closed) for closed in self.closed])
+        every = (_Pose(self, drive, angle) for drive in sorted(drives) for angle in _GENERIC)
+        none = np.zeros((0, len(self.coordinates)))
+        return max(
+            (np.concatenate([none, *(at.rows(*closed) for closed in self.closed)]) for at in every),
+            key=lambda rows: len(independent_rows(rows)),
+        )
+
+
+def rate(leading: BodyCoordinate, following: BodyCoordinate, drive: str, angle: float) -> float:
+    """Velocity of a coordinate over that of the one that it follows; 0 where that stands."""
+    first = leading.slope(drive, angle)
+    return following.slope(drive, angle) / first if first else 0.0
+
+
+def independent_rows(rows: Float[np.ndarray, "rows columns"]) -> list[int]:
+    """Numbers of the rows that no rows before them combine to: by Gram and Schmidt, each twice [Giraud 2005].
+
+    >>> independent_rows(np.array([[1.0, 0.0], [2.0, 0.0], [0.0, 0.0], [1.0, 1.0]]))
+    [0, 3]
+    """
+    base, chosen = np.empty((min(rows.shape), rows.shape[1])), list[int]()
+    for number, row in enumerate(rows):
+        known = base[: len(chosen)]
+        left = row - (row @ known.T) @ known
+        left -= (left @ known.T) @ known
+        length = float(np.linalg.norm(left))
+        if length > _INDEPENDENT and len(chosen) < len(base):
+            base[len(chosen)] = left / length
+            chosen.append(number)
+    return chosen
+
+
+def left_free(rows: Float[np.ndarray, "rows columns"]) -> tuple[int, ...]:
+    """Numbers of the columns that the others follow, as few as the rank leaves, the first ones.
+
+    >>> left_free(np.array([[1.0, -2.0, 0.0]]))
+    (0, 2)
+    """
+    last = rows.shape[1] - 1
+    following = {last - column for column in independent_rows(rows.T[::-1])}
+    return tuple(number for number in range(last + 1) if number not in following)
 
 
 def _pairs(first: list[Chain], second: list[Chain]) -> Iterator[tuple[Chain, Chain]]:
@@ -203,9 +256,18 @@ class _Pose:
             row = np.zeros((1, len(self.mobility.coordinates)))
             row[0, self._turning(second)], row[0, self._turning(first)] = 1.0, -closure.ratio
             return row
+        if closure.kind == JointKind.TRANSMISSION:
+            return self._transmitted(closure, first, second)
         point = self.place(first).points(closure.position.origin)
         moved = self._velocities(second, point) - self._velocities(first, point)
         return np.asarray(moved if closure.kind == JointKind.FIXED else moved[:3])
+
+    def _transmitted(self, closure: Closure, first: Chain, second: Chain) -> Float[np.ndarray, "1 coordinates"]:
+        row, numbers = np.zeros((1, len(self.mobility.coordinates))), self.mobility.transmission(closure, first, second)
+        if numbers is not None:
+            leading, following = (self.mobility.coordinates[number][1] for number in numbers)
+            row[0, numbers[1]], row[0, numbers[0]] = 1.0, -rate(leading, following, self.drive, self.angle)
+        return row
 
     def _turning(self, chain: Chain) -> int:
         all_of_them = self.mobility.coordinates

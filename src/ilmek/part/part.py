@@ -22,14 +22,14 @@ class Bought:
 
     row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where the price depends on them
-    drives  whether it drives an axis of the control
+    drives  how many of them drive an axis of the control together; 0: it is no motor
     """
 
     row: str
     mass: float = math.nan
     length: float = 0.0
     power: float = 0.0
-    drives: bool = False
+    drives: int = 0
 
 
 @record

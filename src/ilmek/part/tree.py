@@ -32,6 +32,7 @@ class JointKind(StrEnum):
     SLIDE = "slide"
     SCREW = "screw"
     ROLLING = "rolling"
+    TRANSMISSION = "transmission"
     CAM = "cam and follower"
     MISSING = "missing"
     """Nothing holds the body yet: its support is not designed."""
@@ -44,12 +45,16 @@ class Joint:
     axis    in the body's frame: of a pin, along a slide          motion  what drives it; None: it stands, or hangs free
     seats   seat of the body and seat of the parent, or of a body that moves on the same parent about the same axis,
             that meet in it, each `part id:seat`; none where it is not designed
+    motor    id of the part that drives it, directly or by a reducer, belt or screw
+    passive  why nothing has to drive it: what holds it, in words
     """
 
     kind: JointKind = JointKind.FIXED
     axis: Axis = (0.0, 0.0, 1.0)
     motion: SceneMotion | None = None
     seats: tuple[str, ...] = ()
+    motor: str = ""
+    passive: str = ""
 
 
 @record
@@ -89,16 +94,21 @@ class RigidBody:
 class Closure:
     """A joint that closes a loop: it holds two bodies together, and carries neither.
 
-    kind    pin; fixed; or rolling: the second body turns against its parent `ratio` times as far as the first
+    kind    pin; fixed; rolling: the second body turns against its parent `ratio` times as far as the first; or a
+            transmission: the second follows the first by the law that their motions state (cam, slot, rack, magnets)
     bodies  ids: those there as often as one another are held one to one, one is held to all of many, and of a body with
             itself the first to all others
     position  of the joint's frame in the first body's
+    kept_by  ids of the parts without which nothing keeps them together: the spring of a cam's follower, magnets
+    along    of a transmission: direction of the slide that follows; default: the body has one coordinate
     """
 
     kind: JointKind
     bodies: tuple[str, str]
     position: Placement = IDENTITY
     ratio: float = 1.0
+    kept_by: tuple[str, ...] = ()
+    along: Axis | None = None
 
 
 @record

@@ -12,7 +12,7 @@ class BillLine:
 
     kind    by which it is priced                  mass    of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where its price depends on them
-    drives  whether it drives an axis of the control        part    id of the part in the machine's tree; "": in none
+    drives  how many drive an axis together; 0: none           part    id of the part in the machine's tree; "": in none
     """
 
     name: str
@@ -23,7 +23,7 @@ class BillLine:
     mass: float = NOT_WEIGHED
     length: float = 0.0
     power: float = 0.0
-    drives: bool = False
+    drives: int = 0
     part: str = ""
 
     @property

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.nearest_parts import (
     MIDDLE,
@@ -15,7 +16,7 @@ from ilmek.machines.automated_loom.nearest_parts import (
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
-from ilmek.part.mobility import TreeMobility
+from ilmek.part.freedoms import Freedoms, freedoms
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -25,6 +26,12 @@ NEAREST = 10
 """Pairs of parts that are reported."""
 
 _STANDING = "at all angles"
+
+
+@lru_cache(maxsize=4)
+def freedoms_of(loom: LoomDesign) -> Freedoms:
+    """The degrees of freedom of a loom beside its motors."""
+    return freedoms(loom_tree(loom))
 
 
 @record
@@ -56,8 +63,11 @@ class LoomAssembly:
     )
     degrees_of_freedom = computed(
         "1",
-        "coordinates of all bodies, less those that closed loops determine",
-        lambda it: TreeMobility(loom_tree(it.loom)).degrees_of_freedom,
+        "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
+        lambda it: freedoms_of(it.loom).number,
+    )
+    passive_bodies = computed(
+        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms_of(it.loom).passive)
     )
 
     @computed(
@@ -135,6 +145,7 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
             parts=tuple(dict.fromkeys(loose)),
         ),
         _joints(whole.loom),
+        *drive_checks(loom_tree(whole.loom)),
         _closed(whole.loom),
         *_too_near(whole, titles),
     )

@@ -28,6 +28,8 @@ from ilmek.timing.track import peak_acceleration, peak_speed
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
+RETREAT_MOTOR = part_id("retreat-motor")
+
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
     """What the frame carries beside the machines: axes and motors of the rail's retreat."""
@@ -46,7 +48,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     chosen = smallest_motor(torque, turning)
-    motor = catalogue.motor(part_id("retreat-motor"), "motor of the rail's retreat", chosen, torque, turning)
+    motor = catalogue.motor(RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning, together=2)
     wider = (chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS
     low = heads.stroke + room
     if not loom.beat.crank_rockers and wider > held[0].reach - ROOM:  # The motors lie before the posts.
@@ -103,7 +105,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
             RigidBody(
                 RAIL,
                 (Occurrence(rail, (along,)), Occurrence(axis, (before,)), *rail_brackets(loom, frame)),
-                joint=Joint(JointKind.SLIDE, motion=retreat),
+                joint=Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR),
                 positions=(placement(0.0, middle.imag, middle.real),),
             ),
         )

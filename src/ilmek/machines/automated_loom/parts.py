@@ -39,7 +39,12 @@ class PartsList:
     prices: Mapping[str, PriceRates]
     frame: LoomFrame = group()
 
-    axes = computed("1", "axes that a motor drives", lambda it: driven_axes(it.parts), name="driven_axes")
+    axes = computed(
+        "1",
+        "axes that motors drive; several on one body drive one axis",
+        lambda it: sum(part.number // part.drives for part in it.parts if part.drives),
+        name="driven_axes",
+    )
     mass = computed(
         "kg",
         "mass of all parts but reducers, rails and control",
@@ -52,8 +57,8 @@ class PartsList:
     )
 
 
-def driven_axes(parts: tuple[BillLine, ...]) -> int:
-    """Axes of the control: the motors of a parts list."""
+def motors(parts: tuple[BillLine, ...]) -> int:
+    """Motors of a parts list, each with an amplifier."""
     return sum(part.number for part in parts if part.drives)
 
 
@@ -64,11 +69,11 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     machines, on_posts = tuple(_of_machines(loom)), sum(part.mass_all for part in loom.beat.parts)
     frame = _frame(loom, frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
     carried = (*machines, *bill(carried_tree(loom, frame)))
-    own = bill(frame_tree(loom, frame, driven_axes(carried)))
+    own = bill(frame_tree(loom, frame, motors(carried)))
     load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
     mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
     frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
-    return PartsList((*carried, *bill(frame_tree(loom, frame, driven_axes(carried)))), prices, frame)
+    return PartsList((*carried, *bill(frame_tree(loom, frame, motors(carried)))), prices, frame)
 
 
 def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
@@ -83,7 +88,9 @@ def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
 def own_tree(loom: LoomDesign) -> Tree:
     """The loom's own bodies that are in none of its machines."""
     listed = parts_of_loom(loom)
-    return Tree((*carried_tree(loom, listed.frame).bodies, *frame_tree(loom, listed.frame, listed.axes).bodies))
+    return Tree(
+        (*carried_tree(loom, listed.frame).bodies, *frame_tree(loom, listed.frame, motors(listed.parts)).bodies)
+    )
 
 
 def built_side(loom: LoomDesign) -> SideView:

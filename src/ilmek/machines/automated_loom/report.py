@@ -25,7 +25,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_ta
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
-from ilmek.machines.automated_loom.parts import PartsList
+from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
@@ -104,7 +104,7 @@ class LoomAnalysis:
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = whole_list(loom)
-    energy = energy_of(loom, listed.axes)
+    energy = energy_of(loom, motors(listed.parts))
     return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat)
 
 

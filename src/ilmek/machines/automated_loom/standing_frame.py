@@ -29,6 +29,9 @@ CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
 
+AMPLIFIER = part_id("control-axis")
+"""Id of the amplifier of a motor, with its cable and switch."""
+
 _LEAST = 0.05 * mm
 """Thinner spacers are left out [m]."""
 
@@ -181,7 +184,7 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
     control = Part(part_id("control"), "control", "control", shape=shape, purchase=Bought("cabinet"), envelope=True)
     module = Part(
-        part_id("control-axis"),
+        AMPLIFIER,
         "axis of the control",
         "axis of the control",
         "amplifier, cable, switch",

@@ -39,6 +39,9 @@ from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
+MOTOR = "beat-up/motor"
+"""Id of the motor of the crank."""
+
 CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0)
 """Torques of clutches and brakes to choose from [N m], each twice the one before: usual sizes."""
 
@@ -222,7 +225,7 @@ def _geared(found: CrankStart) -> Iterator[Part]:
     if reducer.ratio != 1:
         yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer.ratio, row)
     speed = found.duty.linkage.params.speed
-    yield catalogue.motor("beat-up/motor", "motor of the beat-up", row, found.start_torque, speed)
+    yield catalogue.motor(MOTOR, "motor of the beat-up", row, found.start_torque, speed)
 
 
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:

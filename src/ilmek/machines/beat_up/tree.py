@@ -36,11 +36,12 @@ from ilmek.machines.beat_up.carriage import (
     shared_drive,
     slide_block,
 )
+from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
 from ilmek.machines.beat_up.crank_start import CrankStart, start_parts
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.parts import link_parts, pin_part
-from ilmek.machines.beat_up.travel import slide_length, travel_parts
+from ilmek.machines.beat_up.travel import MOTOR, slide_length, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.link_tree import GAP, JOURNAL
 from ilmek.part.link_motion import carriers, closures
@@ -86,7 +87,9 @@ def travelling(
     on_block = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE + BLOCK_HEIGHT / 2)
     block = _in_loom(design, Occurrence(slide_block()), on_block, plate_begin(design) - BLOCK_LENGTH)
     parts = (*on_slide(design, high, start_parts(use.start)), block)
-    carriage = RigidBody(CARRIAGE, parts, rail.id, Joint(JointKind.SLIDE, _Z), (placement(z=start - shift),))
+    carriage = RigidBody(
+        CARRIAGE, parts, rail.id, Joint(JointKind.SLIDE, _Z, motor=MOTOR), (placement(z=start - shift),)
+    )
     bodies = Tree((rail, carriage, *crank_rockers(design, CARRIAGE, beater=across.beater)), loops(design))
     return bodies.moving(motions or {})
 
@@ -131,9 +134,8 @@ def crank_rockers(
     def body(link: str, on: str, joined: str, positions: Sequence[Placement], *others: Occurrence) -> RigidBody:
         part = links[link]
         seats = (f"{part.id}:{joined}", f"{pin.id}:{JOURNAL}")
-        return RigidBody(
-            part.id, (Occurrence(part, (flat,)), *others), on, Joint(JointKind.PIN, _Z, seats=seats), tuple(positions)
-        )
+        joint = Joint(JointKind.PIN, _Z, seats=seats, motor=CRANK_MOTOR if link == "crank" else "")
+        return RigidBody(part.id, (Occurrence(part, (flat,)), *others), on, joint, tuple(positions))
 
     def pinned(length: str, depth: float) -> Occurrence:
         """The pin at the end of a link, from the plane of the rocker or of the coupler on."""

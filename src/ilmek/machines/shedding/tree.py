@@ -83,7 +83,10 @@ def _of_shaft(
         (position,),
     )
     return standing, RigidBody(
-        part_id("cam shaft", index), tuple(_turning(design, index)), standing.id, replace(pin, seats=())
+        part_id("cam shaft", index),
+        tuple(_turning(design, index)),
+        standing.id,
+        replace(pin, motor=part_id("motor", index)),
     )
 
 

@@ -195,7 +195,7 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
             Occurrence(parts.spring_pin, _places([at.reach], at.stations, -wide / 2)),
             Occurrence(parts.eye, _places([at.reach], _spring_stations(at), turned=-at.along)),
         ),
-        joint=Joint(JointKind.PIN, motion=motion),
+        joint=Joint(JointKind.PIN, motion=motion, passive="its springs hold it against the warps"),
         positions=(_along(at.sprung.lever.pivot),),
     )
 

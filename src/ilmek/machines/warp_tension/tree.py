@@ -77,7 +77,7 @@ def _bodies(
             part_id(f"{name} cylinder"),
             (Occurrence(shell, (placement(z=-params.span / 2),)), Occurrence(end, sides)),
             GROUND,
-            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore")),
+            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore"), motor=driving.id),
             (position,),
         ),
         RigidBody(

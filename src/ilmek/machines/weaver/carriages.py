@@ -198,6 +198,11 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     yield from jaw_springs(weaver, CENTRE_GRASP)
 
 
+def screw_id(name: str) -> str:
+    """Id of the screw that turns a side gripper, by the id of its body."""
+    return part_id(f"{'left' if name == LEFT else 'right'}-screw")
+
+
 def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
     """The twisted bar of a side gripper, in its frame: at each travel its section in the nut is level."""
     by, shape = weaver.grippers, weaver.shape
@@ -205,7 +210,7 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
     straight = shape.partition + PARTITION + NUT / 2 - begin + by.opening
     stations = (0.0, straight, straight + by.crossing, straight + by.crossing + 2 * NUT)
     part = Part(
-        part_id(f"{'left' if hand < 0 else 'right'}-screw"),
+        screw_id(name),
         f"{'left' if hand < 0 else 'right'} side gripper's twisted bar",
         "machined link",
         f"square {_mm(SCREW)}",

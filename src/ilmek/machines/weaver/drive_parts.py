@@ -25,6 +25,7 @@ from ilmek.part.shapes import Prism, bar, box, tube
 from ilmek.part.tree import Occurrence
 from ilmek.units import format_quantity, mm
 
+COLOUR_MOTOR, TIER_MOTOR = part_id("colour-motor"), part_id("tier-motor")
 CAM_BELT, CAM_PULLEY, SMALL_PULLEY, STUB = (
     part_id("cam-belt"),
     part_id("cam-pulley"),
@@ -115,10 +116,10 @@ def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:
     shape = weaver.shape
     chosen, under = selector_of(weaver.params, weaver.magazine), shape.magazine + shape.magazine_size.real / 2
     flange = shape.rail + RAIL_AXIS / 2 + chosen.length
-    colours = [("colour-motor", "motor of the colours"), ("tier-motor", "motor of the tiers")]
+    colours = [(COLOUR_MOTOR, "motor of the colours"), (TIER_MOTOR, "motor of the tiers")]
     two = weaver.magazine.tiers > 1
     for number, (name, title) in enumerate(colours[: 2 if two else 1]):
-        part = catalogue.motor(part_id(name), title, chosen.stepper, chosen.torque, chosen.speed)
+        part = catalogue.motor(name, title, chosen.stepper, chosen.torque, chosen.speed)
         x = (2 * number - 1) * chosen.face / 2 if two else 0.0
         yield Occurrence(part, (_upright(x, flange, under.real),))
 

@@ -139,6 +139,11 @@ def rocker_id(track: str) -> str:
     return part_id(f"{track.replace(' ', '-')}-rocker")
 
 
+def wire_id(track: str) -> str:
+    """Id of the wire of the jaws of a track."""
+    return part_id("side-wire" if track == SIDE_GRASP else "centre-wire")
+
+
 def collar_body(name: str) -> str:
     """Id of the body of the collar on a gripper."""
     return f"{name}'s collar"
@@ -228,7 +233,7 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
     return (
         Part(part_id(f"{kind}-collar"), title, "turned part", _mm(FLANGE), ring, STEEL),
         Part(
-            part_id(f"{kind}-wire"),
+            wire_id(track),
             f"wire of the {kind} jaws",
             "pin or bush",
             _mm(wire),

@@ -4,7 +4,7 @@ Axes of the scene: x along the row, 0 in the middle of the head, y up from the f
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,23 +13,24 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.drive_parts import cam_drive, colour_motors, shaft_pulley
+from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR, TIER_MOTOR, cam_drive, colour_motors, shaft_pulley
 from ilmek.machines.weaver.followers import follower_bodies, guide
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import jaw_bodies
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
 from ilmek.machines.weaver.magazine_parts import magazine_parts
-from ilmek.machines.weaver.parts import cam_id, case_parts, shaft_parts
+from ilmek.machines.weaver.parts import MOTOR, cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.transmissions import CAM_SHAFT, transmissions
 from ilmek.machines.weaver.turning import turning_bodies
 from ilmek.part import catalogue
 from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.units import mm, turn
 
-HEAD, CAM_SHAFT, MAGAZINE = part_id("head"), part_id("turning cam shaft"), part_id("magazine")
-CARRIAGE = part_id("drive of the carriage")
-"""Ids of bodies."""
+HEAD, MAGAZINE, LIFT = part_id("head"), part_id("magazine"), part_id("lift of the magazine")
+CARRIAGE, CARRIAGE_MOTOR = part_id("drive of the carriage"), part_id("carriage-motor")
+"""Ids of bodies, and of the motor of a carriage."""
 
 BEFORE_MAGAZINE = 5 * mm
 """Between the magazine and the motor of a carriage [m]; assumed by this project."""
@@ -45,13 +46,12 @@ def tree(weaver: Weaver) -> Tree:
 
 def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placement]) -> Tree:
     """The tree of a loom's heads, and of the motors of their carriages, each at its places."""
-    first, *others = head_tree(weaver).bodies
+    head = head_tree(weaver)
+    first, *others = head.bodies
     torque, turning = _carriage_drive(weaver)
-    motor = catalogue.motor(
-        part_id("carriage-motor"), "motor of a carriage", smallest_motor(torque, turning), torque, turning
-    )
+    motor = catalogue.motor(CARRIAGE_MOTOR, "motor of a carriage", smallest_motor(torque, turning), torque, turning)
     drive = RigidBody(CARRIAGE, (Occurrence(motor),), positions=tuple(drives))
-    return Tree((replace(first, positions=tuple(heads)), *others, drive))
+    return head.replaced((replace(first, positions=tuple(heads)), *others, drive))
 
 
 def _carriage_drive(weaver: Weaver) -> tuple[float, float]:
@@ -90,13 +90,13 @@ def head_tree(weaver: Weaver) -> Tree:
             RigidBody(
                 HEAD,
                 (*case, *stands, *cam_drive(weaver), *colour_motors(weaver)),
-                joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)),
+                joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motor=CARRIAGE_MOTOR),
             ),
             RigidBody(
                 CAM_SHAFT,
                 (*shaft_parts(weaver), shaft_pulley(weaver)),
                 HEAD,
-                Joint(JointKind.PIN),
+                Joint(JointKind.PIN, motor=MOTOR),
                 (about.after(upright),),
             ),
             *follower_bodies(weaver, HEAD),
@@ -104,9 +104,20 @@ def head_tree(weaver: Weaver) -> Tree:
             *tools,
             *(() if weaver.params.with_arms else jaw_bodies(weaver)),
             *turning_bodies(weaver, HEAD),
-            RigidBody(MAGAZINE, tuple(magazine_parts(weaver)), HEAD, Joint(JointKind.PIN, (0.0, 1.0, 0.0))),
-        )
+            *_magazine(weaver),
+        ),
+        tuple(transmissions(weaver)),
     )
+
+
+def _magazine(weaver: Weaver) -> Iterator[RigidBody]:
+    """The magazine, which turns; of several tiers on what lifts it."""
+    upright, carrier = (0.0, 1.0, 0.0), HEAD
+    if weaver.magazine.tiers > 1:
+        yield RigidBody(LIFT, (), HEAD, Joint(JointKind.SLIDE, upright, motor=TIER_MOTOR))
+        carrier = LIFT
+    turning = Joint(JointKind.PIN, upright, motor=COLOUR_MOTOR)
+    yield RigidBody(MAGAZINE, tuple(magazine_parts(weaver)), carrier, turning)
 
 
 @lru_cache(maxsize=32)

@@ -12,7 +12,7 @@ from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide, guide_of_he
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
 from ilmek.machines.weft.axis import BELT_DENSITY, BeltAxis
-from ilmek.machines.weft.carriers import AXIS, BOX, CARRIAGE, MOTOR, along, magnet, magnet_positions, part_id
+from ilmek.machines.weft.carriers import AXIS, BOX, BOX_MOTOR, CARRIAGE, MOTOR, along, magnet, magnet_positions, part_id
 from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
@@ -231,7 +231,7 @@ class ShuttleGuide:
         radius = self.axis.pulley_radius
         torque, turning = force * radius, SHIFT_SPEED / radius
         row = smallest_motor(torque, turning, STEPPER)
-        motor = catalogue.motor(part_id("box-motor"), "motor of a box", row, torque, turning)
+        motor = catalogue.motor(BOX_MOTOR, "motor of a box", row, torque, turning)
         down = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
         places = (placement(side * x, high, self.front + deep / 2).after(down) for side in (-1, 1))
         yield Occurrence(motor, tuple(places))

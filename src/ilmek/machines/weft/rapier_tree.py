@@ -22,8 +22,10 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
 
-RAPIER_BODY = part_id("rapier with its carriage")
-"""Id of the body that moves."""
+RAPIER_BODY, EDGE_MOTOR = part_id("rapier with its carriage"), part_id("edge-motor")
+"""Ids of the body that moves, and of the motor of a device at an edge."""
+
+Place = tuple[int, int]
 
 CUTTER, SELECTOR, TUCKER = 0.3, 0.2, 0.5
 """Masses of a weft cutter, of the fingers of the selector and of a tuck-in needle [kg]; assumed by this project."""
@@ -97,10 +99,11 @@ class RapierSide:
             Occurrence(jaws, (along(-made.gripper),)),
             Occurrence(clamp, (placement(0.0, self.low + 1.5 * SIDE).after(along(far)),)),
         )
-        slide = Joint(JointKind.SLIDE, (1.0, 0.0, 0.0))
+        slide = Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motor=MOTOR)
         yield RigidBody(RAPIER_BODY, parts, joint=slide, positions=(placement(self.rest),))
         yield RigidBody(part_id("belt axis"), tuple(self._axis()))
-        yield RigidBody(part_id("devices at the edges"), (*self._devices(), *self._plates()))
+        yield from self._devices()
+        yield RigidBody(part_id("devices at the edges"), (*self._standing(), *self._plates()))
 
     def _axis(self) -> Iterator[Occurrence]:
         """The belt axis, and its drive upright below its far end."""
@@ -121,16 +124,26 @@ class RapierSide:
         driving = catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)
         yield Occurrence(driving, (_upright(left, low),))
 
-    def _devices(self) -> Iterator[Occurrence]:
-        """Cutters, tuck-in needles with their axes, selector, and the motors of all of them, before the plates."""
+    def _devices(self) -> Iterator[RigidBody]:
+        """Cutters, tuck-in needles and selector before the plates, each moved by a motor below it."""
+        size = box(SIDE, SIDE, SIDE)
+
+        def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *places: Place) -> RigidBody:
+            part = _bought(names, "machined link", size, Bought(names[1], mass))
+            return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*places))
+
+        shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)
+        along = Joint(JointKind.SLIDE, motor=EDGE_MOTOR)
+        cutter, needle = (part_id("cutter"), "weft cutter"), (NEEDLE, "tuck-in needle")
+        selector = part_id("selector"), "weft selector"
+        yield device("turning cutters", (*cutter, "one at each edge"), CUTTER, shear, (-1, 0), (1, 0))
+        yield device("needles at the edges", (*needle, "one at each edge"), TUCKER, along, (-1, 1), (1, 1))
+        yield device("fingers of the selector", (*selector, "two fingers"), SELECTOR, shear, (1, 3))
+
+    def _standing(self) -> Iterator[Occurrence]:
+        """The axes of the needles, and the motors of all devices."""
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
-        title = "motor of selector, cutters and needles"
-        motor = catalogue.motor(part_id("edge-motor"), title, row, AUXILIARY, 0.0)
-        front, size = self.plate_back + PLATE, box(SIDE, SIDE, SIDE)
-
-        def device(name: str, title: str, text: str, mass: float) -> Part:
-            return _bought((name, title, text), "machined link", size, Bought(title, mass))
-
+        motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
         slide = _bought(
             (part_id("needle-axis"), "axis of a tuck-in needle", "along the edge"),
@@ -138,19 +151,14 @@ class RapierSide:
             box(SIDE, SIDE, long),
             Bought("slide", length=2 * self.params.turn),
         )
-
-        def beside(*places: tuple[int, int], high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
-            """At an edge, -1 left, 1 right, as the device of a number from the cloth on."""
-            return tuple(
-                _upright(side * (self.edge + number * PITCH), high, front + depth / 2) for side, number in places
-            )
-
-        yield Occurrence(device(part_id("cutter"), "weft cutter", "one at each edge", CUTTER), beside((-1, 0), (1, 0)))
-        yield Occurrence(device(NEEDLE, "tuck-in needle", "one at each edge", TUCKER), beside((-1, 1), (1, 1)))
-        yield Occurrence(slide, beside((-1, 2), (1, 2), high=SIDE / 2 - long))
-        yield Occurrence(device(part_id("selector"), "weft selector", "two fingers", SELECTOR), beside((1, 3)))
+        yield Occurrence(slide, self._beside((-1, 2), (1, 2), high=SIDE / 2 - long))
         places = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
-        yield Occurrence(motor, beside(*places, depth=row.face if row else catalogue.SPECIAL_FACE))
+        yield Occurrence(motor, self._beside(*places, depth=row.face if row else catalogue.SPECIAL_FACE))
+
+    def _beside(self, *places: Place, high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
+        """Before the plates at an edge, -1 left, 1 right, as the device of a number from the cloth on."""
+        z = self.plate_back + PLATE + depth / 2
+        return tuple(_upright(side * (self.edge + number * PITCH), high, z) for side, number in places)
 
     def _plates(self) -> Iterator[Occurrence]:
         """The plates, from below the axis to the devices."""

@@ -9,6 +9,10 @@ from functools import lru_cache
 
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.carriers import (
+    BOX,
+    BOX_MOTOR,
+    MAGNET,
+    MOTOR,
     along,
     bobbin,
     fittings,
@@ -25,7 +29,7 @@ from ilmek.machines.weft.rapier_tree import RapierSide
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.records import record
 
 STRAIGHT, SINUOUS = part_id("shuttle of the straight weft"), part_id("shuttle of the sinuous weft")
@@ -90,11 +94,11 @@ class WeftBodies:
         half = guide.stroke / 2
         yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, made)))
         for name, side in ((LEFT_BOX, -1), (RIGHT_BOX, 1)):
-            shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0))
+            shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0), motor=BOX_MOTOR)
             yield RigidBody(name, (Occurrence(cells, (guide.box_position(side),)),), joint=shifted)
         yield _sliding(STRAIGHT, tuple(parts), placement(-half))
         yield _sliding(SINUOUS, tuple(parts), placement(half, guide.pitch))
-        yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half))
+        yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half), MOTOR)
 
     def _spare(self, core: Part, made: Shuttle) -> Occurrence:
         """A wound bobbin for each shuttle, for the next change: on the ends of the bar, behind the boxes."""
@@ -107,8 +111,13 @@ class WeftBodies:
 @lru_cache(maxsize=16)
 def _tree(made: WeftBodies) -> Tree:
     """The tree, made once for a design."""
-    return Tree(tuple(made.bodies()))
+    across, up = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
+    shuttles = (STRAIGHT, SINUOUS) if isinstance(made.carried, Shuttle) else ()
+    # The magnets draw a shuttle along; the guide, and at the right edge the box, hold its height.
+    drawn = (Closure(JointKind.TRANSMISSION, (DRAGGING, one), kept_by=(MAGNET,), along=across) for one in shuttles)
+    held = (Closure(JointKind.TRANSMISSION, (RIGHT_BOX, one), kept_by=(BOX,), along=up) for one in shuttles)
+    return Tree(tuple(made.bodies()), (*drawn, *held))
 
 
-def _sliding(name: str, parts: tuple[Occurrence, ...], start: Placement) -> RigidBody:
-    return RigidBody(name, parts, joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)), positions=(start,))
+def _sliding(name: str, parts: tuple[Occurrence, ...], start: Placement, motor: str = "") -> RigidBody:
+    return RigidBody(name, parts, joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motor=motor), positions=(start,))

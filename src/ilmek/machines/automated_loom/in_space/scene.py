@@ -16,11 +16,14 @@ from ilmek.machines.automated_loom.in_space.machines import joined, machine_bran
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
 from ilmek.machines.automated_loom.in_space.standing import carpet_roll
 from ilmek.machines.automated_loom.in_space.weft import wefts
+from ilmek.machines.beat import GUIDED
+from ilmek.machines.hammer.tree import COMB
+from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import warp_shafts
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
-from ilmek.part.tree import GROUND, RigidBody, Tree
+from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, SceneWarps
 from ilmek.timing.track import sample
@@ -92,7 +95,12 @@ def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
 @lru_cache(maxsize=4)
 def loom_tree(loom: LoomDesign) -> Tree:
     """All bodies of a loom in the axes of the scene, with their motions."""
-    return joined(branches_of(loom))
+    whole = joined(branches_of(loom))
+    if loom.params.beat != GUIDED:
+        return whole
+    # The comb hangs on the vertical axes with the cam system, which sinks with it.
+    sinking = (Closure(JointKind.TRANSMISSION, (COMB, part_id("stand", index))) for index in range(len(loom.side.cams)))
+    return Tree(whole.bodies, (*whole.closures, *sinking))
 
 
 def _held(body: RigidBody) -> SceneBody:

@@ -15,7 +15,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
 )
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
-from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.parts import motors, parts_of_loom
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
@@ -33,7 +33,7 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     turned = tuple(body for body in warps if body.joint.kind is JointKind.PIN)
     beside = tuple(body for body in warps if body not in turned)
     return (
-        MachineTree("automated-loom", frame_tree(loom, listed.frame, listed.axes, retreat)),
+        MachineTree("automated-loom", frame_tree(loom, listed.frame, motors(listed.parts), retreat)),
         MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
         MachineTree("warp-tension", Tree(turned), deviations=(COARSE,)),
         MachineTree("warp-tension", Tree(beside)),  # finer: screws in their holes
