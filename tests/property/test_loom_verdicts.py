@@ -95,7 +95,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
         {
             "opener: points between two warps": lambda _: (math.nan, 0.25 * mm - warp_diameter(29.525)),
             "thickness of a(?: guide)? cam": lambda _: (0.25 * mm / 2, math.nan),
-            "groove of a warp between guide cams": lambda _: (0.25 * mm / 2, warp_diameter(29.525)),
+            "groove against warp": lambda _: (0.25 * mm / 2 - 0.02 * mm, warp_diameter(29.525)),
+            "cam stack": None,  # nothing is left of a guide cam for shims
             "yarn path: tension of the yarn": None,  # a yarn so fine bears less than the pull of the head
         },
     ),
@@ -108,7 +109,7 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
         {"beat": "comb", "yarns.warp_diameter": "2.2mm"},
         {
             "warps beside each other": lambda _: (2.2 * mm, 2 * mm),
-            "opener|land between slots|warp in its slot|groove of a warp|Hertz|motor|clearance|cam": None,
+            "opener|land between slots|warp in its slot|groove against warp|Hertz|motor|clearance|cam": None,
         },
     ),
     (

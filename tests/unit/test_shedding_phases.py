@@ -85,7 +85,13 @@ def test_more_groups_than_cams_of_a_parity() -> None:
 
 def test_plates_of_the_groups_have_their_bores_turned() -> None:
     plates = MACHINE.report(made(phase="staggered", stagger=20 * deg)).plates
-    assert [plate.name for plate in plates] == ["shedding-cam-1", "shedding-cam-2", "guide-cam", "clamping-nut"]
-    assert [plate.number for plate in plates] == [300, 300, 601, 2]
+    assert [(plate.name, plate.number) for plate in plates] == [
+        ("shedding-cam-1", 300),
+        ("shedding-cam-2", 300),
+        ("guide-cam", 516),
+        ("thin-guide-cam", 85),
+        ("shims", 85),
+        ("clamping-nut", 2),
+    ]
     corners = [complex(plate.cutouts[0].points[0]) for plate in plates[:2]]
     assert np.angle(corners[1] / corners[0]) == pytest.approx(20 * deg)

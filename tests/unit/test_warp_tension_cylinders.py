@@ -18,7 +18,7 @@ from ilmek.elements.yarns import usual_warp_density
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.analysis import history, tension_of
-from ilmek.machines.warp_tension.cylinders import cylinders, slots_of, spacer_load, stub_stress, tension_beyond
+from ilmek.machines.warp_tension.cylinders import cylinders, shaft_end, slots_of, spacer_load, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube, worst_load
 from ilmek.units import deg, mm, turn
 from ilmek.weaving.shed import shed_lengthening
@@ -141,7 +141,7 @@ def test_a_wide_loom_takes_larger_bearings_and_small_ones_fail() -> None:
 
 def test_stress_of_a_shaft_end() -> None:
     bending, twisting = 32 * 4500 * 0.04 / (math.pi * 0.035**3), 16 * 630 / (math.pi * 0.035**3)
-    assert stub_stress(usual().params, 4500.0, 630.0, 0.035) == pytest.approx(
+    assert shaft_end(usual().params, 4500.0, 630.0, 0.035).stress == pytest.approx(
         math.hypot(bending, math.sqrt(3) * twisting)
     )
 

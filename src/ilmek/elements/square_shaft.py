@@ -18,6 +18,7 @@ from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.sections import square_section
+from ilmek.elements.shoulders import Shoulder
 from ilmek.elements.whirl import uniform_speed
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json
@@ -86,14 +87,22 @@ class ShaftLoads:
 class ShaftBearings:
     """The bearings of the shaft.
 
-    bearing  the one chosen      life  of it [s], 90 % of them reach it
+    bearing   the one chosen      life  of it [s], 90 % of them reach it
+    shoulder  of the driven journal in it, with the safety
     """
 
     reaction: float = result("N", "load of the most loaded bearing, without the safety", name="bearing_load")
     journal: float = result("mm", "least diameter of the journal, in torsion", least=0.0)
     bearing: RollingBearing
     life: float
+    shoulder: Shoulder
 
+    journal_stress = computed(
+        "MPa", "stress of the driven journal [von Mises], with the safety", lambda it: it.shoulder.stress
+    )
+    journal_endurance = computed(
+        "1", "safety of its shoulder against fatigue, besides that of the load", lambda it: it.shoulder.safety
+    )
     name = computed("", "bearing of the shaft", lambda it: it.bearing.name, name="bearing")
     life_of_bearing = computed("h", "rating life", lambda it: it.life, name="bearing_life")
 
@@ -180,7 +189,7 @@ def square_shaft(task: SquareShaftTask) -> SquareShaft:
         endurance=_endurance(task, moment, safety * torque, bar),
         critical=uniform_speed(1, "hinged", span, modulus * inertia, task.mass / length),
         directions=directions,
-        seat=seat_for(task, load / safety * span, safety * torque, bar),
+        seat=seat_for(task, load * span, safety, bar),
     )
 
 
@@ -191,23 +200,31 @@ def _endurance(task: SquareShaftTask, moment: float, torque: float, bar: float) 
     return goodman(Loading(moment, 0.0, torque_amplitude=torque), section, endurance=limit, tensile=task.tensile)
 
 
-def seat_for(task: SquareShaftTask, span_load: float, torque: float, bar: float) -> ShaftBearings:
-    """Bearings for the load of a span [N], on journals turned from the bar [m] that bear the torque [N m].
+def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float) -> ShaftBearings:
+    """Bearings for the load of a span [N], its safety included, on journals turned from the bar [m].
 
-    A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises. A support between the ends carries a
-    whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends. Where no
-    insert bearing that fits the bar has the life and the bore, the strongest that fits the bar is taken.
+    A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises; its shoulder at the bearing's side
+    bears half of a span's load too, and must not fail by fatigue. A support between the ends carries a whole span, an
+    end half of one; the bearings of the steadies are taken no larger than those of the ends. Where no insert bearing
+    that fits the bar has the life and the bore, the strongest that fits the bar is taken.
     """
-    reaction = span_load if task.spans > 1 else span_load / 2
+    torque, loaded = safety * task.torque, span_load / safety
+    reaction = loaded if task.spans > 1 else loaded / 2
     journal = float((16 * math.sqrt(3) * torque / (math.pi * task.strength)) ** (1 / 3))
+
+    def shoulder(row: RollingBearing) -> Shoulder:
+        return Shoulder(bar, row.bore, task.tensile, span_load / 2 * row.width / 2, torque)
+
     revolutions = task.bearing_life * task.speed / turn
     if task.bearing is None:
-        found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=journal)
+        offered = sorted(_inserts(), key=lambda one: one.bore)
+        bore = next((one.bore for one in offered if one.bore >= journal and shoulder(one).safety >= 1), journal)
+        found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=bore)
         bearing = found if found is not None and found.bore <= bar else _strongest(bar)
     else:
         bearing = bearings.find_bearing(task.bearing)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
-    return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed)
+    return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed, shoulder(bearing))
 
 
 _STEP = 1e-3
@@ -221,6 +238,9 @@ def _bar(least: float) -> float:
 
 def _strongest(bar: float) -> RollingBearing:
     """The insert bearing of greatest load rating that fits a bar [m]; the smallest bore where none fits."""
-    offered = [one for one in bearings.ROLLING_BEARINGS.values() if one.kind == INSERT]
-    fitting = [one for one in offered if one.bore <= bar]
-    return max(fitting, key=lambda one: one.dynamic) if fitting else min(offered, key=lambda one: one.bore)
+    fitting = [one for one in _inserts() if one.bore <= bar]
+    return max(fitting, key=lambda one: one.dynamic) if fitting else min(_inserts(), key=lambda one: one.bore)
+
+
+def _inserts() -> list[RollingBearing]:
+    return [one for one in bearings.ROLLING_BEARINGS.values() if one.kind == INSERT]

@@ -15,6 +15,7 @@ from ilmek.machines.shedding.stack_choice import buckling_check, height_check, l
 from ilmek.machines.shedding.warp import nose_radius, shed_warp
 from ilmek.report import Check, at_least, at_most
 from ilmek.report.verdict import weight
+from ilmek.units import format_quantity
 
 THESIS = "thesis, 3.2"
 STRONGER = "set more spans, a lower tension, or more shafts"
@@ -176,6 +177,14 @@ def _bearing_checks(one: CamShaft) -> Iterator[Check]:
     yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life", cure=stronger)
     bore, torsion = seat.bearing.bore, "torsion, von Mises"
     yield at_least("bore of the bearing for the torque", bore, seat.journal, "mm", torsion, cure=stronger)
+    larger = "set another bearing, more spans, or a lower tension"
+    shoulder, source = (
+        seat.shoulder,
+        f"yield strength, von Mises; {format_quantity(bar, 'mm')} to {format_quantity(bore, 'mm')}",
+    )
+    yield at_most("stress of the driven journal", shoulder.stress, params.strength, "MPa", source, cure=larger)
+    source = f"Goodman, DIN 743-2, fillet of {format_quantity(shoulder.fillet, 'mm')}"
+    yield at_least("fatigue of the driven journal at its shoulder", shoulder.safety, 1.0, "1", source, cure=larger)
     yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar", cure=stronger)
 
 

@@ -91,6 +91,13 @@ def _bearing_checks(one: CamShaft, bearing: RollingBearing) -> tuple[Check, ...]
     return (
         at_least("life of the bearings", life, params.bearing_life, "h", "ISO 281"),
         at_least("bore of the bearing for the torque", bearing.bore, seat.journal, "mm", "torsion"),
+        at_least(
+            "fatigue of the driven journal at its shoulder",
+            replace(seat.shoulder, journal=bearing.bore).safety,
+            1.0,
+            "1",
+            "DIN 743-2",
+        ),
         at_least("static load of the bearings", bearing.static, static, "N", "ISO 76"),
         at_most("bore of the bearing in the bar", bearing.bore, one.shaft.bar, "mm", "journal"),
     )

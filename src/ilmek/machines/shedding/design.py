@@ -31,6 +31,7 @@ from ilmek.machines.shedding.phases import Shed
 from ilmek.machines.shedding.positions import dealt, positions
 from ilmek.machines.shedding.stack import CamStack
 from ilmek.machines.shedding.stack_choice import ChosenStack, chosen_stack
+from ilmek.machines.shedding.tolerance_chain import ToleranceChain, tolerance_chain
 from ilmek.machines.shedding.warp import lifting_work
 from ilmek.num.piecewise import Extremum, supremum
 from ilmek.records import computed, record
@@ -111,6 +112,11 @@ class SheddingDesign:
         )
 
     @property
+    def chain(self) -> ToleranceChain:
+        """Tolerances along the first shaft, from one place of shims to the next."""
+        return tolerance_chain(self.first.params, self.first.stack.shares)
+
+    @property
     def parity_numbers(self) -> tuple[int, int]:
         """Even and odd warps of all shafts."""
         return sum(one.numbers[0] for one in self.shafts), sum(one.numbers[1] for one in self.shafts)
@@ -154,6 +160,11 @@ class SheddingDesign:
         return hollow.value if hollow else None
 
     cam_area = computed("cm^2", "area inside the cam's surface, bore included", lambda it: limits.area(it.cam))
+
+    shim_interval = computed("1", "pitches of a shaft between two places of shims", lambda it: it.chain.interval)
+    shims = computed(
+        "mm", "nominal thickness of the shims of a place", lambda it: it.chain.shims, name="shim_thickness"
+    )
 
     shed_opening = computed("mm", "largest distance of even and odd warps", lambda it: it.peak(it.shed.opening))
     shuttle_start = computed("deg", "shaft angle at which the even shed opens", lambda it: it.shuttle_window[0])

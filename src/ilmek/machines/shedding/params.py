@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.sheet_tolerances import CLASSES, SPECIAL
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, nested
 from ilmek.units import GPa, MPa, N, deg, format_quantity, hour, mm, rpm
@@ -71,6 +72,19 @@ class SheddingParams(Params):
         at_least=0.001 * mm,
         at_most=10 * mm,
         doc="least thickness of a cam or guide cam that can be cut and stays plane; assumed by this project",
+    )
+    sheet_tolerance: str = kind.choice(SPECIAL, CLASSES, doc="class of the sheets' thickness tolerance, EN 10131")
+    shim_interval: int | None = kind.count(
+        None,
+        at_least=1,
+        at_most=1000,
+        doc="pitches of a shaft between two places of shims; default: the most that keeps the cams at their warps",
+    )
+    offset_limit: float = kind.ratio(
+        0.25,
+        at_least=1e-3,
+        at_most=1.0,
+        doc="allowed distance of a cam from its warp, over the pitch; assumed by this project",
     )
     least_dent: float = kind.length(
         0.1 * mm,

@@ -5,10 +5,11 @@ past it. Between two of its cams they need (k - 1) d + k c, d their diameter and
 
     guide cams   k = 1:  t + g = p                         the guide cam between two cams stands at both of them
                  k > 1:  t + 2 g + (k - 1) d + k c = k p   guide cams on both sides of a cam, others between
-    reed         k = 1:  t <= p,  t <= 2 p - d - 2 c       a warp at rest lies between the noses of its neighbours
+    reed         k = 1:  t + u <= p,  t <= 2 p - d - 2 c   a warp at rest lies between the noses of its neighbours
                  k > 1:  t + (k - 1) d + k c = k p         dents of p - d - 2 c stand between all warps
 
-A warp lies in the groove between two guide cams, so that t is d + 2 c at least, and little more, or it plays. [derived]
+A warp lies in the groove between two guide cams, so that t is d + 2 c at least, and little more, or it plays. The sheet
+has a tolerance, T, so that 2 c is T at least. u is the least shim.                                         [derived]
 """
 
 import math
@@ -18,12 +19,17 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN
+from ilmek.elements.sheet_tolerances import sheet_tolerance
 from ilmek.machines.shedding.params import REED, SheddingParams
 from ilmek.plane.contours import polygon_moments
 from ilmek.records import record, result
+from ilmek.units import mm
 
 POINTS = 1440
 """Points of the polygon that stands for a cam."""
+
+LEAST_SHIM = 0.1 * mm
+"""The thinnest shim ring of DIN 988 [m]."""
 
 LEAST_SHARE = 0.1
 """Share of the pitch that counts as cam and guides where the warps alone fill it; their checks then fail."""
@@ -86,7 +92,7 @@ def _with_guide_cams(params: SheddingParams, shafts: int) -> PitchShares:
     whole, number = shafts * pitch, 1 if shafts == 1 else 2
     gap = passing_gap(shafts, d, c)
     rest = max(whole - gap, LEAST_SHARE * pitch)
-    groove = d + 2 * c
+    groove = d + _both_sides(params)
     if params.cam_thickness is not None:
         thickness = params.cam_thickness
     elif groove < rest:
@@ -100,10 +106,18 @@ def _with_guide_cams(params: SheddingParams, shafts: int) -> PitchShares:
 def _with_reed(params: SheddingParams, shafts: int) -> PitchShares:
     d, c, pitch = params.diameter, params.warp_clearance, params.cloth.warp_pitch
     whole, gap = shafts * pitch, passing_gap(shafts, d, c)
-    room = min(pitch, 2 * pitch - d - 2 * c) if shafts == 1 else whole - gap
+    room = min(pitch - LEAST_SHIM, 2 * pitch - d - _both_sides(params)) if shafts == 1 else whole - gap
     thickness = params.cam_thickness or max(room, LEAST_SHARE * pitch)
     dent = max(pitch - d - 2 * c, LEAST_SHARE * LEAST_SHARE * pitch)
     return PitchShares(whole, thickness, dent, 0, gap, max(whole - thickness, 0.0), 2 * c)
+
+
+def _both_sides(params: SheddingParams) -> float:
+    """Room of a warp to both sides [m]: its clearance, at least the tolerance of a sheet that is so much thicker."""
+    room = 2 * params.warp_clearance
+    for _ in range(2):
+        room = max(room, sheet_tolerance(params.diameter + room, params.sheet_tolerance))
+    return room
 
 
 def passing_gap(shafts: int, diameter: float, clearance: float) -> float:

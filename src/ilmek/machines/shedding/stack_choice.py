@@ -13,6 +13,7 @@ from ilmek.machines.shedding.cam_shaft import least_prime, of_shaft
 from ilmek.machines.shedding.params import AUTO, DISCS, MOST_SHAFTS, REED, SheddingParams
 from ilmek.machines.shedding.positions import positions
 from ilmek.machines.shedding.stack import PitchShares, shared
+from ilmek.machines.shedding.tolerance_chain import chain_checks
 from ilmek.machines.shedding.warp import warp_force
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 
@@ -52,10 +53,8 @@ def chosen_stack(params: SheddingParams, slender: float) -> ChosenStack:
 
 
 def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ...]:
-    """Thickness of cams, guide cams or dents, and the room and the play of the warps between them."""
-    d, cut = params.diameter, "assumed by this project: parameter least_plate"
-    reed = shares.guides == 0
-    groove = 2 * params.cloth.warp_pitch - shares.thickness if reed else shares.thickness
+    """Thickness of cams, guide cams or dents, their tolerances, room and play of the warps between them."""
+    cut, reed = "assumed by this project: parameter least_plate", shares.guides == 0
     guide = "dent of the reed" if reed else "guide cam"
     return (
         at_least("thickness of a cam", shares.thickness, params.least_plate, "mm", cut, cure=THICKER),
@@ -75,14 +74,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
             "warp pitch, shafts, diameter and clearance of the warps",
             cure="set a coarser pitch, or thinner warps",
         ),
-        at_least(
-            "room of a warp between the noses of its neighbours" if reed else "groove of a warp between guide cams",
-            groove,
-            d,
-            "mm",
-            "diameter of the warp",
-            cure=THICKER,
-        ),
+        *chain_checks(params, shares),
         at_most(
             "lateral play of a warp",
             shares.play,

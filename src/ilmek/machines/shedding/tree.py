@@ -19,6 +19,7 @@ from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
 from ilmek.machines.shedding.steady import steadies
+from ilmek.machines.shedding.tolerance_chain import tolerance_chain
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -101,17 +102,42 @@ def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         chosen = group == number
         phases = np.where(odd[chosen], turn / 2, 0.0) + lag[chosen]
         yield Occurrence(_cam(design, index, number), _row(x[chosen], stack.thickness, phases))
-    if stack.shares.guides:
-        guide = _disc(design, index, ("guide-cam", "guide cam"), stack.guide_radius, stack.guide_thickness)
-        yield Occurrence(guide, _row(_guides(x, shaft), stack.guide_thickness))
-    if stack.shares.spacer > 0:
-        wide = stack.shares.spacer
-        beside = (stack.thickness + wide) / 2 + stack.shares.guides / 2 * stack.guide_thickness
-        ring = _disc(design, index, ("spacer", "spacer of the cams"), shaft.base_radius, wide)
-        yield Occurrence(ring, _row(x + beside, wide))
+    yield from _guides_and_spacers(design, index, x)
     nut = _disc(design, index, ("clamping-nut", "clamping nut of the cams"), _NUT_SHARE * bar, NUT)
     low, high = _stack_ends(design, index)
     yield Occurrence(nut, _row(np.array([low - NUT / 2, high + NUT / 2]), NUT))
+
+
+def _guides_and_spacers(design: SheddingDesign, index: int, x: FloatArray) -> Iterator[Occurrence]:
+    """Guide cams and spacers beside the cams at x [m]; at their places shims stand for a part of one, or the whole."""
+    shaft = design.shafts[index]
+    shares, radius, rest = shaft.stack.shares, shaft.stack.guide_radius, shaft.base_radius
+    chain = tolerance_chain(shaft.params, shares)
+    shimmed = np.arange(1, len(x) + 1) % chain.interval == 0
+    shimmed[-1] = False
+    wide = shares.guide
+    if shares.guides and not shares.spacer:
+        after, thin = x + (shares.thickness + wide) / 2, wide - chain.shims
+        full = np.concatenate([x[:1] - (shares.thickness + wide) / 2, after[~shimmed]])
+        yield from _discs(design, index, ("guide-cam", "guide cam"), radius, wide, full)
+        shift = (wide - thin) / 2
+        places = after[shimmed]
+        yield from _discs(design, index, ("thin-guide-cam", "guide cam beside shims"), radius, thin, places - shift)
+        yield from _discs(design, index, ("shims", "shims of the cams"), radius, chain.shims, places + thin / 2)
+        return
+    if shares.guides:
+        yield from _discs(design, index, ("guide-cam", "guide cam"), radius, wide, _guides(x, shaft))
+    beside = x + (shares.thickness + shares.spacer) / 2 + shares.guides / 2 * wide
+    yield from _discs(design, index, ("spacer", "spacer of the cams"), rest, shares.spacer, beside[~shimmed])
+    yield from _discs(design, index, ("shims", "shims of the cams"), rest, shares.spacer, beside[shimmed])
+
+
+def _discs(  # noqa: PLR0917
+    design: SheddingDesign, index: int, names: tuple[str, str], radius: float, thickness: float, x: FloatArray
+) -> Iterator[Occurrence]:
+    """Round plates of a thickness at x [m]; none without a thickness or a place."""
+    if thickness > 0 and len(x):
+        yield Occurrence(_disc(design, index, names, radius, thickness), _row(x, thickness))
 
 
 def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
@@ -147,10 +173,8 @@ def _bar(design: SheddingDesign, index: int) -> Part:
 
 
 def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:
-    """Positions of the guide cams: one between two warps and at both ends, or one on both sides of each."""
+    """Positions of the guide cams on both sides of each cam."""
     beside = (shaft.stack.thickness + shaft.stack.guide_thickness) / 2
-    if shaft.stack.shares.guides == 1:
-        return np.concatenate([x[:1] - beside, x + beside])
     return np.concatenate([x - beside, x + beside])
 
 

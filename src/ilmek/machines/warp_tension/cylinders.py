@@ -14,6 +14,9 @@ safety C0 / P0 decides, 1.5 and more [ISO 76: 1 to 2 for ball bearings under nor
 bearing's bore carries the reaction at an overhang e and, on the driven side, the torque:
 
     sigma = 32 R e / (pi d³),   tau = 16 M / (pi d³),   sigma_v = sqrt(sigma² + 3 tau²)              [von Mises]
+
+Its shoulder at the flange must bear that for any number of turns, with its notch [`elements.shoulders`]: the reaction
+turns, the torque stands.
 """
 
 import math
@@ -33,6 +36,7 @@ from ilmek.elements.bearings import (
     static_load,
 )
 from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.shoulders import Shoulder
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
@@ -70,7 +74,7 @@ class Cylinder:
     slope, deflection, stress, slope_bare, deflection_bare   by the load; without its own weight
     torque         at its driven end [N m]        mass    of the tube [kg]
     life, time     of the bearing [turns], at the take-up's mean speed [s]      static_safety  C0 / P0
-    stub_stress    von Mises, in the shaft end [Pa]
+    end            the shaft end at its flange
     """
 
     name: str
@@ -92,12 +96,17 @@ class Cylinder:
     life: float
     time: float
     static_safety: float
-    stub_stress: float
+    end: Shoulder
 
     @property
     def seat(self) -> BearingSeat:
         """Its bearing on the frame's bracket."""
         return seat_of(self.bearing, self.reaction)
+
+    @property
+    def stub_stress(self) -> float:
+        """Von Mises stress in the shaft end [Pa]."""
+        return self.end.stress
 
     @property
     def stub_safety(self) -> float:
@@ -216,7 +225,7 @@ def _cylinder(  # noqa: PLR0917
         life=lives,
         time=hours(lives, params.cloth.row_distance / outer / params.row_time) * hour,
         static_safety=bearing.static / static_load(bearing, reaction),
-        stub_stress=stub_stress(params, reaction, torque, bearing.bore),
+        end=shaft_end(params, reaction, torque, bearing.bore),
     )
 
 
@@ -239,23 +248,23 @@ def bearing_checks(
     params: WarpTensionParams, bearing: RollingBearing, reaction: float, torque: float, slope: float
 ) -> tuple[Check, ...]:
     """Static safety, slope and shaft end of a bearing under a reaction [N], a torque [N m] and a slope [rad]."""
-    static, stress = (
-        bearing.static / static_load(bearing, reaction),
-        stub_stress(params, reaction, torque, bearing.bore),
-    )
-    safety = STUB.strength / stress if stress > 0 else math.inf
+    static, end = bearing.static / static_load(bearing, reaction), shaft_end(params, reaction, torque, bearing.bore)
+    safety = STUB.strength / end.stress if end.stress > 0 else math.inf
     return (
         at_least("static safety", static, params.static_safety, "1", "ISO 76: parameter static_safety"),
         at_most("slope of the bearing", slope, slope_limit(bearing), "rad", "its kind"),
         at_least("shaft end", safety, params.stub_safety, "1", f"yield of {STUB.name}: parameter stub_safety"),
+        at_least("fatigue of the shaft end", end.safety, 1.0, "1", "Goodman, DIN 743-2"),
     )
 
 
-def stub_stress(params: WarpTensionParams, reaction: float, torque: float, diameter: float) -> float:
-    """Von Mises stress in a shaft end [Pa]."""
-    section = math.pi * diameter**3 / 32
-    return math.hypot(reaction * params.stub / section, math.sqrt(3) * torque / (2 * section))
+def shaft_end(params: WarpTensionParams, reaction: float, torque: float, diameter: float) -> Shoulder:
+    """The shaft end of a diameter [m] at its flange, under a reaction [N] and a torque [N m]."""
+    return Shoulder(_WIDE * diameter, diameter, STUB.tensile, reaction * params.stub, torque, alternating=False)
 
+
+_WIDE = 4.0
+"""Diameter of the flange over that of the shaft end: wider ones do not change the notch factor."""
 
 _KINDS = (INSERT, DEEP_GROOVE, CYLINDRICAL)
 

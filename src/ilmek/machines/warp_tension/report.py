@@ -77,6 +77,7 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     params, spacer, case = found.design.params, found.spacer, f"worst case: {found.design.loads.worst_case}"
     tired = min(found.cylinders, key=lambda one: one.static_safety)
     weak = min(found.cylinders, key=lambda one: one.stub_safety)
+    notched = min(found.cylinders, key=lambda one: one.end.safety)
     under, wider, larger = f"under the slots; {case}", "set a stiffer tube", "set a larger bearing, or a lower tension"
     return (
         at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, parts=_SPACER, cure=SPACER_CURE),
@@ -114,6 +115,12 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
             f"yield of {STUB.name}; {case}",
             parts=(part_id(f"{weak.name}-end"),),
+            cure=f"{larger}, or a shorter stub",
+        ),
+        at_least(
+            *(f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder", notched.end.safety, 1.0, "1"),
+            f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
+            parts=(part_id(f"{notched.name}-end"),),
             cure=f"{larger}, or a shorter stub",
         ),
         *_warp_checks(found),
