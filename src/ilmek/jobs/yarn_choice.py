@@ -95,7 +95,11 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         finer = Sentence("cure.finer")
         cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
         least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
-        checks.append(at_least(Sentence("check.detail-kept"), made.detail_kept, least, "%", _KEPT, cure=cure))
+        detail = made.detail_kept
+        checks.append(at_least(Sentence("check.detail-kept"), detail.share, least, "%", _KEPT, cure=cure))
+        if made.kind == "flat":
+            fine, most = Sentence("check.fine-lost"), rules.most_fine_lost
+            checks.append(at_most(fine, detail.fine_lost, most, "%", _KEPT, cure=Sentence("cure.print")))
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
@@ -165,12 +169,13 @@ def assignment_results(chart: Chart) -> list[JsonObject]:
 
 def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Json]:
     """Results by their JSON names."""
-    palette = chart.reading.palette
+    palette, detail = chart.reading.palette, chart.reading.detail_kept
     knee = palette.knee
     return {
         "assignment": assignment_results(chart),
         "edges_kept": chart.reading.edges_kept,
-        "detail_kept": chart.reading.detail_kept,
+        "detail_kept": detail and detail.share,
+        "fine_detail_lost": detail and detail.fine_lost,
         "lost": [
             {"colour": lost.hex, "share": lost.share, "cure": _lost_cure(lost, chart, order)}
             for lost in chart.reading.lost

@@ -10,6 +10,7 @@ ENGLISH = {
     # Checks of a chart
     "check.edges-kept": "edges of the picture kept",
     "check.detail-kept": "detail of the picture kept",
+    "check.fine-lost": "fine detail of the drawing lost",
     "check.colours-lost": "colours of the drawing lost",
     "check.round": "knots outside of the round picture",
     "check.round-source": "a round carpet has none there; all carpets are rectangles so far",
@@ -41,6 +42,7 @@ ENGLISH = {
     "cure.both": "{first} and {second}",
     "cure.by": "{what}: {cure}",
     "cure.lack": "or the yarns lack its colours (leave out --yarns)",
+    "cure.print": "small print or thin lines cannot be read: a larger --size, a finer --quality, or a part (--crop)",
     "cure.finer": "it is finer than the knots: a larger --size, a finer --quality, or a part of the picture (--crop)",
     "cure.more-colours": "--colours {count}",
     "cure.take-yarn": "take {yarn!r} of the list as well (--keep, more --colours)",
