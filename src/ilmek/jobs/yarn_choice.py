@@ -33,6 +33,9 @@ MOST_TWINS = 5
 """Largest number of pairs of near twins that are named in warnings."""
 
 
+MOST_HIDDEN = 0.25
+"""Largest share of a picture's outline that its ground hides, where none is given."""
+
 MOST_CURES = 2
 """Largest number of lost colours that the line of a check names; the JSON has all."""
 
@@ -103,6 +106,9 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
+    if made.fit.hidden:
+        cure = Sentence("check.outline-cure")
+        checks.append(at_most(Sentence("check.outline"), made.fit.hidden, MOST_HIDDEN, "%", _KEPT, cure=cure))
     if made.fit.outside:
         cure, source = Sentence("check.round-cure"), Sentence("check.round-source")
         checks.append(at_most(Sentence("check.round"), made.fit.outside, 0.0, "%", source, cure=cure))

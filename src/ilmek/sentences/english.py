@@ -12,6 +12,8 @@ ENGLISH = {
     "check.detail-kept": "detail of the picture kept",
     "check.fine-lost": "fine detail of the drawing lost",
     "check.colours-lost": "colours of the drawing lost",
+    "check.outline": "outline of the picture hidden on its ground",
+    "check.outline-cure": "give a colour that contrasts with it: --ground COLOUR",
     "check.round": "knots outside of the round picture",
     "check.round-source": "a round carpet has none there; all carpets are rectangles so far",
     "check.round-cure": "take a rectangular carpet: --ground COLOUR is that of its corners",

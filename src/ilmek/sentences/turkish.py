@@ -12,6 +12,8 @@ TURKISH = {
     "check.detail-kept": "resmin korunan ayrıntısı",
     "check.fine-lost": "çizimin kaybolan ince ayrıntısı",
     "check.colours-lost": "çizimin kaybolan renkleri",
+    "check.outline": "resmin zemininde kaybolan dış çizgisi",
+    "check.outline-cure": "onunla karşıt bir renk verin: --ground RENK",
     "check.round": "yuvarlak resmin dışındaki düğümler",
     "check.round-source": "yuvarlak bir halının orada düğümü yoktur; şimdilik tüm halılar dikdörtgendir",
     "check.round-cure": "dikdörtgen bir halı seçin: zemin rengi köşelerinin rengidir",
