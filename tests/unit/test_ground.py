@@ -112,3 +112,25 @@ def test_margins_have_the_same_ground(tmp_path: Path) -> None:
 def test_a_ground_that_is_not_seen_is_told(tmp_path: Path) -> None:
     made = make_charted(read_order(saved(Image.new("RGB", (20, 20), "red"), tmp_path), ground="#ffffff"))
     assert any("is not seen" in note for note in made.notes)
+
+
+@pytest.mark.parametrize("box", [(20, 30, 50, 60), (0, 150, 120, 200), (198, 298, 200, 300)])
+def test_a_note_has_the_crop_of_art_in_a_wide_margin(tmp_path: Path, box: tuple[int, int, int, int]) -> None:
+    page = Image.new("RGBA", (200, 300))
+    page.paste("#c1272d", box)
+    note = read_picture(saved(page, tmp_path)).notes[-1]
+    crop = note.split('"')[1]
+    made = make_charted(read_order(tmp_path / "art.png", crop=crop, quality="10x10/dm"))
+    red = np.isclose([yarn.srgb[0] for yarn in made.chart.yarns], 0xC1, atol=3)[made.chart.knots]
+    page_share = (box[2] - box[0]) * (box[3] - box[1]) / (200 * 300)
+    assert red.mean() > min(0.2, 10 * page_share)
+    judge = Image.new("RGBA", (200, 300))
+    left, top, right, bottom = (float(text.strip("%")) / 100 for text in crop.replace(" ", ",").split(","))
+    judge.paste("#c1272d", (round(200 * left), round(300 * top), round(200 * right), round(300 * bottom)))
+    assert (np.asarray(judge)[..., 3] >= np.asarray(page)[..., 3]).all()
+
+
+def test_art_that_fills_its_page_has_no_such_note(tmp_path: Path) -> None:
+    page = Image.new("RGBA", (200, 300))
+    page.paste("#c1272d", (40, 60, 160, 240))
+    assert read_picture(saved(page, tmp_path)).notes == ("transparent parts put on white",)

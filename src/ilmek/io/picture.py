@@ -239,9 +239,12 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
         across, along = along, across
     stated = (across, along) if density else None
     indices = None if indices is None or orientation != 1 else indices
-    colour, hidden = (None, 0.0) if behind is None else behind
     about = (*notes, *about_exif, *deep, *converted)
-    return Picture(upright, about, stated, colour, outside, hidden, indices)
+    if behind is None:
+        return Picture(upright, about, stated, indices=indices)
+    if orientation == 1 and behind.crop:
+        about += (f'most of the picture is a transparent margin: --crop "{behind.crop}" takes the art alone',)
+    return Picture(upright, about, stated, behind.colour, outside, behind.hidden, indices)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:

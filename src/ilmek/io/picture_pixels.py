@@ -53,7 +53,7 @@ def srgb_pixels(
         coloured, hiding = to_rgb(_flat(strip)), cover(strip)
         shows = shows or hiding is None or hiding.getextrema() != (0, 0)
         if hiding is not None:
-            behind = behind or (Ground(ground) if ground else _ground(image, to_eight_bits, to_rgb))
+            behind = behind or _ground(image, to_eight_bits, to_rgb, ground)
             below = Image.new("RGB", strip.size, behind.colour)
             below.paste(coloured, mask=hiding)
             coloured = below
@@ -64,14 +64,15 @@ def srgb_pixels(
     return out, behind, (*notes, *more, *_about_the_ground(behind, ground))
 
 
-def _ground(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert) -> Ground:
-    """The ground that contrasts with the outline of a picture."""
+def _ground(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert, given: Colour | None) -> Ground:
+    """The ground that is given, which may hide what it hides, or that which contrasts with the outline."""
     scale = max(1.0, max(image.size) / _JUDGED)
     few = to_eight_bits(image.resize([max(1, int(side / scale)) for side in image.size], Image.Resampling.NEAREST))
     art, hiding = to_rgb(_flat(few)), cover(few)
     if hiding is not None:
         art.putalpha(hiding)
-    return contrasting_ground(art.convert("RGBA"))
+    ground = contrasting_ground(art.convert("RGBA"))
+    return ground if given is None else ground._replace(colour=given, hidden=0.0)
 
 
 def _about_the_ground(behind: Ground | None, given: Colour | None) -> tuple[str, ...]:
