@@ -60,13 +60,28 @@ def test_small_print_in_a_drawing_of_large_shapes_is_said_to_be_lost(tmp_path: P
     assert not failed(plain)
     sheet[340:, 205:395] = print_of(16, (0, 0, 0), (250, 250, 250))[:80, :190]
     small = charted(saved(tmp_path, "print", sheet), "90x63cm", "12x12/dm", read="flat")
-    assert "fine detail of the drawing lost" in failed(small)
+    assert "fine detail of the picture lost" in failed(small)
 
 
 def test_a_diagram_whose_lines_and_letters_are_finer_than_the_knots_fails_and_a_fine_carpet_does_not() -> None:
     coarse, fine = (charted(DATA / "diagram.gif", None, quality) for quality in ("12x12/dm", "30x30/dm"))
-    assert failed(coarse) == ["fine detail of the drawing lost"]
+    assert failed(coarse) == ["fine detail of the picture lost"]
     assert not failed(fine)
+
+
+@pytest.mark.parametrize("paper", [(0, 0, 0), (236, 228, 206)])
+def test_print_on_a_screen_or_a_page_that_is_read_as_a_photo_is_said_to_be_lost(
+    tmp_path: Path, paper: tuple[int, int, int]
+) -> None:
+    """Lines of print on a third of a sheet, as JPEG."""
+    ink = (250, 250, 250) if paper == (0, 0, 0) else (40, 30, 30)
+    sheet = np.full((420, 600, 3), paper, dtype=np.uint8)
+    sheet[:140] = print_of(24, ink, paper)[:140]
+    picture = tmp_path / "print.jpg"
+    Image.fromarray(sheet).save(picture, quality=60)
+    small, large = (charted(picture, size, "12x12/dm", read="photo") for size in ("90x63cm", "360x252cm"))
+    assert "fine detail of the picture lost" in failed(small)
+    assert not failed(large)
 
 
 @pytest.mark.parametrize(("seed", "photo"), [(1, False), (2, True)])

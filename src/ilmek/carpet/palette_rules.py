@@ -117,8 +117,8 @@ class PaletteParams(Params):
         unit="%",
         at_least=0.0,
         at_most=1.0,
-        doc="largest share of a drawing's detail that is lost because it is finer than the knots, as small print, "
-        "beyond which is a failed check",
+        doc="largest share of the detail of a drawing, or of a photo half of which is one yarn, that is finer than the "
+        "knots and lost, as small print, beyond which is a failed check",
     )
     most_lost: float = param(
         MOST_LOST,

@@ -36,6 +36,9 @@ MOST_TWINS = 5
 MOST_HIDDEN = 0.25
 """Largest share of a picture's outline that its ground hides, where none is given."""
 
+LEAST_GROUND = 0.5
+"""Share of the knots in one yarn from which a photo is print or objects on a ground, whose fine detail is all meant."""
+
 MOST_CURES = 2
 """Largest number of lost colours that the line of a check names; the JSON has all."""
 
@@ -100,7 +103,7 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
         detail = made.detail_kept
         checks.append(at_least(Sentence("check.detail-kept"), detail.share, least, "%", _KEPT, cure=cure))
-        if made.kind == "flat":
+        if made.kind == "flat" or max(chart.counts) >= LEAST_GROUND * chart.knots.size:
             fine, most = Sentence("check.fine-lost"), rules.most_fine_lost
             checks.append(at_most(fine, detail.fine_lost, most, "%", _KEPT, cure=Sentence("cure.print")))
     if made.matches:

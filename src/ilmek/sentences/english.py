@@ -10,7 +10,7 @@ ENGLISH = {
     # Checks of a chart
     "check.edges-kept": "edges of the picture kept",
     "check.detail-kept": "detail of the picture kept",
-    "check.fine-lost": "fine detail of the drawing lost",
+    "check.fine-lost": "fine detail of the picture lost",
     "check.colours-lost": "colours of the drawing lost",
     "check.outline": "outline of the picture hidden on its ground",
     "check.outline-cure": "give a colour that contrasts with it: --ground COLOUR",

@@ -10,7 +10,7 @@ TURKISH = {
     # Checks of a chart
     "check.edges-kept": "resmin korunan kenarları",
     "check.detail-kept": "resmin korunan ayrıntısı",
-    "check.fine-lost": "çizimin kaybolan ince ayrıntısı",
+    "check.fine-lost": "resmin kaybolan ince ayrıntısı",
     "check.colours-lost": "çizimin kaybolan renkleri",
     "check.outline": "resmin zemininde kaybolan dış çizgisi",
     "check.outline-cure": "onunla karşıt bir renk verin: --ground RENK",
