@@ -10,9 +10,10 @@ from scipy.ndimage import gaussian_filter, maximum_filter
 from skimage import data
 from skimage.color import rgb2lab
 
-from ilmek.carpet.detail import DETAILED, detail_kept, detail_of
+from ilmek.carpet.detail import DETAILED, FINER, READABLE, detail_kept, detail_of
 from ilmek.jobs.chart import ChartResult, chart_results
 
+DATA = Path(__file__).parents[1] / "data"
 WORDS = ["Linzensoep", "4 ons linzen", "3 liter water", "2 uien, boter", "kopje melk", "laurier, zout"]
 
 
@@ -38,10 +39,49 @@ def test_print_finer_than_the_knots_fails_and_the_same_print_on_a_large_carpet_d
     small, large = (charted(picture, size, "12x12/dm", read="flat") for size in ("90x63cm", "360x252cm"))
     assert "detail of the picture kept" in failed(small)
     check = next(check for check in small.checks if check.name.startswith("detail"))
-    assert check.value == small.chart.reading.detail_kept == chart_results(small)["detail_kept"]
+    assert check.value == chart_results(small)["detail_kept"]
     assert "--quality" in check.cure
     assert not failed(large)
-    assert not failed(charted(picture, "90x63cm", "12x12/dm", read="flat", least_detail="0%", least_edges="0%"))
+    accepted = {"least_detail": "0%", "least_edges": "0%", "most_fine_lost": "100%"}
+    assert not failed(charted(picture, "90x63cm", "12x12/dm", read="flat", **accepted))
+
+
+@pytest.mark.parametrize("shape", ["saltire", "disc"])
+def test_small_print_in_a_drawing_of_large_shapes_is_said_to_be_lost(tmp_path: Path, shape: str) -> None:
+    """The same shapes without print hold all checks."""
+    sheet = np.full((420, 600, 3), 250, dtype=np.uint8)
+    y, x = np.mgrid[:420, :600]
+    if shape == "saltire":
+        sheet[np.minimum(np.abs(1.2 * y - x), np.abs(600 - 1.2 * y - x)) < 40] = (20, 60, 140)
+    else:
+        sheet[np.hypot(y - 180, x - 300) < 150] = (220, 120, 20)
+        sheet[np.abs(np.hypot(y - 180, x - 300) - 150) < 5] = (20, 20, 20)
+    plain = charted(saved(tmp_path, "plain", sheet), "90x63cm", "12x12/dm", read="flat")
+    assert not failed(plain)
+    sheet[340:, 205:395] = print_of(16, (0, 0, 0), (250, 250, 250))[:80, :190]
+    small = charted(saved(tmp_path, "print", sheet), "90x63cm", "12x12/dm", read="flat")
+    assert "fine detail of the picture lost" in failed(small)
+
+
+def test_a_diagram_whose_lines_and_letters_are_finer_than_the_knots_fails_and_a_fine_carpet_does_not() -> None:
+    coarse, fine = (charted(DATA / "diagram.gif", None, quality) for quality in ("12x12/dm", "30x30/dm"))
+    assert failed(coarse) == ["fine detail of the picture lost"]
+    assert not failed(fine)
+
+
+@pytest.mark.parametrize("paper", [(0, 0, 0), (236, 228, 206)])
+def test_print_on_a_screen_or_a_page_that_is_read_as_a_photo_is_said_to_be_lost(
+    tmp_path: Path, paper: tuple[int, int, int]
+) -> None:
+    """Lines of print on a third of a sheet, as JPEG."""
+    ink = (250, 250, 250) if paper == (0, 0, 0) else (40, 30, 30)
+    sheet = np.full((420, 600, 3), paper, dtype=np.uint8)
+    sheet[:140] = print_of(24, ink, paper)[:140]
+    picture = tmp_path / "print.jpg"
+    Image.fromarray(sheet).save(picture, quality=60)
+    small, large = (charted(picture, size, "12x12/dm", read="photo") for size in ("90x63cm", "360x252cm"))
+    assert "fine detail of the picture lost" in failed(small)
+    assert not failed(large)
 
 
 @pytest.mark.parametrize(("seed", "photo"), [(1, False), (2, True)])
@@ -52,24 +92,30 @@ def test_detail_is_the_best_correlation_of_the_windows(seed: int, photo: bool) -
     picture = colours[random.integers(0, 4, (40, 50)).repeat(2, 0).repeat(3, 1)[:78, :150]]
     knots = random.integers(0, 4, (26, 50)).astype(np.uint8)
     lab, labs = rgb2lab(picture), rgb2lab(colours[None])[0]
-    shares, weights = [], []
+    shares, weights, lost = [], [], []
     for i in range(1, 26 - 3, 4):
         for j in range(1, 50 - 3, 4):
             tied = labs[knots[i : i + 3, j : j + 3]].repeat(3, 0).repeat(3, 1)
             tied = (tied - tied.mean((0, 1))).ravel()
-            found = []
+            found, coarse = [], []
             for y, x in np.ndindex(3, 3):
                 top, left = 3 * i - 1 + y, 3 * j - 1 + x
                 window = lab[top : top + 9, left : left + 9]
-                window = (window - window.mean((0, 1))).ravel()
+                window = window - window.mean((0, 1))
+                knot_means = window.reshape(3, 3, 3, 3, 3).mean((1, 3))
+                coarse.append(3 * np.linalg.norm(knot_means) / np.linalg.norm(window))
+                window = window.ravel()
                 found.append(window @ tied / max(np.linalg.norm(window) * np.linalg.norm(tied), 1e-9))
                 if y == x == 1:
                     spread = np.linalg.norm(window) / 9
             if spread >= DETAILED:
                 shares.append(max(0.0, *found) * (min(1.0, np.linalg.norm(tied) / 9 / spread) if photo else 1.0))
                 weights.append(spread)
-    expected = np.average(shares, weights=weights)
-    assert detail_kept(detail_of(picture, (26, 50)), knots, labs, photo=photo) == pytest.approx(expected, abs=2e-3)
+                lost.append(max(coarse) < FINER and shares[-1] < READABLE)
+    expected = np.average(shares, weights=weights), np.average(lost, weights=weights)
+    kept = detail_kept(detail_of(picture, (26, 50)), knots, labs, photo=photo)
+    assert kept == pytest.approx(expected, abs=2e-3)
+    assert 0 < expected[1] < 1
 
 
 def test_a_picture_of_few_pixels_or_without_detail_has_none_to_lose() -> None:

@@ -16,7 +16,7 @@ from ilmek.carpet.averages import reading_loss
 from ilmek.carpet.codes import CODES, eight_bits, recoded
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.detail import detail_kept
+from ilmek.carpet.detail import KeptDetail, detail_kept
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
@@ -63,7 +63,7 @@ class ChartReading:
     dyed           names of the yarns that are dyed for it
     lost           colours of a drawing that vanish, because another has the same yarn
     paper          the sheet of squared paper that the design was read from
-    edges_kept, detail_kept  shares of the picture's edges and detail that the chart keeps; None: not measured
+    edges_kept, detail_kept  what the chart keeps of the picture's edges [-] and detail; None: not measured
     """
 
     kind: str
@@ -82,7 +82,7 @@ class ChartReading:
     dyed: tuple[str, ...] = ()
     lost: tuple[LostColour, ...] = ()
     edges_kept: float | None = None
-    detail_kept: float | None = None
+    detail_kept: KeptDetail | None = None
     paper: PaperReading | None = None
 
 

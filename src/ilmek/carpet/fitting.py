@@ -74,7 +74,8 @@ class FitParams(Params):
     ground: str | None = kind.text(
         None,
         doc="colour behind transparent parts, of margins, and of cells that a chart of another program leaves without "
-        "a stitch, like #e8dfc8; default: white, dark behind nearly white art; of margins that of the picture's border",
+        "a stitch, like #e8dfc8; default: white, or dark where that hides the outline; of margins that of the "
+        "picture's border",
     )
     corners: str | None = kind.text(
         None,
@@ -130,6 +131,7 @@ class Fit:
     shown    left, top, right and bottom of what the carpet shows, as shares of the prepared picture; beyond 0 and 1
              where it is padded
     outside  share of a round picture that lies outside of its outline, and has no ground of its own [-]
+    hidden   share of the picture's outline that is hidden on the ground behind its transparent parts [-]
     """
 
     kind: str = "whole"
@@ -142,6 +144,7 @@ class Fit:
     clearness: float | None = None
     shown: tuple[float, float, float, float] = _WHOLE
     outside: float = 0.0
+    hidden: float = 0.0
 
     @property
     def words(self) -> str:

@@ -54,7 +54,7 @@ GREY, MOST_TINTED = 8.0, 2e-3
 LEAST_DIFFERENCE = 2.0
 """CIEDE2000 below which two yarns are near twins; assumed by this project."""
 
-LEAST_EDGES, MOST_LOST = 0.85, 0.003
+LEAST_EDGES, MOST_LOST, MOST_FINE_LOST = 0.85, 0.003, 0.05
 """Limits of what a chart loses; chosen by this project on drawings and photographs, by looking at their charts."""
 
 LEAST_DETAILS = MappingProxyType({"exact": 0.0, "flat": 0.6, "photo": 0.3})
@@ -111,6 +111,14 @@ class PaletteParams(Params):
         at_most=1.0,
         doc="least share of the picture's detail that the chart keeps, of which less is a failed check; default: "
         "flat 60 %, photo 30 %",
+    )
+    most_fine_lost: float = param(
+        MOST_FINE_LOST,
+        unit="%",
+        at_least=0.0,
+        at_most=1.0,
+        doc="largest share of the detail of a drawing, or of a photo half of which is one yarn, that is finer than the "
+        "knots and lost, as small print, beyond which is a failed check",
     )
     most_lost: float = param(
         MOST_LOST,

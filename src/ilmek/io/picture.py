@@ -12,6 +12,7 @@ import contextlib
 import re
 import threading
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -100,6 +101,7 @@ class Picture:
     density  pixels per metre across and along, as the file states them; None: it does not
     ground   colour behind its transparent parts; None: it has none
     outside  share of it outside of its round outline, where no ground is given for that [-]
+    hidden   share of its outline that is hidden on the ground, where none is given [-]
     indices  of an opaque indexed picture of at most MOST_INDEXED pixels, rows x columns; None: it is none
     """
 
@@ -108,6 +110,7 @@ class Picture:
     density: tuple[float, float] | None = None
     ground: Colour | None = None
     outside: float = 0.0
+    hidden: float = 0.0
     indices: Indices | None = None
 
     def __post_init__(self) -> None:
@@ -142,7 +145,7 @@ def read_picture(
 ) -> Picture:
     """The picture in a file.
 
-    ground     colour behind transparent parts, `#rrggbb`; default: white, behind nearly white art a dark one
+    ground     colour behind transparent parts, `#rrggbb`; default: white, or one on which more of the outline is seen
     rendering  of an SVG drawing or a PDF page; default: the first page, for a carpet of usual size
 
     The first frame is used, EXIF rotation applied, an embedded colour profile converted to sRGB, 16 bits reduced to 8,
@@ -163,7 +166,7 @@ def read_picture(
                 _check_size(path, opened, smallest)
                 picture = _decoded(opened, stream, behind, progress)
                 about = (*about, *picture.notes)
-                return picture if drawn is None else Picture(picture.rgb, about, ground=picture.ground)
+                return picture if drawn is None else replace(picture, notes=about, density=None, indices=None)
         except (PictureError, Cancelled, MemoryError):
             raise
         except UnidentifiedImageError:
@@ -236,7 +239,12 @@ def _decoded(opened: Image.Image, stream: MeteredBytes, ground: Colour | None, p
         across, along = along, across
     stated = (across, along) if density else None
     indices = None if indices is None or orientation != 1 else indices
-    return Picture(upright, (*notes, *about_exif, *deep, *converted), stated, behind, outside, indices)
+    about = (*notes, *about_exif, *deep, *converted)
+    if behind is None:
+        return Picture(upright, about, stated, indices=indices)
+    if orientation == 1 and behind.crop:
+        about += (f'most of the picture is a transparent margin: --crop "{behind.crop}" takes the art alone',)
+    return Picture(upright, about, stated, behind.colour, outside, behind.hidden, indices)
 
 
 def _density(opened: Image.Image) -> tuple[float, float] | None:

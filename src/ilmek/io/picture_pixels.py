@@ -10,28 +10,17 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageCms
 
-from ilmek.arrays import FloatArray, Rgb
-from ilmek.carpet.colour import srgb_to_lab
+from ilmek.arrays import Rgb
 from ilmek.carpet.picture_points import Colour, hex_colour
 from ilmek.errors import PictureError
+from ilmek.io.ground_colour import WHITE, Ground, contrasting_ground
 from ilmek.progress import SILENT, Progress
 
 MOST_PROFILE = 4_000_000
 """Largest size of a colour profile that is applied [bytes]; those of printing presses have 2 MB."""
 
-WHITE, DARK = (255, 255, 255), (32, 32, 32)
-"""Colours behind the transparent parts of a picture."""
-
-NEARLY_WHITE, LIGHT = 20.0, 30.0
-"""Mean differences from white in CIELAB of the rim of what is seen of a picture, and of all that is seen, below which
-it needs a dark ground.
-"""
-
-_RIM = 2
-"""Width of the rim [pixels of the picture that is judged]: a white animal with a black outline has a black one."""
-
-_JUDGED = 512
-"""Pixels of the longer side of the picture of which that is judged."""
+_JUDGED = 640
+"""Pixels of the longer side of the picture of which the ground is chosen."""
 
 _STRIP = 1 << 21
 """Pixels of a strip."""
@@ -47,24 +36,25 @@ _Convert = Callable[[Image.Image], Image.Image]
 
 def srgb_pixels(
     image: Image.Image, progress: Progress = SILENT, ground: Colour | None = None
-) -> tuple[Rgb, Colour | None, tuple[str, ...]]:
-    """The pixels of a loaded picture, the colour behind its transparent parts (None: it has none), and notes.
+) -> tuple[Rgb, Ground | None, tuple[str, ...]]:
+    """The pixels of a loaded picture, the ground behind its transparent parts (None: it has none), and notes.
 
-    ground  default: white, or DARK behind art that is nearly white
+    ground  default: that which contrasts with the outline [`ground_colour`]
     Raises PictureError for a picture that is transparent everywhere.
     """
     to_eight_bits, notes = _eight_bits(image)
     first = to_eight_bits(image.crop((0, 0, image.width, 1)))
     to_rgb, more = _in_srgb(_flat(first).mode, image.info.get("icc_profile"))
     out = np.empty((image.height, image.width, 3), dtype=np.uint8)
-    behind, shows = None, False
+    behind: Ground | None = None
+    shows = False
     for top, bottom in _strips(image):
         strip = to_eight_bits(image.crop((0, top, image.width, bottom)))
         coloured, hiding = to_rgb(_flat(strip)), cover(strip)
         shows = shows or hiding is None or hiding.getextrema() != (0, 0)
         if hiding is not None:
-            behind = behind or ground or _contrasting(image, to_eight_bits, to_rgb)
-            below = Image.new("RGB", strip.size, behind)
+            behind = behind or _ground(image, to_eight_bits, to_rgb, ground)
+            below = Image.new("RGB", strip.size, behind.colour)
             below.paste(coloured, mask=hiding)
             coloured = below
         out[top:bottom] = np.asarray(coloured)
@@ -74,37 +64,25 @@ def srgb_pixels(
     return out, behind, (*notes, *more, *_about_the_ground(behind, ground))
 
 
-def _contrasting(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert) -> Colour:
-    """White, or DARK where what is seen of a picture is nearly white along its rim."""
+def _ground(image: Image.Image, to_eight_bits: _Convert, to_rgb: _Convert, given: Colour | None) -> Ground:
+    """The ground that is given, which may hide what it hides, or that which contrasts with the outline."""
     scale = max(1.0, max(image.size) / _JUDGED)
     few = to_eight_bits(image.resize([max(1, int(side / scale)) for side in image.size], Image.Resampling.NEAREST))
-    hiding = cover(few)
-    if hiding is None:
-        return WHITE
-    seen = np.asarray(hiding, dtype=float) / 255
-    rim = seen * (1 - _least_around(seen, _RIM))
-    apart = np.linalg.norm(srgb_to_lab(np.asarray(to_rgb(_flat(few)))) - (100.0, 0.0, 0.0), axis=-1)
-    limits = ((rim, NEARLY_WHITE), (seen, LIGHT))
-    return DARK if all(float((part * apart).sum()) < most * float(part.sum()) for part, most in limits) else WHITE
+    art, hiding = to_rgb(_flat(few)), cover(few)
+    if hiding is not None:
+        art.putalpha(hiding)
+    ground = contrasting_ground(art.convert("RGBA"))
+    return ground if given is None else ground._replace(colour=given, hidden=0.0)
 
 
-def _least_around(values: FloatArray, reach: int) -> FloatArray:
-    """The least value within a reach of each, along rows and columns."""
-    for axis in (0, 1):
-        padded = np.pad(values, [(reach, reach) if axis == side else (0, 0) for side in (0, 1)], mode="edge")
-        windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1, axis=axis)
-        values = windows.min(axis=-1)
-    return values
-
-
-def _about_the_ground(behind: Colour | None, given: Colour | None) -> tuple[str, ...]:
+def _about_the_ground(behind: Ground | None, given: Colour | None) -> tuple[str, ...]:
     """A note on the colour behind transparent parts."""
     if behind is None:
         return ()
-    if behind == WHITE:
+    if behind.colour == WHITE:
         return ("transparent parts put on white",)
-    why = "" if given else ", because the rest is nearly white; --ground gives another colour"
-    return (f"transparent parts put on {hex_colour(behind)}{why}",)
+    why = "" if given else ", because white would hide a part of the outline; --ground gives another colour"
+    return (f"transparent parts put on {hex_colour(behind.colour)}{why}",)
 
 
 def turned(pixels: Rgb, orientation: int) -> Rgb:

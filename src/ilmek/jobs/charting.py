@@ -172,7 +172,7 @@ def _read_file(
         "picture", of_picture, lambda: read_picture(order.picture, reading_file, ground=ground, rendering=rendering)
     )
     rgb, notes, behind, indices = picture.rgb, picture.notes, picture.ground, picture.indices
-    outside = picture.outside
+    outside, hidden = picture.outside, picture.hidden
     stated = _stated(order, picture)
     if stated is not None:
         order = replace(order, quality=stated)
@@ -204,8 +204,9 @@ def _read_file(
     if ground is not None and behind is None and not read.fit.padded:
         notes = (*notes, f"ground={ground!r} is not seen: the picture has no transparent part and no margin")
     whole = shown_source(prepared) if with_source and stages.with_whole and read.fit.kind == "crop" else None
-    fit = replace(read.fit, outside=outside if fitting.corners is None and fitting.crop is None else 0.0)
-    return replace(read, fit=fit, notes=(*notes, *read.notes), whole=whole, indices=indices)
+    if fitting.corners is None and fitting.crop is None:
+        read = replace(read, fit=replace(read.fit, outside=outside, hidden=hidden))
+    return replace(read, notes=(*notes, *read.notes), whole=whole, indices=indices)
 
 
 def _read_chart(

@@ -33,6 +33,12 @@ MOST_TWINS = 5
 """Largest number of pairs of near twins that are named in warnings."""
 
 
+MOST_HIDDEN = 0.25
+"""Largest share of a picture's outline that its ground hides, where none is given."""
+
+LEAST_GROUND = 0.5
+"""Share of the knots in one yarn from which a photo is print or objects on a ground, whose fine detail is all meant."""
+
 MOST_CURES = 2
 """Largest number of lost colours that the line of a check names; the JSON has all."""
 
@@ -95,10 +101,17 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
         finer = Sentence("cure.finer")
         cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
         least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
-        checks.append(at_least(Sentence("check.detail-kept"), made.detail_kept, least, "%", _KEPT, cure=cure))
+        detail = made.detail_kept
+        checks.append(at_least(Sentence("check.detail-kept"), detail.share, least, "%", _KEPT, cure=cure))
+        if made.kind == "flat" or max(chart.counts) >= LEAST_GROUND * chart.knots.size:
+            fine, most = Sentence("check.fine-lost"), rules.most_fine_lost
+            checks.append(at_most(fine, detail.fine_lost, most, "%", _KEPT, cure=Sentence("cure.print")))
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
+    if made.fit.hidden:
+        cure = Sentence("check.outline-cure")
+        checks.append(at_most(Sentence("check.outline"), made.fit.hidden, MOST_HIDDEN, "%", _KEPT, cure=cure))
     if made.fit.outside:
         cure, source = Sentence("check.round-cure"), Sentence("check.round-source")
         checks.append(at_most(Sentence("check.round"), made.fit.outside, 0.0, "%", source, cure=cure))
@@ -165,12 +178,13 @@ def assignment_results(chart: Chart) -> list[JsonObject]:
 
 def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Json]:
     """Results by their JSON names."""
-    palette = chart.reading.palette
+    palette, detail = chart.reading.palette, chart.reading.detail_kept
     knee = palette.knee
     return {
         "assignment": assignment_results(chart),
         "edges_kept": chart.reading.edges_kept,
-        "detail_kept": chart.reading.detail_kept,
+        "detail_kept": detail and detail.share,
+        "fine_detail_lost": detail and detail.fine_lost,
         "lost": [
             {"colour": lost.hex, "share": lost.share, "cure": _lost_cure(lost, chart, order)}
             for lost in chart.reading.lost

@@ -10,7 +10,10 @@ ENGLISH = {
     # Checks of a chart
     "check.edges-kept": "edges of the picture kept",
     "check.detail-kept": "detail of the picture kept",
+    "check.fine-lost": "fine detail of the picture lost",
     "check.colours-lost": "colours of the drawing lost",
+    "check.outline": "outline of the picture hidden on its ground",
+    "check.outline-cure": "give a colour that contrasts with it: --ground COLOUR",
     "check.round": "knots outside of the round picture",
     "check.round-source": "a round carpet has none there; all carpets are rectangles so far",
     "check.round-cure": "take a rectangular carpet: --ground COLOUR is that of its corners",
@@ -41,6 +44,7 @@ ENGLISH = {
     "cure.both": "{first} and {second}",
     "cure.by": "{what}: {cure}",
     "cure.lack": "or the yarns lack its colours (leave out --yarns)",
+    "cure.print": "small print or thin lines cannot be read: a larger --size, a finer --quality, or a part (--crop)",
     "cure.finer": "it is finer than the knots: a larger --size, a finer --quality, or a part of the picture (--crop)",
     "cure.more-colours": "--colours {count}",
     "cure.take-yarn": "take {yarn!r} of the list as well (--keep, more --colours)",

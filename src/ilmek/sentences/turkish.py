@@ -10,7 +10,10 @@ TURKISH = {
     # Checks of a chart
     "check.edges-kept": "resmin korunan kenarları",
     "check.detail-kept": "resmin korunan ayrıntısı",
+    "check.fine-lost": "resmin kaybolan ince ayrıntısı",
     "check.colours-lost": "çizimin kaybolan renkleri",
+    "check.outline": "resmin zemininde kaybolan dış çizgisi",
+    "check.outline-cure": "onunla karşıt bir renk verin: --ground RENK",
     "check.round": "yuvarlak resmin dışındaki düğümler",
     "check.round-source": "yuvarlak bir halının orada düğümü yoktur; şimdilik tüm halılar dikdörtgendir",
     "check.round-cure": "dikdörtgen bir halı seçin: zemin rengi köşelerinin rengidir",
@@ -41,6 +44,7 @@ TURKISH = {
     "cure.both": "{first} ve {second}",
     "cure.by": "{what}: {cure}",
     "cure.lack": "ya da ipliklerde renkleri yok (iplik listesini bırakın)",
+    "cure.print": "küçük yazı ya da ince çizgiler okunamaz: daha büyük bir boyut, daha ince bir kalite ya da bir parça",
     "cure.finer": "düğümlerden ince: daha büyük bir boyut, daha ince bir kalite ya da resmin bir parçası",
     "cure.more-colours": "iplik sayısını {count} yapın",
     "cure.take-yarn": "listeden {yarn!r} ipliğini de alın (tutulan iplikler ya da daha çok iplik)",
