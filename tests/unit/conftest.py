@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from default_machines import out_of_space
 from PIL import Image
 
 from ilmek.machines.automated_loom import MACHINE
@@ -26,11 +27,9 @@ def memory(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.fixture
 def not_in_space() -> Iterator[None]:
-    """Looms whose parts are not compared in space, which takes most of the time of a design."""
-    assembly = MACHINE.assembly
-    object.__setattr__(MACHINE, "assembly", None)
-    yield
-    object.__setattr__(MACHINE, "assembly", assembly)
+    """Looms whose parts are not compared in space."""
+    with out_of_space():
+        yield
 
 
 @pytest.fixture
