@@ -170,11 +170,6 @@ def test_the_verdict_has_these_reasons_and_no_other(
         ), [(one.name, one.value, one.limit) for one in meant]
 
 
-def test_every_check_that_can_fail_in_a_loom_names_its_cure() -> None:
-    loom = design(AutomatedLoomParams.read({"beat": "comb"}))
-    assert [check.name for check in all_checks(loom) if not check.cure] == []
-
-
 def test_the_reasons_stand_in_order_of_weight() -> None:
     report = loom_report(design(AutomatedLoomParams.read({"beat": "comb", "hammer.force": "1N", "tension": "60N"})))
     found = reasons(report.all_checks)

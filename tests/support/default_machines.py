@@ -1,5 +1,7 @@
 """Reports that many tests read, made once in a process: of the machines at their defaults, and of looms."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import cache, lru_cache
 from typing import Any
 
@@ -31,6 +33,17 @@ def default_results(machine: str) -> Report:
 def loom_report(loom: LoomDesign) -> Report:
     """The report of a loom without tables and figures, and without its parts in space."""
     return MACHINE.report(loom, illustrated=False, assembled=False)
+
+
+@contextmanager
+def out_of_space() -> Iterator[None]:
+    """Looms whose parts are not compared in space, which takes most of the time of a design."""
+    assembly = MACHINE.assembly
+    object.__setattr__(MACHINE, "assembly", None)
+    try:
+        yield
+    finally:
+        object.__setattr__(MACHINE, "assembly", assembly)
 
 
 @cache

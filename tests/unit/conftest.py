@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from default_machines import out_of_space
 from PIL import Image
 
 from ilmek.machines.automated_loom import MACHINE
@@ -25,9 +26,22 @@ def memory(tmp_path: Path) -> Iterator[Path]:
 
 
 @pytest.fixture
-def plain_page(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Pages without figures and a small picture of the carpet; the true ones have tests of their own."""
+def not_in_space() -> Iterator[None]:
+    """Looms whose parts are not compared in space."""
+    with out_of_space():
+        yield
+
+
+@pytest.fixture
+def plain_page(monkeypatch: pytest.MonkeyPatch, not_in_space: None) -> None:
+    """Pages without figures, a small picture of the carpet, no loom in space: the true ones have tests of their own."""
     for name in ("carpet_page", "loom_page"):
         monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
     monkeypatch.setattr("ilmek.jobs.loom.MACHINE", replace(MACHINE, figures=lambda _: ()))
     monkeypatch.setattr("ilmek.jobs.chart.draw_carpet", lambda *_, **__: DrawnCarpet(Image.new("RGB", (2, 2)), WHOLE))
+
+
+@pytest.fixture
+def nothing_near(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No search of the nearest carpets where a loom cannot weave: it takes a minute, and has a test of its own."""
+    monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: ())

@@ -12,8 +12,8 @@ LOOMS = (
     {"beat": "linkage"},
     {"beat": "comb", "aim": "time"},
     {"beat": "guide-cams"},
-    {"knot": "asymmetric"},
     {"knots_across": "60/dm", "width": "3m", "deadline": "200h", "price_limit": "50000"},
+    {"knot": "asymmetric"},
 )
 
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import out_of_space
 from PIL import Image
 
 from ilmek.cli import main
@@ -27,6 +29,8 @@ MEDALLION = str(Path(__file__).parents[2] / "examples" / "medallion.png")
 SIZE, QUALITY = "60x90cm", "15x15/dm"
 LOOM = ("width=0.6m", "length=0.9m", "knots_across=15/dm", "knots_along=15/dm", "colours=12", "heads=2", "beat=comb")
 
+pytestmark = pytest.mark.usefixtures("nothing_near")
+
 LOOMS = (
     (),
     ("aim=time",),
@@ -36,6 +40,12 @@ LOOMS = (
     ("width=2m", "length=3m", "knots_across=30/dm", "knots_along=25/dm", "deadline=200h"),
     ("knots_across=12/dm", "shedding.law=modified-sine", "yarns.warp=wool", "prices=bearing each = 9"),
 )
+
+
+@pytest.fixture(scope="module", autouse=True)
+def not_in_space() -> Iterator[None]:
+    with out_of_space():
+        yield
 
 
 def run(*arguments: str) -> Result:

@@ -15,7 +15,7 @@ CASES = Path(__file__).parents[1] / "fuzz_cases"
 LIMITS = Limits(hang=300.0, timing=False)
 """No test of time: the machine may be busy, and kernels may have to be compiled."""
 
-FIRST, NUMBER = 1_000_000, number(10, 2000)
+FIRST, NUMBER = 1_000_000, number(5, 2000)
 """The first input of the share, not those of `make fuzz`; and how many."""
 
 

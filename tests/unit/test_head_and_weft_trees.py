@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from cloths import cloth
+from default_machines import loom_report
 from hypothesis import given
 from hypothesis import strategies as st
 from matplotlib.path import Path as Outline
@@ -211,7 +212,7 @@ def test_a_rapier_weighs_its_tube_and_gripper() -> None:
 def _loom(weft: str) -> tuple[Any, Scene]:
     settings = {"width": "0.4 m", "length": "0.3 m", "heads": "2", "weft": weft, "beat": "travelling"}
     made = LOOM.designed(LOOM.params.read(settings))
-    return made, scene(made, LOOM.report(made, illustrated=False))
+    return made, scene(made, loom_report(made))
 
 
 @pytest.mark.parametrize("weft", ["shuttle", "rapier"])
@@ -228,6 +229,6 @@ def test_every_part_of_heads_and_weft_in_space_is_a_line_with_its_checks(weft: s
     assert set(shown) == {name for name in lines if name.startswith(("weaver/", "weft/"))}
     assert shown["weaver/sley-cam"].checks or shown["weaver/side-gripper-motion-cam"].checks
     assert any(check.name.startswith("clearance: ") for check in shown["weaver/opener-plate"].checks)
-    named = {part for check in LOOM.report(made, illustrated=False).all_checks for part in check.parts}
+    named = {part for check in loom_report(made).all_checks for part in check.parts}
     assert {name for name in named if name.startswith(("weaver/", "weft/"))} <= set(shown)
     assert len(next(frame for frame in found.frames if frame.name == found.heads).origins) == made.heads

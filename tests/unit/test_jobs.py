@@ -44,6 +44,7 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
         read_loom_order(read_order(Path("nowhere.png")), loom={"deadline": "3h"})
 
 
+@pytest.mark.usefixtures("not_in_space", "nothing_near")
 def test_loom_follows_the_chart() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="8mm")
     charted = make_charted(order)
@@ -69,6 +70,7 @@ def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, k
     assert (alone.params.pile, alone.params.billed) == (woven.pile, woven.billed)
 
 
+@pytest.mark.usefixtures("not_in_space", "nothing_near")
 def test_heads_are_as_many_as_fit_where_few_fit() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm")
     loomed = make_loomed(read_loom_order(order), make_charted(order), illustrated=False)
@@ -83,6 +85,7 @@ def test_free_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert free_folder(Path("..."), "chart") == Path("picture-chart")
 
 
+@pytest.mark.usefixtures("not_in_space", "nothing_near")
 def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", lambda page, *_: page.title)
     monkeypatch.setattr("ilmek.jobs.weave.loom_page", lambda page, *_: page.title)
@@ -151,6 +154,7 @@ def test_a_first_carpet_warms_everything() -> None:
     assert warm() > 512
 
 
+@pytest.mark.usefixtures("not_in_space", "nothing_near")
 def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def failing(*_: object, **__: object) -> None:
         raise ZeroDivisionError("no picture")

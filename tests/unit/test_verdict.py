@@ -23,15 +23,11 @@ SMALL = ("--size", "40x60cm", "--quality", "15x15/dm", "--no-pdf")
 FAILS = ("--loom", "head_width=20mm")
 """A setting with which the loom is designed, and fails a check."""
 
+pytestmark = pytest.mark.usefixtures("nothing_near")
+
 
 def run(*arguments: str) -> Result:
     return CliRunner().invoke(main, arguments)
-
-
-@pytest.fixture(autouse=True)
-def nothing_near(monkeypatch: pytest.MonkeyPatch) -> None:
-    """No search of the nearest carpets, which takes seconds."""
-    monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: ())
 
 
 def judged(found: dict[str, Any]) -> int:
@@ -52,6 +48,7 @@ def weight(reason: dict[str, Any]) -> float:
 
 @pytest.mark.parametrize("name", MACHINES)
 @pytest.mark.one_in(3)
+@pytest.mark.usefixtures("not_in_space")
 def test_design_ends_as_its_checks_demand(tmp_path: Path, name: str) -> None:
     file = tmp_path / "found.json"
     shown = run("design", name, "--json", str(file))
@@ -77,9 +74,6 @@ def test_the_loom_states_whether_it_weaves() -> None:
     assert found["weaves"] is found["results"]["weaves"] is found["holds"] is (result.exit_code == 0)
     assert found["row_pitch_left"] == found["results"]["row_pitch_left"] > 0
     assert found["results"]["reasons"] == found["reasons"]
-    refused = json.loads(run("design", "automated-loom", "head_width=20mm", "--json", "-").stdout)
-    assert not refused["weaves"]
-    assert "weaver: cams beside each other" in {reason["name"] for reason in refused["reasons"]}
 
 
 @pytest.mark.usefixtures("plain_page")
@@ -110,9 +104,10 @@ def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     assert not any(file.endswith("programme.ilmek") for file in found["files"])
     machine = json.loads((tmp_path / "out" / "machine.json").read_text(encoding="utf-8"))
     assert not machine["weaves"]
-    assert machine["reasons"]
+    assert "weaver: cams beside each other" in {reason["name"] for reason in machine["reasons"]}
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_the_page_of_a_loom_that_cannot_weave_is_red(tmp_path: Path) -> None:
     run("weave", MEDALLION, "--size", "20x30cm", "--quality", "10x10/dm", *FAILS, "--out", str(tmp_path / "out"))
     page = (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
@@ -173,6 +168,7 @@ def test_a_setting_that_prevents_a_design_is_bad_input(tmp_path: Path, monkeypat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.usefixtures("not_in_space")
 @pytest.mark.matrix(light=2)
 @pytest.mark.parametrize(
     ("wishes", "named"),
@@ -215,6 +211,7 @@ def test_the_chart_and_the_cyclogram_end_with_their_checks(tmp_path: Path) -> No
     assert solved.exit_code == judged(json.loads(solved.stdout)) == 0
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     found = json.loads(run("design", "automated-loom", "--json", "-").stdout)
     assert {"name", "chosen", "decided_by", "next_cheaper", "failed"} == found["choices"][0].keys()
@@ -225,6 +222,7 @@ def test_every_choice_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:
     assert [choice.name for choice in machine.report_for({}).all_choices] == [one["name"] for one in found["choices"]]
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_the_nearest_carpets_are_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     fits = (NearestFit("quality", "20/dm x 20/dm"), NearestFit("width", "0.9 m"))
     monkeypatch.setattr("ilmek.jobs.nearest.nearest_fits", lambda *_: fits)

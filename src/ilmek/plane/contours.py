@@ -6,13 +6,14 @@ where b < 0 and right of it where b > 0; b = 1 is a half turn to the left. Point
 """
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.curves import hull
-from ilmek.plane.vectors import cross, dot
+from ilmek.plane.vectors import cross, dot, following
 from ilmek.report import Contour, Hole
 from ilmek.units import format_quantity
 
@@ -100,15 +101,16 @@ def counter_clockwise(contour: Contour) -> Contour:
     return Contour(contour.points[::-1], -np.roll(contour.bulges[::-1], -1))
 
 
+@lru_cache(maxsize=1024)
 def area(contour: Contour) -> float:
     """Enclosed area [m^2], negative for a clockwise contour.
 
     The polygon of the corners, and for each arc the circular segment R^2 (sweep - sin sweep)/2.
     """
-    points, following = contour.points, np.roll(contour.points, -1)
+    points = contour.points
     corners = points - points[0]
-    flat = 0.5 * float(np.sum(cross(corners, np.roll(corners, -1))))
-    return flat + float(np.sum(_slivers(np.abs(following - points), contour.bulges)))
+    flat = 0.5 * float(np.sum(cross(corners, following(corners))))
+    return flat + float(np.sum(_slivers(np.abs(following(points) - points), contour.bulges)))
 
 
 def polygon_moments(corners: Complex[np.ndarray, " corners"]) -> tuple[float, float]:
@@ -119,9 +121,9 @@ def polygon_moments(corners: Complex[np.ndarray, " corners"]) -> tuple[float, fl
     >>> area, round(polar, 12)
     (4.0, 2.666666666667)
     """
-    following = np.roll(corners, -1)
-    twice = cross(corners, following)
-    polar = twice * (dot(corners, corners) + dot(corners, following) + dot(following, following)) / 12
+    after = following(corners)
+    twice = cross(corners, after)
+    polar = twice * (dot(corners, corners) + dot(corners, after) + dot(after, after)) / 12
     return float(np.sum(twice) / 2), float(np.sum(polar))
 
 
@@ -136,7 +138,7 @@ def _slivers(chord: Float[np.ndarray, " pieces"], bulge: Float[np.ndarray, " pie
 
 def length(contour: Contour) -> float:
     """Length of the contour [m]: chord (1 + b^2) atan(b)/b for each piece."""
-    chord = np.abs(np.roll(contour.points, -1) - contour.points)
+    chord = np.abs(following(contour.points) - contour.points)
     b = np.where(contour.bulges == 0, 1.0, contour.bulges)
     longer = np.where(contour.bulges == 0, 1.0, (1 + b**2) * np.arctan(b) / b)
     return float(np.sum(chord * longer))
@@ -148,8 +150,7 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
     The deviation of n chords over the sweep is R (1 - cos(sweep/2n)).
     """
     parts = []
-    following = np.roll(contour.points, -1)
-    for start, end, bulge in zip(contour.points, following, contour.bulges, strict=True):
+    for start, end, bulge in zip(contour.points, following(contour.points), contour.bulges, strict=True):
         pieces = _chords(float(abs(end - start)), abs(float(bulge)), chord_error)
         parts.append(on_piece(complex(start), complex(end), float(bulge), np.arange(pieces) / pieces))
     return np.concatenate(parts)
@@ -193,8 +194,7 @@ def bounds(contour: Contour) -> tuple[complex, complex]:
     (-1j, (2+1j))
     """
     reached = [contour.points]
-    following = np.roll(contour.points, -1)
-    for start, end, bulge in zip(contour.points, following, contour.bulges, strict=True):
+    for start, end, bulge in zip(contour.points, following(contour.points), contour.bulges, strict=True):
         if abs(bulge) >= STRAIGHT and start != end:
             centre = arc_centre(complex(start), complex(end), float(bulge))
             summits = centre + abs(start - centre) * np.array([1, 1j, -1, -1j])

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, RealField
+from ilmek.arrays import ComplexField, NumberArray, RealField
 
 
 def dot(u: ComplexField, v: ComplexField) -> RealField:
@@ -21,6 +21,15 @@ def cross(u: ComplexField, v: ComplexField) -> RealField:
     2.0
     """
     return u.real * v.imag - u.imag * v.real
+
+
+def following(points: NumberArray) -> NumberArray:
+    """The next point for each of a closed line, (n): `np.roll(points, -1)` in a tenth of its time for short ones.
+
+    >>> following(np.array([1, 2, 3])).tolist()
+    [2, 3, 1]
+    """
+    return np.concatenate((points[1:], points[:1]))
 
 
 def oblique(v: ComplexField, e: ComplexField, f: ComplexField) -> RealField:

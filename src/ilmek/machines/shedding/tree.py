@@ -9,6 +9,7 @@ again. Of staggered cams each group has a plate of its own, its bore turned by t
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -85,13 +86,19 @@ def _of_shaft(
     )
     return standing, RigidBody(
         part_id("cam shaft", index),
-        tuple(_turning(design, index)),
+        _turning(design, index),
         standing.id,
         replace(pin, motor=part_id("motor", index)),
     )
 
 
-def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+@lru_cache(maxsize=16)
+def _turning(design: SheddingDesign, index: int) -> tuple[Occurrence, ...]:
+    """All that turns with a shaft: thousands of placements, made once for list, mass, price and space."""
+    return tuple(_on_the_bar(design, index))
+
+
+def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
     shaft = design.shafts[index]
     stack, bar = shaft.stack, shaft.shaft.bar
