@@ -42,8 +42,10 @@ def test_print_finer_than_the_knots_fails_and_the_same_print_on_a_large_carpet_d
     assert check.value == chart_results(small)["detail_kept"]
     assert "--quality" in check.cure
     assert not failed(large)
-    accepted = {"least_detail": "0%", "least_edges": "0%", "most_fine_lost": "100%"}
+    accepted = {"least_detail": "0%", "least_edges": "0%"}
     assert not failed(charted(picture, "90x63cm", "12x12/dm", read="flat", **accepted))
+    strict = charted(picture, "90x63cm", "12x12/dm", read="flat", **accepted, most_fine_lost="4%")
+    assert failed(strict) == ["fine detail of the picture lost"]
 
 
 @pytest.mark.parametrize("shape", ["saltire", "disc"])
