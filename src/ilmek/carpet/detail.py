@@ -14,7 +14,8 @@ or more have detail.
 
 Small print is a little part of most drawings, and edges beside it keep the mean up. So what is lost of it is measured
 by itself: with m the means of p over the knots, a window is finer than the knots if |m| < FINER |p| wherever it is
-moved, and lost if r < READABLE. The fine detail lost is the share of the weights of the windows that are both.
+moved, and |p| keeps half of its greatest: else it lies at a side. It is lost if r < READABLE. The fine detail lost is
+the share of the weights of the windows that are both.
 """
 
 from typing import NamedTuple
@@ -118,5 +119,6 @@ def detail_kept(detail: Detail | None, knots: Indices, yarn_labs: FloatArray, *,
     share = np.maximum(np.max(common / np.maximum(detail.spread * contrast, 1e-9), axis=0), 0.0)
     share *= np.minimum(1.0, contrast / weight) if photo else 1.0
     coarse = np.sqrt(np.mean(np.sum(detail.means**2, axis=-1), axis=-1)) / np.maximum(detail.spread, 1e-9)
-    lost = (np.max(coarse, axis=0) < FINER) & (share < READABLE)
+    within = 2 * detail.spread.min(axis=0) >= detail.spread.max(axis=0)
+    lost = within & (coarse.max(axis=0) < FINER) & (share < READABLE)
     return KeptDetail(*(float((part * weight).cumsum()[-1] / weight.cumsum()[-1]) for part in (share, lost)))

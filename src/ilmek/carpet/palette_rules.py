@@ -112,13 +112,14 @@ class PaletteParams(Params):
         doc="least share of the picture's detail that the chart keeps, of which less is a failed check; default: "
         "flat 60 %, photo 30 %",
     )
-    most_fine_lost: float = param(
-        MOST_FINE_LOST,
+    most_fine_lost: float | None = param(
+        None,
         unit="%",
         at_least=0.0,
         at_most=1.0,
         doc="largest share of the detail of a drawing, or of a photo half of which is one yarn, that is finer than the "
-        "knots and lost, as small print, beyond which is a failed check",
+        f"knots and lost, as small print, beyond which is a failed check; default: {MOST_FINE_LOST:.0%}, with "
+        "least_detail any",
     )
     most_lost: float = param(
         MOST_LOST,

@@ -96,4 +96,5 @@ def contrasting_ground(art: Image.Image) -> Ground:
 def _greatest_around(values: FloatArray) -> FloatArray:
     """The greatest of each value and its eight neighbours."""
     padded = np.pad(values, 1, mode="edge")
-    return np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).max(axis=(-2, -1))
+    greatest: FloatArray = np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).max(axis=(-2, -1))
+    return greatest

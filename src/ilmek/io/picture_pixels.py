@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageCms
 
-from ilmek.arrays import Rgb
+from ilmek.arrays import FloatArray, Rgb
 from ilmek.carpet.picture_points import Colour, hex_colour
 from ilmek.errors import PictureError
 from ilmek.io.ground_colour import WHITE, Ground, contrasting_ground

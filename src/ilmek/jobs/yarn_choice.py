@@ -15,7 +15,15 @@ from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.colour_names import colour_name
 from ilmek.carpet.edges_kept import LostColour
 from ilmek.carpet.matches import ColourMatch
-from ilmek.carpet.palette_rules import LEAST_DETAILS, LEAST_DIFFERENCE, LEAST_GAIN, NEUTRAL_NO, TwinYarns, twin_yarns
+from ilmek.carpet.palette_rules import (
+    LEAST_DETAILS,
+    LEAST_DIFFERENCE,
+    LEAST_GAIN,
+    MOST_FINE_LOST,
+    NEUTRAL_NO,
+    TwinYarns,
+    twin_yarns,
+)
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.proposal import MatchedShade, match_shades
 from ilmek.io.yarn_file import default_yarns
@@ -97,15 +105,7 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     if made.edges_kept is not None:
         cure = _edges_cure(chart, order)
         checks.append(at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
-    if made.detail_kept is not None:
-        finer = Sentence("cure.finer")
-        cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
-        least = LEAST_DETAILS[made.kind] if rules.least_detail is None else rules.least_detail
-        detail = made.detail_kept
-        checks.append(at_least(Sentence("check.detail-kept"), detail.share, least, "%", _KEPT, cure=cure))
-        if made.kind == "flat" or max(chart.counts) >= LEAST_GROUND * chart.knots.size:
-            fine, most = Sentence("check.fine-lost"), rules.most_fine_lost
-            checks.append(at_most(fine, detail.fine_lost, most, "%", _KEPT, cure=Sentence("cure.print")))
+    checks += _detail_checks(chart, order)
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
         checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
@@ -119,6 +119,21 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
 
 
 _KEPT = Sentence("check.chosen")
+
+
+def _detail_checks(chart: Chart, order: CarpetOrder) -> Iterator[Check]:
+    """The detail that the chart keeps, and of a drawing or print what is finer than the knots and lost."""
+    detail, kind, rules = chart.reading.detail_kept, chart.reading.kind, order.palette
+    if detail is None:
+        return
+    finer, least = Sentence("cure.finer"), rules.least_detail
+    cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
+    limit = LEAST_DETAILS[kind] if least is None else least
+    yield at_least(Sentence("check.detail-kept"), detail.share, limit, "%", _KEPT, cure=cure)
+    most = MOST_FINE_LOST if rules.most_fine_lost is None and least is None else rules.most_fine_lost
+    if most is not None and (kind == "flat" or max(chart.counts) >= LEAST_GROUND * chart.knots.size):
+        cure = Sentence("cure.print")
+        yield at_most(Sentence("check.fine-lost"), detail.fine_lost, most, "%", _KEPT, cure=cure)
 
 
 def _lost_cures(chart: Chart, order: CarpetOrder) -> Iterator[Sentence]:
