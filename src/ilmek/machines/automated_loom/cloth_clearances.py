@@ -9,6 +9,7 @@ What touches the cloth to work with it is left out: guide cams and leaves of a c
 fell, tools of the head while it knots.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise
@@ -84,7 +85,7 @@ def cloth_clearances(loom: LoomDesign) -> tuple[ClothDistance, ...]:
     """The least distance of each body from warps, carpet and roll, of those that come near; the nearest first."""
     angle, side = _angles(loom), built_side(loom)
     laid = _within(weft_windows(loom.row_cyclogram), angle)
-    least: dict[tuple[str, str], ClothDistance] = {}
+    least: dict[tuple[str, str], tuple[float, float]] = {}
     cloths = tuple(_cloth(loom, side, angle))
     for moved in _bodies(loom, side, angle):
         for cloth in cloths:
@@ -95,10 +96,10 @@ def cloth_clearances(loom: LoomDesign) -> tuple[ClothDistance, ...]:
             if moved.body == CARRIER:
                 apart = np.where(laid, apart, np.inf)
             nearest = int(np.argmin(apart))
-            one = ClothDistance(moved.body, cloth.body, float(apart[nearest]), float(angle[nearest]))
-            key = (one.body, one.cloth)
-            least[key] = min(least.get(key, one), one, key=lambda distance: distance.value)
-    near = (one for one in least.values() if one.value <= HORIZON)
+            value, where = float(apart[nearest]), float(angle[nearest])
+            if value < least.get((moved.body, cloth.body), (math.inf, 0.0))[0]:
+                least[moved.body, cloth.body] = value, where
+    near = (ClothDistance(*pair, *distance) for pair, distance in least.items() if distance[0] <= HORIZON)
     return tuple(sorted(near, key=lambda distance: distance.value))
 
 
@@ -107,21 +108,21 @@ def cloth_checks(loom: LoomDesign) -> tuple[Check, ...]:
     parts, source = _parts(loom), "parameter clearance, assumed by this project; least at {:.1f} deg of a row"
     return tuple(
         at_least(
-            f"clearance: {one.body} and {one.cloth}",
-            one.value,
+            f"clearance: {near.body} and {near.cloth}",
+            near.value,
             loom.params.clearance,
             "mm",
-            source.format(one.angle / deg),
-            cure=CURES.get(one.body, "leave the spans of the shed open"),
-            parts=parts[one.body],
+            source.format(near.angle / deg),
+            cure=CURES.get(near.body, "leave the spans of the shed open"),
+            parts=parts[near.body],
         )
-        for one in cloth_clearances(loom)
+        for near in cloth_clearances(loom)
     )
 
 
 def cloth_table(loom: LoomDesign) -> Table:
     """The least distances from the cloth."""
-    rows = tuple((one.body, one.cloth, one.value, one.angle) for one in cloth_clearances(loom))
+    rows = tuple((near.body, near.cloth, near.value, near.angle) for near in cloth_clearances(loom))
     heads = columns("body", "and", "least [mm]", "at [deg]")
     return Table("loom-cloth-clearances", "Least distances from warps and carpet", heads, rows)
 

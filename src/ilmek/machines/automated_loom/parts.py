@@ -79,10 +79,13 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
 def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
     """The frame, with more spans of the rail where the supports of those that its parameter sets do not hold."""
     offered = [replace(task, rail_spans=number) for number in range(task.rail_spans, 2 * task.rail_spans + 1)]
-    frames = (frame_for(own, lambda frame: sway_checks(loom, frame)) for own in offered)
+    frames = (frame_for(spans, lambda frame: sway_checks(loom, frame)) for spans in offered)
     first = next(frames)
-    held = (one for one in chain((first,), frames) if all(c.ok for own in rail_supports(loom, one) for c in own.checks))
-    return next(held, first)
+    return next((frame for frame in chain((first,), frames) if _rail_holds(loom, frame)), first)
+
+
+def _rail_holds(loom: LoomDesign, frame: LoomFrame) -> bool:
+    return all(check.ok for support in rail_supports(loom, frame) for check in support.checks)
 
 
 def own_tree(loom: LoomDesign) -> Tree:
