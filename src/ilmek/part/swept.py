@@ -12,7 +12,7 @@ from ilmek.part.colliders import MANY, Collider, collider, row
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import BodyPoints, Chain, ChainLink, ChainTravel, poses
 from ilmek.part.shapes import Shape, Sum
-from ilmek.part.tree import RigidBody
+from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import turn
 
 INTERVALS, SAMPLES = 24, 8
@@ -32,6 +32,11 @@ class Piece:
     position: Placement
     collider: Collider
     few: Collider | None = None
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "8 3"]:
+        """Corners of its box in the body's axes [m]."""
+        return _box_corners(self.extent.points)
 
     @cached_property
     def extent(self) -> BodyPoints:
@@ -84,7 +89,7 @@ class SweptPieces:
             here = poses(chain, drive, np.zeros(1))
             still = [here.points(piece.extent.points)[0] for piece in self.pieces]
             return np.broadcast_to(np.array([[own.min(0), own.max(0)] for own in still])[:, None], size)
-        corners = np.concatenate([_box_corners(piece.extent.points) for piece in self.pieces])
+        corners = np.concatenate([piece.corners for piece in self.pieces])
         at = poses(chain, drive, self.ends.ravel()).points(corners)
         at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
         low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
@@ -114,12 +119,18 @@ def swept_pieces(
 ) -> SweptPieces:
     """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
     chain = tuple(ChainLink(body, body.id, index) for body, index in links)
-    return SweptPieces(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), intervals(windows))
+    pieces = _pieces(chain[-1].body.occurrences)
+    return SweptPieces(pieces, ChainTravel(chain, drive, np.array(angles)), intervals(windows))
 
 
-def _pieces(chain: Chain) -> Iterator[Piece]:
-    """The pieces of the parts of the last body, of a sum its members; of what is in it `MANY` times all as one."""
-    for occurrence in chain[-1].body.occurrences:
+@lru_cache(maxsize=512)
+def _pieces(occurrences: tuple[Occurrence, ...]) -> tuple[Piece, ...]:
+    """The pieces of the parts of a body, of a sum its members; of what is in it `MANY` times all as one."""
+    return tuple(_each_piece(occurrences))
+
+
+def _each_piece(occurrences: tuple[Occurrence, ...]) -> Iterator[Piece]:
+    for occurrence in occurrences:
         part = occurrence.part
         if part.shape is None:
             continue

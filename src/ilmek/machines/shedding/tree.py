@@ -9,6 +9,7 @@ again. Of staggered cams each group has a plate of its own, its bore turned by t
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -84,14 +85,19 @@ def _of_shaft(
     )
     return standing, RigidBody(
         part_id("cam shaft", index),
-        tuple(_turning(design, index)),
+        _turning(design, index),
         standing.id,
         replace(pin, motor=part_id("motor", index)),
     )
 
 
-def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+@lru_cache(maxsize=8)
+def _turning(design: SheddingDesign, index: int) -> tuple[Occurrence, ...]:
     """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
+    return tuple(_on_the_bar(design, index))
+
+
+def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     shaft = design.shafts[index]
     stack, bar = shaft.stack, shaft.shaft.bar
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
