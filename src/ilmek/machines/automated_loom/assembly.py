@@ -2,11 +2,19 @@
 
 from collections.abc import Mapping
 from functools import lru_cache
+from itertools import chain
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.nearest_parts import MIDDLE, NearParts, machines_of_bodies, nearest_parts
+from ilmek.machines.automated_loom.nearest_parts import (
+    MIDDLE,
+    NearParts,
+    machines_of_bodies,
+    nearest_of,
+    nearest_parts,
+    passes,
+)
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
@@ -106,6 +114,13 @@ class LoomAssembly:
 def assembly(loom: LoomDesign) -> LoomAssembly:
     """The parts of a loom against each other; takes about a second."""
     return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
+
+
+def holds_in_space(loom: LoomDesign) -> bool:
+    """Whether the checks of `assembly` hold; ended at the first comparison in which one fails, so quicker than all."""
+    touching = contacts(loom_tree(loom))
+    each = chain([()], passes(loom, loom.params.clearance))
+    return all(LoomAssembly(loom, nearest_of(near), touching).holds for near in each)
 
 
 @lru_cache(maxsize=4)

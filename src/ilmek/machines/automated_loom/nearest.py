@@ -12,7 +12,7 @@ from ilmek.carpet.quality import COARSEST
 from ilmek.carpet.sizes import SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import IlmekError
-from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.assembly import holds_in_space
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.machines.automated_loom.selection import design
@@ -49,7 +49,7 @@ def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:
     """
     try:
         loom = design(params)
-        return all(check.ok for check in all_checks(loom)) and (not in_space or assembly(loom).holds)
+        return all(check.ok for check in all_checks(loom)) and (not in_space or holds_in_space(loom))
     except IlmekError:
         return False
 
