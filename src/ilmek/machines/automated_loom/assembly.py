@@ -18,7 +18,7 @@ from ilmek.machines.automated_loom.nearest_parts import (
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
-from ilmek.part.freedoms import Freedoms, freedoms
+from ilmek.part.freedoms import freedoms
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -60,10 +60,10 @@ class LoomAssembly:
     degrees_of_freedom = computed(
         "1",
         "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
-        lambda it: freedoms_of(it.loom).number,
+        lambda it: freedoms(loom_tree(it.loom)).number,
     )
     passive_bodies = computed(
-        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms_of(it.loom).passive)
+        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms(loom_tree(it.loom)).passive)
     )
 
     @computed(
@@ -121,12 +121,6 @@ def holds_in_space(loom: LoomDesign) -> bool:
     touching = contacts(loom_tree(loom))
     each = chain([()], passes(loom, loom.params.clearance))
     return all(LoomAssembly(loom, nearest_of(near), touching).holds for near in each)
-
-
-@lru_cache(maxsize=4)
-def freedoms_of(loom: LoomDesign) -> Freedoms:
-    """The degrees of freedom of a loom beside its motors."""
-    return freedoms(loom_tree(loom))
 
 
 @lru_cache(maxsize=4)

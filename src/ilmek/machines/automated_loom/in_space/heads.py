@@ -40,7 +40,8 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
-from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, head_tree, on_the_axis, placed
+from ilmek.machines.weaver.transmissions import CAM_SHAFT
+from ilmek.machines.weaver.tree import HEAD, head_tree, on_the_axis, placed
 from ilmek.machines.weaver.turning import HANDLER_BODY, PINION_BODY
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import box

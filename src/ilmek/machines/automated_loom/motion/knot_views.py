@@ -12,7 +12,8 @@ from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.parts import case_plates
-from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD
+from ilmek.machines.weaver.transmissions import CAM_SHAFT
+from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.projection import PieceOutline, View, moving_outlines, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import Track, sample
