@@ -6,11 +6,17 @@ from dataclasses import replace
 
 from ilmek.machines import BEATS
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
+from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.report import all_checks
+from ilmek.part.freedoms import freedoms
 
 RUNS = 7
 ALLOWED, CHOOSING = 0.1, 1.0
 """Of a design with everything given, and of the choice of all that is left open [s]."""
+
+SPACE = 2.5
+"""Of the comparison of all parts in space, in a fresh process for the first beat [s]."""
 
 
 def seconds(work: Callable[[], object]) -> float:
@@ -24,6 +30,13 @@ def seconds(work: Callable[[], object]) -> float:
     return min(taken)
 
 
+def processor_seconds(work: Callable[[], object]) -> float:
+    """Processor time of the work, done once."""
+    begun = time.process_time()
+    work()
+    return time.process_time() - begun
+
+
 def run() -> None:
     for beat in BEATS:
         params = AutomatedLoomParams(beat=beat)
@@ -34,6 +47,12 @@ def run() -> None:
         whole, parts = seconds(lambda params=params: design(params)), sum(alone.values())  # type: ignore[misc]
         checked = seconds(lambda loom=loom: all_checks(replace(loom)))  # type: ignore[misc]
         reported = seconds(lambda loom=loom: MACHINE.report(replace(loom)))  # type: ignore[misc]
+        spaced = processor_seconds(lambda loom=loom: assembly(replace(loom)))  # type: ignore[misc]
+        free = processor_seconds(lambda loom=loom: freedoms(loom_tree(loom)))  # type: ignore[misc]
+        print(
+            f"loom, {beat}: in space {spaced:.2f} s of processor time, {SPACE / spaced:.1f} times within {SPACE:g} s; "
+            f"degrees of freedom {free * 1e3:.0f} ms"
+        )
         print(
             f"loom, {beat}: design {whole * 1e3:.0f} ms = {whole / parts:.2f} of its machines' {parts * 1e3:.0f} ms, "
             f"{ALLOWED / whole:.1f} times within {ALLOWED:g} s; checks {checked:.2f} s, report {reported:.2f} s"

@@ -18,7 +18,8 @@ from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams
 from ilmek.machines.weaver.case import BRACKET, FACE
 from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.parts import cam_id
-from ilmek.machines.weaver.tree import CAM_SHAFT, HEAD, MAGAZINE, head_tree
+from ilmek.machines.weaver.transmissions import CAM_SHAFT
+from ilmek.machines.weaver.tree import HEAD, MAGAZINE, head_tree
 from ilmek.part.contacts import groups
 from ilmek.part.part import Part
 from ilmek.part.poses import chains, poses

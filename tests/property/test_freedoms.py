@@ -16,7 +16,7 @@ from ilmek.part.freedoms import freedoms
 from ilmek.part.mobility import TreeMobility, independent_rows
 from ilmek.part.tree import Joint, JointKind, RigidBody, Tree
 
-_LOOMS = (
+_LOOMS: tuple[dict[str, object], ...] = (
     {},
     {"beat": "linkage", "heads": 4},
     {"beat": "comb", "heads": 2},

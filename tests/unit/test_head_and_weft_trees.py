@@ -27,7 +27,8 @@ from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.parts import SIDE_PLATE
 from ilmek.machines.weaver.return_springs import spring_id
 from ilmek.machines.weaver.tool_parts import OPENER_PLATE, SLEY_BODY
-from ilmek.machines.weaver.tree import CAM_SHAFT, head_tree
+from ilmek.machines.weaver.transmissions import CAM_SHAFT
+from ilmek.machines.weaver.tree import head_tree
 from ilmek.machines.weaver.widths import case_width
 from ilmek.machines.weft import MACHINE as WEFT
 from ilmek.machines.weft import Rapier, Shuttle, WeftParams

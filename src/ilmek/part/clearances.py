@@ -15,7 +15,6 @@ Of a part that is in its body `MANY` times the first, the middle and the last st
 from collections.abc import Callable, Generator, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 from typing import TypeAlias
 
 import numpy as np
@@ -83,11 +82,26 @@ def approaches(  # noqa: PLR0917
         swept_pieces(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
     )
     carried = [one for one in every if one.pieces]
-    both = (pair for pair in combinations(carried, 2) if not some or sum(one.body in some for one in pair) == 1)
+    both = ((carried[first], carried[other]) for first, other in _met(carried, horizon, some))
     pairs = [pair for first, other in both for pair in _near(first, other, horizon, required)]
+    near = [(pair, where) for pair, where in zip(pairs, _searched(pairs), strict=True) if where]
     common = Common({})
-    nearest = (_approach(pair, where, common) for pair, where in zip(pairs, _searched(pairs), strict=True) if where)
+    at = _relative_poses([pair for pair, _ in near], [np.array([where.angle]) for _, where in near])
+    nearest = (_approach(pair, where, lies, common) for (pair, where), lies in zip(near, at, strict=True))
     return tuple(sorted(nearest, key=lambda pair: pair.distance))
+
+
+def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -> Iterator[tuple[int, int]]:
+    """Numbers of each two bodies of which the boxes, each about all pieces of one, come nearer than the horizon."""
+    if not carried:
+        return
+    every = [one.boxes() for one in carried]
+    around = np.stack([np.stack([one[:, :, 0].min(0), one[:, :, 1].max(0)], axis=1) for one in every])
+    chosen = np.array([one.body in some for one in carried])
+    for first in range(len(carried) - 1):
+        gaps = box_gaps(around[first : first + 1], around[first + 1 :])[0]
+        others = (gaps < horizon).any(1) & (not some or chosen[first + 1 :] != chosen[first])
+        yield from ((first, int(other)) for other in first + 1 + np.flatnonzero(others))
 
 
 def _near(first: SweptPieces, other: SweptPieces, horizon: float, required: Required) -> Iterator["_Pair"]:
@@ -242,6 +256,8 @@ def _searched(pairs: Sequence[_Pair]) -> tuple[_Where | None, ...]:
 
 def _relative_poses(pairs: Sequence[_Pair], angles: Sequence[FloatArray]) -> Iterator[Relative]:
     """Of each pair the position of its second piece in the axes of the first at angles [rad]."""
+    if not pairs:
+        return iter(())
     counts, at = np.array([len(own) for own in angles]), np.concatenate(angles)
     (own, from_), (its, to) = (_placed_at(pairs, side, counts, at) for side in (0, 1))
     back = own.swapaxes(1, 2)
@@ -267,26 +283,29 @@ def _placed_at(pairs: Sequence[_Pair], side: int, counts: IntArray, angle: Float
     return rotation @ own, origin + (rotation @ away[:, :, None])[:, :, 0]
 
 
-def _approach(pair: _Pair, where: _Where, common: Common) -> Approach:
-    """The least distance; where it is 0, by the volume that both have in common at several angles."""
-    depth, volume, angle = _deepest(pair, where, common)
+def _approach(pair: _Pair, where: _Where, lies: Relative, common: Common) -> Approach:
+    """The least distance; where it is 0, by the volume that both have in common at several angles.
+
+    lies  position of the second piece in the axes of the first where they are nearest
+    """
+    depth, volume, angle = _deepest(pair, where, lies, common)
     first, other = pair.pieces
     bodies = pair.carried[0].body, pair.carried[1].body
     drive = pair.carried[0].travel.drive
     return Approach((first.part, other.part), bodies, -depth if depth > 0 else where.distance, volume, drive, angle)
 
 
-def _deepest(pair: _Pair, where: _Where, common: Common) -> tuple[float, float, float]:
+def _deepest(pair: _Pair, where: _Where, lies: Relative, common: Common) -> tuple[float, float, float]:
     """Largest mean depth [m] of what they have in common, its volume [m³] and angle; 0 where they touch only."""
     first, other = ((piece.few or piece.collider) for piece in pair.pieces)
     deepest = 0.0, 0.0, where.angle
-    tried = np.array([where.angle])
+    tried, (turned, moved) = np.array([where.angle]), lies
+    if where.distance > 0 and not inside(first, other, turned[0], moved[0]):
+        return deepest
     if where.distance <= 0:
         every = pair.ends[:, :: max(SAMPLES * INTERVALS // (POSES * len(pair.ends)), 1)].ravel()
         tried = np.concatenate([tried, np.unique(every)[:: max(len(every) // POSES, 1)]])
-    ((turned, moved),) = _relative_poses([pair], [tried])
-    if where.distance > 0 and not inside(first, other, turned[0], moved[0]):
-        return deepest
+        ((turned, moved),) = _relative_poses([pair], [tried])
     seen: set[tuple[bytes, ...]] = set()
     for angle, rotation, origin in zip(tried.tolist(), turned, moved, strict=True):
         key = pose_key(first, other, rotation, origin)

@@ -8,8 +8,8 @@ import hashlib
 import math
 from collections.abc import Callable, Hashable, Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
-from typing import cast
+from functools import cached_property, lru_cache, partial
+from typing import Generic, TypeVar, cast
 
 import fcl
 import numpy as np
@@ -44,9 +44,13 @@ _CONVEX = 1e-9
 _ROUNDED = 7
 """Digits of the relative positions [m] that are compared: pairs of like parts that lie alike are measured once."""
 
-_KEPT = 20_000
-"""Pairs whose volume in common is kept."""
+_SAME = 9
+"""Digits of the relative positions [m] at which distances are the same."""
 
+_KEPT = 20_000
+"""Results for pairs that are kept."""
+
+T = TypeVar("T")
 Rotation = Float[np.ndarray, "3 3"]
 Vector = Float[np.ndarray, " 3"]
 Points = Float[np.ndarray, "points 3"]
@@ -184,11 +188,7 @@ class Common:
         if shared_thickness(first, other, turned, moved) <= DEPTH:
             return 0.0, 0.0
         key = pose_key(first, other, turned, moved)
-        if key not in _MEASURED:
-            while len(_MEASURED) >= _KEPT:
-                del _MEASURED[next(iter(_MEASURED))]
-            _MEASURED[key] = self._measured(first, other, turned, moved)
-        return _MEASURED[key]
+        return _MEASURED.of(key, lambda: self._measured(first, other, turned, moved))
 
     def _measured(self, first: Collider, other: Collider, turned: Rotation, moved: Vector) -> tuple[float, float]:
         common = self._of(first) ^ self._of(other).transform(np.column_stack([turned, moved]))
@@ -202,8 +202,26 @@ class Common:
         return self.manifolds[one]
 
 
-_MEASURED: dict[tuple[bytes, ...], tuple[float, float]] = {}
-"""Mean depths and volumes in common by `pose_key`: looms that differ elsewhere share them."""
+@dataclass(frozen=True, eq=False)
+class _Kept(Generic[T]):
+    """Results by how two colliders lie, the last `_KEPT`: looms that differ elsewhere share them."""
+
+    known: dict[tuple[bytes, ...], T]
+
+    def of(self, key: tuple[bytes, ...], measure: Callable[[], T]) -> T:
+        """The result of a key, measured where it is not known."""
+        if key not in self.known:
+            while len(self.known) >= _KEPT:
+                del self.known[next(iter(self.known))]
+            self.known[key] = measure()
+        return self.known[key]
+
+
+_MEASURED = _Kept[tuple[float, float]]({})
+"""Mean depths [m] and volumes [m³] in common, by `pose_key`."""
+
+_APART = _Kept[float]({})
+"""Distances of meshes [m]."""
 
 
 def pose_key(
@@ -257,12 +275,21 @@ def distances(
 
     exact  False: of their convex hulls
     """
-    own, its = (first.exact[0], other.exact[1]) if exact else (first.outer[0], other.outer[1])
-    apart = np.empty(len(turned))
-    for number, (rotation, origin) in enumerate(zip(turned, moved, strict=True)):
-        its.setTransform(fcl.Transform(rotation, origin))
-        apart[number] = fcl.distance(own, its, _REQUEST, fcl.DistanceResult())
-    return np.maximum(apart, 0.0)
+    if exact:
+        lies = np.column_stack([turned.reshape(-1, 9), moved]).round(_SAME) + 0.0
+        keys = ((first.digest, other.digest, row.tobytes()) for row in lies)
+        poses = zip(keys, turned, moved, strict=True)
+        return np.array([_APART.of(key, partial(_exact, first, other, *where)) for key, *where in poses])
+    return np.array([_apart(first.outer[0], other.outer[1], *where) for where in zip(turned, moved, strict=True)])
+
+
+def _exact(first: Collider, other: Collider, turned: Rotation, moved: Vector) -> float:
+    return _apart(first.exact[0], other.exact[1], turned, moved)
+
+
+def _apart(own: fcl.CollisionObject, its: fcl.CollisionObject, turned: Rotation, moved: Vector) -> float:
+    its.setTransform(fcl.Transform(turned, moved))
+    return max(float(fcl.distance(own, its, _REQUEST, fcl.DistanceResult())), 0.0)
 
 
 def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vector, most: float) -> float:
@@ -276,8 +303,7 @@ def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vecto
     own, its = first.near(other.corners @ turned.T + moved, most), other.exact[1]
     if own is None:
         return math.inf
-    its.setTransform(fcl.Transform(turned, moved))
-    return max(float(fcl.distance(own, its, _REQUEST, fcl.DistanceResult())), 0.0)
+    return _apart(own, its, turned, moved)
 
 
 _REQUEST = fcl.DistanceRequest()

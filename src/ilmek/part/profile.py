@@ -56,7 +56,7 @@ class Profile:
     @property
     def area(self) -> float:
         """Area [m²]."""
-        return abs(area(self.outline)) - math.fsum(abs(area(hole)) for hole in self.holes)
+        return _area(self)
 
     def moment(self, p: int, q: int) -> float:
         """Moment M(p, q) about the origin [m^(p + q + 2)], p + q of 0 to 3.
@@ -65,6 +65,11 @@ class Profile:
         0.25
         """
         return _moments(self)[p, q]
+
+
+@lru_cache(maxsize=4096)
+def _area(profile: Profile) -> float:
+    return abs(area(profile.outline)) - math.fsum(abs(area(hole)) for hole in profile.holes)
 
 
 def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] = ()) -> Profile:

@@ -12,7 +12,7 @@ from ilmek.part.colliders import MANY, Collider, collider, row
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import BodyPoints, Chain, ChainLink, ChainTravel, poses
 from ilmek.part.shapes import Shape, Sum
-from ilmek.part.tree import RigidBody
+from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import turn
 
 INTERVALS, SAMPLES = 24, 8
@@ -34,6 +34,11 @@ class Piece:
     few: Collider | None = None
 
     @cached_property
+    def corners(self) -> Float[np.ndarray, "8 3"]:
+        """Corners of its box in the body's axes [m]."""
+        return _box_corners(self.extent.points)
+
+    @cached_property
     def extent(self) -> BodyPoints:
         """Corners of its convex hull in the body's axes [m]."""
         return BodyPoints(self.position.points(self.collider.corners), self.position if self.collider.spun else None)
@@ -47,6 +52,7 @@ class SweptPieces:
     travel: ChainTravel
     ends: Float[np.ndarray, "intervals samples"]
     seen: dict[int, Boxes] = field(default_factory=dict)
+    travelled: dict[int, Float[np.ndarray, "pieces angles"]] = field(default_factory=dict)
 
     @property
     def chain(self) -> Chain:
@@ -65,8 +71,10 @@ class SweptPieces:
 
     def moved(self, number: int, shared: int) -> FloatArray:
         """Travel of a piece at the angles, by the links of its chain after the shared ones [m]."""
-        by_turns = self.reaches[number, shared:] @ self.travel.turns[shared:]
-        return np.asarray(self.travel.shifts[shared:].sum(0) + by_turns)
+        if shared not in self.travelled:
+            by_turns = self.reaches[:, shared:] @ self.travel.turns[shared:]
+            self.travelled[shared] = self.travel.shifts[shared:].sum(0) + by_turns
+        return np.asarray(self.travelled[shared][number])
 
     def boxes(self, shared: int = 0) -> Boxes:
         """Boxes that contain the pieces over the intervals, seen from a body of the chain: least, largest x, y, z [m].
@@ -81,10 +89,9 @@ class SweptPieces:
         chain, drive = self.chain[shared:], self.travel.drive
         size = len(self.pieces), len(self.ends), 2, 3
         if not any(self.travel.moves[shared:]):
-            here = poses(chain, drive, np.zeros(1))
-            still = [here.points(piece.extent.points)[0] for piece in self.pieces]
-            return np.broadcast_to(np.array([[own.min(0), own.max(0)] for own in still])[:, None], size)
-        corners = np.concatenate([_box_corners(piece.extent.points) for piece in self.pieces])
+            resting = _at_rest(self.chain[-1].body.occurrences, tuple((link.body, link.index) for link in chain))
+            return np.broadcast_to(resting[:, None], size)
+        corners = np.concatenate([piece.corners for piece in self.pieces])
         at = poses(chain, drive, self.ends.ravel()).points(corners)
         at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
         low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
@@ -108,18 +115,39 @@ def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 
     return np.array([np.where(chosen, high, low) for chosen in np.ndindex(2, 2, 2)])
 
 
+Links = tuple[tuple[RigidBody, int], ...]
+"""The bodies of a chain, each at the position of a number: trees that share these share what is made of them."""
+
+
+@lru_cache(maxsize=2048)
+def _at_rest(occurrences: tuple[Occurrence, ...], links: Links) -> Float[np.ndarray, "pieces 2 3"]:
+    """Boxes of the pieces of a body at the end of a chain with all drives at 0, seen from where this begins [m]."""
+    points = [piece.extent.points for piece in _pieces(occurrences)]
+    begins = np.cumsum([0, *(len(own) for own in points[:-1])])
+    (at,) = poses(_chain(links), "", np.zeros(1)).points(np.concatenate(points))
+    return np.stack([np.minimum.reduceat(at, begins), np.maximum.reduceat(at, begins)], axis=1)
+
+
+def _chain(links: Links) -> Chain:
+    return tuple(ChainLink(body, body.id, index) for body, index in links)
+
+
 @lru_cache(maxsize=512)
-def swept_pieces(
-    links: tuple[tuple[RigidBody, int], ...], drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]
-) -> SweptPieces:
-    """The pieces at the end of a chain of bodies, each at one of its positions: trees that share these share it."""
-    chain = tuple(ChainLink(body, body.id, index) for body, index in links)
-    return SweptPieces(tuple(_pieces(chain)), ChainTravel(chain, drive, np.array(angles)), intervals(windows))
+def swept_pieces(links: Links, drive: str, angles: tuple[float, ...], windows: tuple[Window, ...]) -> SweptPieces:
+    """The pieces at the end of a chain of bodies."""
+    chain = _chain(links)
+    pieces = _pieces(chain[-1].body.occurrences)
+    return SweptPieces(pieces, ChainTravel(chain, drive, np.array(angles)), intervals(windows))
 
 
-def _pieces(chain: Chain) -> Iterator[Piece]:
-    """The pieces of the parts of the last body, of a sum its members; of what is in it `MANY` times all as one."""
-    for occurrence in chain[-1].body.occurrences:
+@lru_cache(maxsize=512)
+def _pieces(occurrences: tuple[Occurrence, ...]) -> tuple[Piece, ...]:
+    """The pieces of the parts of a body, of a sum its members; of what is in it `MANY` times all as one."""
+    return tuple(_each_piece(occurrences))
+
+
+def _each_piece(occurrences: tuple[Occurrence, ...]) -> Iterator[Piece]:
+    for occurrence in occurrences:
         part = occurrence.part
         if part.shape is None:
             continue

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from functools import lru_cache
+from itertools import chain
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.drives import drive_checks
@@ -10,13 +11,15 @@ from ilmek.machines.automated_loom.nearest_parts import (
     MIDDLE,
     NearParts,
     machines_of_bodies,
+    nearest_of,
     nearest_parts,
+    passes,
     range_of_a_head,
 )
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
-from ilmek.part.freedoms import Freedoms, freedoms
+from ilmek.part.freedoms import freedoms
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -64,10 +67,10 @@ class LoomAssembly:
     degrees_of_freedom = computed(
         "1",
         "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
-        lambda it: freedoms_of(it.loom).number,
+        lambda it: freedoms(loom_tree(it.loom)).number,
     )
     passive_bodies = computed(
-        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms_of(it.loom).passive)
+        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms(loom_tree(it.loom)).passive)
     )
 
     @computed(
@@ -118,6 +121,13 @@ class LoomAssembly:
 def assembly(loom: LoomDesign) -> LoomAssembly:
     """The parts of a loom against each other; takes about a second."""
     return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
+
+
+def holds_in_space(loom: LoomDesign) -> bool:
+    """Whether the checks of `assembly` hold; ended at the first comparison in which one fails, so quicker than all."""
+    touching = contacts(loom_tree(loom))
+    each = chain([()], passes(loom, loom.params.clearance))
+    return all(LoomAssembly(loom, nearest_of(near), touching).holds for near in each)
 
 
 @lru_cache(maxsize=4)

@@ -12,7 +12,7 @@ from ilmek.carpet.quality import COARSEST
 from ilmek.carpet.sizes import SMALLEST
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import IlmekError
-from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.assembly import holds_in_space
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import all_checks
@@ -50,10 +50,12 @@ def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:
     """
     try:
         loom = design(params)
-        if not _holds(loom) or not in_space:
-            return _holds(loom)
-        stands = with_room(loom, params)
-        return assembly(stands).holds and _holds(stands)
+        if not _holds(loom):
+            return False
+        if not in_space or holds_in_space(loom):
+            return True
+        other = with_room(loom, params)
+        return other is not loom and _holds(other) and holds_in_space(other)
     except IlmekError:
         return False
 

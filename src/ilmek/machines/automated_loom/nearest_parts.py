@@ -8,7 +8,7 @@ The heads stand in the middle of their shares of the row. What is on them is com
 stand at both ends of these, over the row and over the knot, and, with their tools at rest, everywhere between.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -61,32 +61,41 @@ class NearParts:
 @lru_cache(maxsize=4)
 def nearest_parts(loom: LoomDesign) -> tuple[NearParts, ...]:
     """The least distance of every two parts that move against each other and come near; the nearest first."""
+    return nearest_of(near for each in passes(loom, HORIZON) for near in each)
+
+
+def nearest_of(every: Iterable[NearParts]) -> tuple[NearParts, ...]:
+    """Of every two parts the least distance, the nearest first."""
     least: dict[tuple[str, ...], NearParts] = {}
-    for near in (NearParts(pair, heads) for heads, pairs in _passes(loom) for pair in pairs):
+    for near in every:
         key = (*near.approach.parts, *near.approach.bodies)
         if key not in least or near.approach.distance < least[key].approach.distance:
             least[key] = near
     return tuple(sorted(least.values(), key=lambda near: near.approach.distance))
 
 
-def _passes(loom: LoomDesign) -> Iterator[tuple[str, tuple[Approach, ...]]]:
-    """The approaches over each cyclogram, and where the heads stand."""
+def passes(loom: LoomDesign, horizon: float) -> Iterator[tuple[NearParts, ...]]:
+    """The parts that come nearer than a horizon [m] over each cyclogram, for each place of the heads."""
+    return (tuple(NearParts(pair, heads) for pair in pairs) for heads, pairs in _passes(loom, horizon))
+
+
+def _passes(loom: LoomDesign, horizon: float) -> Iterator[tuple[str, tuple[Approach, ...]]]:
     tree, machine = loom_tree(loom), machines_of_bodies(loom)
     windows = row_windows(loom.row_cyclogram, loom.beat.path)
 
     def required(first: str, other: str) -> float:
         return 0.0 if machine[first] == machine[other] else loom.params.clearance
 
-    yield MIDDLE, approaches(tree, ROW, HORIZON, windows, required)
-    yield MIDDLE, approaches(tree, KNOT, HORIZON, TURN, required)
+    yield MIDDLE, approaches(tree, ROW, horizon, windows, required)
+    yield MIDDLE, approaches(tree, KNOT, horizon, TURN, required)
     on_heads = frozenset(tree.carried_by(HEAD))
     range_ = range_of_a_head(loom)
     for heads, shift in ((LEFT, -range_ / 2), (RIGHT, range_ / 2)):
         moved = _shifted(tree, shift)
-        yield heads, approaches(moved, ROW, HORIZON, windows, required, on_heads)
-        yield heads, approaches(moved, KNOT, HORIZON, TURN, required, on_heads)
+        yield heads, approaches(moved, ROW, horizon, windows, required, on_heads)
+        yield heads, approaches(moved, KNOT, horizon, TURN, required, on_heads)
     run = SceneMotion(ALONG, np.array([0.0, turn]), np.outer([-range_ / 2, range_ / 2], (1.0, 0.0, 0.0)), np.zeros(2))
-    yield BETWEEN, approaches(tree.moving({HEAD: run}), ALONG, HORIZON, TURN, required, on_heads)
+    yield BETWEEN, approaches(tree.moving({HEAD: run}), ALONG, horizon, TURN, required, on_heads)
 
 
 def range_of_a_head(loom: LoomDesign) -> float:
