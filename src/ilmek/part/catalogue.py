@@ -7,11 +7,12 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
+from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
-from ilmek.plane.contours import circle, polygon
+from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
 
@@ -20,6 +21,9 @@ SPECIAL_FACE = 80 * mm
 
 REDUCER_LENGTH = 1.2
 """Length of a reducer over its flange, that of its motor; assumed by this project."""
+
+HOLLOW, WALL = 0.5 * mm, 10 * mm
+"""Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
 
 FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
@@ -41,11 +45,33 @@ def motor(name: str, title: str, row: Motor | None, torque: float, speed: float)
     return Part(name, title, kind, shape=behind, purchase=bought, envelope=True)
 
 
-def reducer(name: str, title: str, ratio: float, row: Motor | None) -> Part:
-    """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output."""
+def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEnd | None = None) -> Part:
+    """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
+
+    end  of the shaft that its hollow shaft takes: the room of both is open
+    """
     face = row.face if row else SPECIAL_FACE
     bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
-    return Part(name, title, "reducer", shape=box(face, face, REDUCER_LENGTH * face), purchase=bought, envelope=True)
+    room = box(face, face, REDUCER_LENGTH * face)
+    if end is not None:
+        hollow = end.diameter / 2 + end.keyway.in_hub + HOLLOW
+        face = max(face, 2 * hollow + 2 * WALL)
+        room = Prism(Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, end.length))
+    return Part(name, title, "reducer", shape=room, purchase=bought, envelope=True)
+
+
+def keyed_journal(end: KeyedEnd) -> Prism:
+    """The end of a shaft about z from z = 0, with its groove towards +x."""
+    return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft)), end.length)
+
+
+def key(name: str, title: str, end: KeyedEnd) -> Part:
+    """The key of such an end, in its groove."""
+    row = end.keyway
+    block = box(row.height, row.width, end.length)
+    middle = placement(x=end.diameter / 2 - row.in_shaft + row.height / 2)
+    bought = Bought(end.designation, block.volume * STEEL.density)
+    return Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
 
 
 def length_of(part: Part) -> float:

@@ -74,6 +74,8 @@ def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Con
 def keyed_bore(radius: float, width: float, depth: float) -> Contour:
     """A bore about the origin with a keyway that opens towards +x [m], `depth` beyond the bore's circle.
 
+    A negative depth gives a shaft with its groove.
+
     Raises ParameterError for a keyway as wide as the bore.
     >>> bore = keyed_bore(0.010, 0.006, 0.0028)
     >>> float(bore.points.real.max().round(6)), len(bore.points)
