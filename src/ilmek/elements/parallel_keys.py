@@ -1,16 +1,18 @@
 """Parallel keys between a shaft and its hub: length by surface pressure.
 
-    p = 2 T / (d (h - t1) l) <= 0.9 Re                                                    [DIN 6892, method C]
+    p = 2 T / (n f d (h - t1) l) <= 0.9 Re                                                [DIN 6892, method C]
 
 d is the shaft's diameter, h the key's height, t1 the depth of its groove in the shaft, l its bearing length (form B,
 with plane ends, in a groove that is open to the end), Re the least yield strength of shaft, key and hub. The key is not
-longer than 1.3 d, over which the method holds. Sections and grooves: `keyways`.
+longer than 1.3 d, over which the method holds. Where one key is not enough two lie opposite (n = 2), of which f = 0.75
+bears; f = 1 of one. Sections and grooves: `keyways`.
 """
 
 from ilmek.elements.keyways import Keyway, keyway_for
+from ilmek.elements.materials import MATERIALS
 from ilmek.records import record
 from ilmek.report import Check, at_most
-from ilmek.units import MPa, format_quantity, mm
+from ilmek.units import format_quantity, mm
 
 LENGTHS = tuple(
     length * mm
@@ -18,8 +20,11 @@ LENGTHS = tuple(
 )
 """Lengths of keys [m]: DIN 6885-1."""
 
-STRENGTH = 335 * MPa
-"""Yield strength of key and hub [Pa]: C45, the steel of a reducer's hollow shaft; assumed by this project."""
+STRENGTH = MATERIALS["heat-treatable steel"].strength
+"""Yield strength of key and hub [Pa]: C45 +QT, also of a reducer's hollow shaft; assumed by this project."""
+
+BEARING = {1: 1.0, 2: 0.75}
+"""Share f of a number of keys that bears."""
 
 SHARE, LONGEST = 0.9, 1.3
 """Allowed pressure over the yield strength, and length over the diameter: DIN 6892, method C."""
@@ -27,12 +32,17 @@ SHARE, LONGEST = 0.9, 1.3
 
 @record
 class KeyedEnd:
-    """The end of a shaft with a hub: diameter, length of the key [m], torque [N m], strength of the shaft [Pa]."""
+    """The end of a shaft with a hub.
+
+    diameter, length   of the shaft, of the key [m]      torque  [N m]      strength  of the shaft [Pa]
+    number             of keys, 1 or 2
+    """
 
     diameter: float
     length: float
     torque: float
     strength: float
+    number: int = 1
 
     @property
     def keyway(self) -> Keyway:
@@ -43,7 +53,7 @@ class KeyedEnd:
     def pressure(self) -> float:
         """Surface pressure of the key [Pa]."""
         bearing = (self.keyway.height - self.keyway.in_shaft) * self.length
-        return 2 * self.torque / (self.diameter * bearing)
+        return 2 * self.torque / (self.number * BEARING[self.number] * self.diameter * bearing)
 
     @property
     def allowed(self) -> float:
@@ -60,12 +70,12 @@ class KeyedEnd:
 
     def check(self, title: str, cure: str, parts: tuple[str, ...]) -> Check:
         """Surface pressure of the key."""
-        source = f"{self.designation}; DIN 6892, method C"
+        source = f"{self.number} key{'s' * (self.number > 1)} {self.designation}; DIN 6892, method C"
         return at_most(f"key of the {title}", self.pressure, self.allowed, "MPa", source, cure=cure, parts=parts)
 
 
 def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
-    """The end with the shortest key that bears a torque [N m]; with the longest where none does.
+    """The end with the shortest key that bears a torque [N m], else with two; with the two longest where none does.
 
     Raises ParameterError for a diameter without a key.
 
@@ -73,5 +83,5 @@ def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
     'DIN 6885-1 B 8 x 7 x 14'
     """
     lengths = [length for length in LENGTHS if length <= LONGEST * diameter]
-    ends = [KeyedEnd(diameter, length, torque, strength) for length in lengths]
+    ends = [KeyedEnd(diameter, length, torque, strength, number) for number in BEARING for length in lengths]
     return next((end for end in ends if end.pressure <= end.allowed), ends[-1])

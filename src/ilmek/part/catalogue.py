@@ -1,5 +1,7 @@
 """Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings, guides."""
 
+import math
+
 import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
@@ -9,9 +11,10 @@ from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.part.part import Bought, Part
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
+from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
@@ -61,17 +64,19 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:
-    """The end of a shaft about z from z = 0, with its groove towards +x."""
-    return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft)), end.length)
+    """The end of a shaft about z from z = 0, with its groove towards +x; a second one opposite."""
+    return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft, end.number)), end.length)
 
 
-def key(name: str, title: str, end: KeyedEnd) -> Part:
-    """The key of such an end, in its groove."""
+def keys(name: str, title: str, end: KeyedEnd, position: Placement) -> Occurrence:
+    """The keys of such an end, in their grooves, with the end at a position."""
     row = end.keyway
     block = box(row.height, row.width, end.length)
     middle = placement(x=end.diameter / 2 - row.in_shaft + row.height / 2)
     bought = Bought(end.designation, block.volume * STEEL.density)
-    return Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
+    part = Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
+    turned = (placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number))
+    return Occurrence(part, tuple(position.after(one) for one in turned))
 
 
 def length_of(part: Part) -> float:

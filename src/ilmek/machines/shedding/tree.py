@@ -95,7 +95,7 @@ def _turning(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
     end, title = shaft.driven_end, _numbered(design, index, "key of the cam shaft")
     far = bearing_inner(design, index) + shaft.seat.through + end.length
-    yield Occurrence(catalogue.key(part_id("key", index), title, end), (placement(z=-far),))
+    yield catalogue.keys(part_id("key", index), title, end, placement(z=-far))
     x, odd = _of(design, index)
     group, lag = _groups(shaft, odd)
     for number in range(shaft.shed.groups):

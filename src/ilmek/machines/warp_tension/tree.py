@@ -74,8 +74,9 @@ def _bodies(
     keyed, outer = cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
     grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
     driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, "", STUB)
-    key = catalogue.key(part_id(f"{name}-key"), f"key of the {name} cylinder", keyed)
     inside = params.span / 2 - PLUG
+    own = part_id(f"{name}-key"), f"key of the {name} cylinder"
+    keys = catalogue.keys(*own, keyed, placement(z=inside + outer))
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
     ids = part_id(f"{name}-bearing"), part_id(f"{name}-housing")
     return (
@@ -85,7 +86,7 @@ def _bodies(
                 Occurrence(shell, (placement(z=-params.span / 2),)),
                 Occurrence(driven, (placement(z=inside),)),
                 Occurrence(end, (_side(z=inside, flipped=True),)),
-                Occurrence(key, (placement(z=inside + outer),)),
+                keys,
             ),
             GROUND,
             Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore")),
