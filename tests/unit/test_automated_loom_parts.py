@@ -95,7 +95,9 @@ def test_the_price_is_linear_in_every_rate():
 def test_the_list_has_a_part_for_every_warp_head_and_axis():
     numbers = {part.name: part.number for part in listed().parts}
     assert numbers["shedding cam"] == loom().warps == 608
-    assert numbers["guide cam"] == 609  # between two warps, and at both ends
+    # Between two warps, and at both ends; some are thin, with shims.
+    assert numbers["guide cam"] + numbers["guide cam beside shims"] == 609
+    assert numbers["guide cam beside shims"] == numbers["shims of the cams"] == 607 // 7
     each = ("cam shaft of the head", "motor of a head", "motor of a carriage")
     assert {numbers[name] for name in each} == {loom().heads}
     assert numbers["cylinder"] + numbers["spacer cylinder"] == 3

@@ -12,6 +12,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.tree import bearing_inner
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.design import USUAL_TUBES, keeps_limits, worst_load
+from ilmek.part.catalogue import keyed_journal
 from ilmek.units import mm
 
 
@@ -37,12 +38,13 @@ def test_a_prime_radius_that_the_user_set_stays() -> None:
 def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
     made = shedding.design(shedding.SheddingParams(prime_radius=0.2))
     parts = {part.name: part for part in shedding.MACHINE.parts(made)}
-    cams = parts["shedding cam"].mass_all + parts["guide cam"].mass_all
+    sheets = "shedding cam", "guide cam", "guide cam beside shims", "shims of the cams"
+    cams = sum(parts[name].mass_all for name in sheets)
     # The stack is weighed with the bar in its bores; the shaft goes on to its bearings and has journals.
     (shaft,) = made.shafts
     bar, seat = shaft.shaft.bar, shaft.seat
     beyond = bar**2 * (2 * bearing_inner(made, 0) - made.params.cloth.width)
-    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * seat.through
+    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * seat.through + keyed_journal(shaft.driven_end).volume
     within = parts["cam shaft"].mass - made.params.density * (beyond + journals)
     assert cams + within == pytest.approx(made.stack.mass, rel=1e-9)
     assert [part.name for part in parts.values() if part.drives] == ["motor of the cam shaft"]

@@ -1,5 +1,7 @@
 """Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings, guides."""
 
+import math
+
 import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
@@ -7,11 +9,13 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
+from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.part.part import Bought, Part
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
-from ilmek.plane.contours import circle, polygon
+from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
 
@@ -20,6 +24,9 @@ SPECIAL_FACE = 80 * mm
 
 REDUCER_LENGTH = 1.2
 """Length of a reducer over its flange, that of its motor; assumed by this project."""
+
+HOLLOW, WALL = 0.5 * mm, 10 * mm
+"""Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
 
 FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
@@ -44,11 +51,35 @@ def motor(  # noqa: PLR0917
     return Part(name, title, kind, shape=behind, purchase=bought, envelope=True)
 
 
-def reducer(name: str, title: str, ratio: float, row: Motor | None) -> Part:
-    """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output."""
+def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEnd | None = None) -> Part:
+    """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
+
+    end  of the shaft that its hollow shaft takes: the room of both is open
+    """
     face = row.face if row else SPECIAL_FACE
     bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
-    return Part(name, title, "reducer", shape=box(face, face, REDUCER_LENGTH * face), purchase=bought, envelope=True)
+    room = box(face, face, REDUCER_LENGTH * face)
+    if end is not None:
+        hollow = end.diameter / 2 + end.keyway.in_hub + HOLLOW
+        face = max(face, 2 * hollow + 2 * WALL)
+        room = Prism(Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, end.length))
+    return Part(name, title, "reducer", shape=room, purchase=bought, envelope=True)
+
+
+def keyed_journal(end: KeyedEnd) -> Prism:
+    """The end of a shaft about z from z = 0, with its groove towards +x; a second one opposite."""
+    return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft, end.number)), end.length)
+
+
+def keys(name: str, title: str, end: KeyedEnd, position: Placement) -> Occurrence:
+    """The keys of such an end, in their grooves, with the end at a position."""
+    row = end.keyway
+    block = box(row.height, row.width, end.length)
+    middle = placement(x=end.diameter / 2 - row.in_shaft + row.height / 2)
+    bought = Bought(end.designation, block.volume * STEEL.density)
+    part = Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
+    turned = (placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number))
+    return Occurrence(part, tuple(position.after(one) for one in turned))
 
 
 def length_of(part: Part) -> float:

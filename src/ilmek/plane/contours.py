@@ -72,8 +72,10 @@ def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Con
     return Contour(points, bulges)
 
 
-def keyed_bore(radius: float, width: float, depth: float) -> Contour:
+def keyed_bore(radius: float, width: float, depth: float, number: int = 1) -> Contour:
     """A bore about the origin with a keyway that opens towards +x [m], `depth` beyond the bore's circle.
+
+    A negative depth gives a shaft with its groove. Several keyways are evenly spread.
 
     Raises ParameterError for a keyway as wide as the bore.
     >>> bore = keyed_bore(0.010, 0.006, 0.0028)
@@ -85,9 +87,11 @@ def keyed_bore(radius: float, width: float, depth: float) -> Contour:
         raise ParameterError(f"a keyway {given} wide", allowed=f"above 0 mm, less than the bore of {allowed}")
     half = width / 2
     at = math.sqrt(radius**2 - half**2)
-    points = np.array([at + 1j * half, at - 1j * half, radius + depth - 1j * half, radius + depth + 1j * half])
-    sweep = 2 * (math.pi - math.asin(half / radius))
-    return Contour(points, np.array([math.tan(sweep / 4), 0.0, 0.0, 0.0]))
+    step, far = np.exp(2j * math.pi / number), radius + depth
+    one = np.array([at + 1j * half, step * (at - 1j * half), step * (far - 1j * half), step * (far + 1j * half)])
+    sweep = 2 * (math.pi / number - math.asin(half / radius))
+    points = np.concatenate([step**k * one for k in range(number)])
+    return Contour(points, np.tile([math.tan(sweep / 4), 0.0, 0.0, 0.0], number))
 
 
 def counter_clockwise(contour: Contour) -> Contour:

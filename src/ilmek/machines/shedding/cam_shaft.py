@@ -21,6 +21,7 @@ from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor, strongest_motor
 from ilmek.elements.nose_buckling import nose_buckling
+from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
 from ilmek.elements.shafts import STOCK_SIDES
 from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
@@ -121,6 +122,11 @@ class CamShaft:
     def seat(self) -> BearingSeat:
         """A bearing of the shaft on the frame's bracket."""
         return seat_of(self.shaft.seat.bearing, self.shaft.seat.reaction)
+
+    @property
+    def driven_end(self) -> KeyedEnd:
+        """The end of the shaft in its reducer, with its key: it bears the torque with the safety."""
+        return keyed_end(self.seat.bearing.bore, self.shaft.torque, self.params.strength)
 
     @property
     def reach(self) -> float:

@@ -41,6 +41,7 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
         *_shed_checks(found),
         *of(_shaft_checks, "cam-shaft"),
         *of(_bearing_checks, "bearing"),
+        *of(_key_checks, "key", "cam-shaft"),
         *of(_motor_checks, "motor", "reducer"),
         *worst([tuple(_warp_checks(one)) for one in design.shafts]),
     )
@@ -186,6 +187,10 @@ def _bearing_checks(one: CamShaft) -> Iterator[Check]:
     source = f"Goodman, DIN 743-2, fillet of {format_quantity(shoulder.fillet, 'mm')}"
     yield at_least("fatigue of the driven journal at its shoulder", shoulder.safety, 1.0, "1", source, cure=larger)
     yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar", cure=stronger)
+
+
+def _key_checks(one: CamShaft) -> Iterator[Check]:
+    yield one.driven_end.check("cam shaft", "set another bearing, or more shafts", ())
 
 
 def _motor_checks(one: CamShaft) -> Iterator[Check]:

@@ -102,6 +102,9 @@ def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     shaft = design.shafts[index]
     stack, bar = shaft.stack, shaft.shaft.bar
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
+    end, title = shaft.driven_end, _numbered(design, index, "key of the cam shaft")
+    far = bearing_inner(design, index) + shaft.seat.through + end.length
+    yield catalogue.keys(part_id("key", index), title, end, placement(z=-far))
     x, odd = _of(design, index)
     group, lag = _groups(shaft, odd)
     for number in range(shaft.shed.groups):
@@ -165,14 +168,18 @@ def bearing_inner(design: SheddingDesign, index: int) -> float:
 
 
 def _bar(design: SheddingDesign, index: int) -> Part:
-    """The square bar between its bearings, with a journal at both ends through bearing and bracket, from z = 0."""
+    """The square bar between its bearings, with a journal at both ends through bearing and bracket, from z = 0.
+
+    The driven one reaches into its reducer, where a key holds it.
+    """
     shaft = design.shafts[index]
     bar, long = shaft.shaft.bar, 2 * bearing_inner(design, index)
-    journal = round_bar(shaft.seat.bearing.bore, shaft.seat.through)
+    journal, end = round_bar(shaft.seat.bearing.bore, shaft.seat.through), shaft.driven_end
     shape = Sum(
         (
             Placed(Prism(Profile(_square(bar)), long)),
             Placed(journal, (placement(z=long), placement(z=-shaft.seat.through))),
+            Placed(catalogue.keyed_journal(end), (placement(z=-shaft.seat.through - end.length),)),
         )
     )
     return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {_mm(bar)}")
@@ -251,6 +258,7 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         _numbered(design, index, "reducer of the cam shaft"),
         drive.reducer.ratio,
         drive.motor,
+        shaft.driven_end,
     )
     motor = catalogue.motor(
         part_id("motor", index),

@@ -36,6 +36,7 @@ from ilmek.elements.bearings import (
     static_load,
 )
 from ilmek.elements.materials import GRAVITY, MATERIALS
+from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
 from ilmek.elements.shoulders import Shoulder
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
@@ -102,6 +103,11 @@ class Cylinder:
     def seat(self) -> BearingSeat:
         """Its bearing on the frame's bracket."""
         return seat_of(self.bearing, self.reaction)
+
+    @property
+    def driven_end(self) -> KeyedEnd:
+        """The shaft end in its reducer, with its key."""
+        return keyed_end(self.bearing.bore, self.torque, STUB.strength)
 
     @property
     def stub_stress(self) -> float:
@@ -255,6 +261,7 @@ def bearing_checks(
         at_most("slope of the bearing", slope, slope_limit(bearing), "rad", "its kind"),
         at_least("shaft end", safety, params.stub_safety, "1", f"yield of {STUB.name}: parameter stub_safety"),
         at_least("fatigue of the shaft end", end.safety, 1.0, "1", "Goodman, DIN 743-2"),
+        keyed_end(bearing.bore, torque, STUB.strength).check("shaft end", "", ()),
     )
 
 

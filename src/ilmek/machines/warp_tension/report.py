@@ -123,6 +123,11 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             parts=(part_id(f"{notched.name}-end"),),
             cure=f"{larger}, or a shorter stub",
         ),
+        *(
+            one.driven_end.check(f"{one.name} cylinder", larger, (part_id(f"{one.name}-key"),))
+            for one in found.cylinders
+            if one.torque > 0
+        ),
         *_warp_checks(found),
     )
 

@@ -6,6 +6,8 @@ Each cylinder has its own axes: z along it, 0 in the middle of its width, the dr
 import math
 from dataclasses import replace
 
+import numpy as np
+
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.warp_tension.cylinders import STUB, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
@@ -13,7 +15,7 @@ from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
-from ilmek.part.shapes import Turned, stepped
+from ilmek.part.shapes import Placed, Shape, Sum, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
@@ -60,7 +62,7 @@ def _bodies(
     """A cylinder with its ends, its bearings on the frame's brackets, and its drive; common: tube, reducer, motor.
 
     A shaft end is a plug with play in the tube, a flange that is welded to the tube's end, and a journal that reaches
-    through bearing and bracket.
+    through bearing and bracket; on the driven side it goes on into the reducer, with a key.
     """
     name, seat = cylinder.name, cylinder.seat
     shell, geared, driving = common
@@ -69,13 +71,23 @@ def _bodies(
     steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
     shape = stepped(*(one for one in steps if min(one) > 0), (journal, params.stub - rim + seat.through))
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
-    sides = tuple(_side(z=params.span / 2 - PLUG, flipped=flipped) for flipped in (False, True))
+    keyed, outer = cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
+    grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
+    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, "", STUB)
+    inside = params.span / 2 - PLUG
+    own = part_id(f"{name}-key"), f"key of the {name} cylinder"
+    keys = catalogue.keys(*own, keyed, placement(z=inside + outer))
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
     ids = part_id(f"{name}-bearing"), part_id(f"{name}-housing")
     return (
         RigidBody(
             part_id(f"{name} cylinder"),
-            (Occurrence(shell, (placement(z=-params.span / 2),)), Occurrence(end, sides)),
+            (
+                Occurrence(shell, (placement(z=-params.span / 2),)),
+                Occurrence(driven, (placement(z=inside),)),
+                Occurrence(end, (_side(z=inside, flipped=True),)),
+                keys,
+            ),
             GROUND,
             Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore"), motor=driving.id),
             (position,),
@@ -103,7 +115,8 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
 
 def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
     """Reducer and motor: one of each for each of the three cylinders [thesis 3.1]."""
-    geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor)
+    end = max((one.driven_end for one in cylinders(design)), key=lambda one: (one.diameter, one.length))
+    geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor, end)
     torque, speed = design.motor_torque, design.motor_speed
     return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)
 
@@ -120,7 +133,7 @@ def _side(*, z: float, flipped: bool) -> Placement:
 
 
 def _made(  # noqa: PLR0917
-    name: str, title: str, process: str, shape: Turned, size: str, material: Material
+    name: str, title: str, process: str, shape: Shape, size: str, material: Material
 ) -> Part:
     return Part(part_id(name), title, process, size, shape, material)
 

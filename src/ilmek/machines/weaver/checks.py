@@ -7,6 +7,7 @@ from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.belts import MESHING
 from ilmek.elements.duty import MARGIN
 from ilmek.loom.production import HAND_KNOT
+from ilmek.machines.weaver.bracket_strength import bracket_checks
 from ilmek.machines.weaver.cam_belt import PROFILE, PULL
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
@@ -29,6 +30,7 @@ from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
 from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
 from ilmek.machines.weaver.return_springs import spring_id, stress_of
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
+from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_parts import (
     CENTRE_GRIPPER,
     KNIFE_PART,
@@ -57,6 +59,7 @@ def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
         *_drive_checks(weaver, limits),
         *opener_checks(weaver),
         *room_checks(weaver),
+        *(bracket_checks(weaver) if sheet(weaver) > 0 else ()),
     )
 
 

@@ -1,0 +1,87 @@
+"""Parallel keys between a shaft and its hub: length by surface pressure.
+
+    p = 2 T / (n f d (h - t1) l) <= 0.9 Re                                                [DIN 6892, method C]
+
+d is the shaft's diameter, h the key's height, t1 the depth of its groove in the shaft, l its bearing length (form B,
+with plane ends, in a groove that is open to the end), Re the least yield strength of shaft, key and hub. The key is not
+longer than 1.3 d, over which the method holds. Where one key is not enough two lie opposite (n = 2), of which f = 0.75
+bears; f = 1 of one. Sections and grooves: `keyways`.
+"""
+
+from ilmek.elements.keyways import Keyway, keyway_for
+from ilmek.elements.materials import MATERIALS
+from ilmek.records import record
+from ilmek.report import Check, at_most
+from ilmek.units import format_quantity, mm
+
+LENGTHS = tuple(
+    length * mm
+    for length in (6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110)
+)
+"""Lengths of keys [m]: DIN 6885-1."""
+
+STRENGTH = MATERIALS["heat-treatable steel"].strength
+"""Yield strength of key and hub [Pa]: C45 +QT, also of a reducer's hollow shaft; assumed by this project."""
+
+BEARING = {1: 1.0, 2: 0.75}
+"""Share f of a number of keys that bears."""
+
+SHARE, LONGEST = 0.9, 1.3
+"""Allowed pressure over the yield strength, and length over the diameter: DIN 6892, method C."""
+
+
+@record
+class KeyedEnd:
+    """The end of a shaft with a hub.
+
+    diameter, length   of the shaft, of the key [m]      torque  [N m]      strength  of the shaft [Pa]
+    number             of keys, 1 or 2
+    """
+
+    diameter: float
+    length: float
+    torque: float
+    strength: float
+    number: int = 1
+
+    @property
+    def keyway(self) -> Keyway:
+        """Section of the key and its grooves."""
+        return keyway_for(self.diameter)
+
+    @property
+    def pressure(self) -> float:
+        """Surface pressure of the key [Pa]."""
+        bearing = (self.keyway.height - self.keyway.in_shaft) * self.length
+        return 2 * self.torque / (self.number * BEARING[self.number] * self.diameter * bearing)
+
+    @property
+    def allowed(self) -> float:
+        """Allowed surface pressure [Pa]."""
+        return SHARE * min(self.strength, STRENGTH)
+
+    @property
+    def designation(self) -> str:
+        """As ordered."""
+        width, height, length = (
+            format_quantity(size, "mm")[:-3] for size in (self.keyway.width, self.keyway.height, self.length)
+        )
+        return f"DIN 6885-1 B {width} x {height} x {length}"
+
+    def check(self, title: str, cure: str, parts: tuple[str, ...]) -> Check:
+        """Surface pressure of the key."""
+        source = f"{self.number} key{'s' * (self.number > 1)} {self.designation}; DIN 6892, method C"
+        return at_most(f"key of the {title}", self.pressure, self.allowed, "MPa", source, cure=cure, parts=parts)
+
+
+def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
+    """The end with the shortest key that bears a torque [N m], else with two; with the two longest where none does.
+
+    Raises ParameterError for a diameter without a key.
+
+    >>> keyed_end(0.030, 120.0, 235e6).designation
+    'DIN 6885-1 B 8 x 7 x 14'
+    """
+    lengths = [length for length in LENGTHS if length <= LONGEST * diameter]
+    ends = [KeyedEnd(diameter, length, torque, strength, number) for number in BEARING for length in lengths]
+    return next((end for end in ends if end.pressure <= end.allowed), ends[-1])
