@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
-from processes import ilmek, start, until
-from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_file, violations
+from processes import PATIENCE, ilmek, start, until
+from studio_browser import Seen, Studio, data_of, middle, open_view, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
 
@@ -56,7 +56,7 @@ def _tool(page: Page, name: str) -> None:
 def _status(page: Page, text: str | re.Pattern[str]) -> str:
     """The line below the chart, once it has a text."""
     line = page.locator(".carpet-status")
-    expect(line).to_contain_text(text, timeout=PATIENCE)
+    expect(line).to_contain_text(text)
     return line.inner_text()
 
 
@@ -100,7 +100,7 @@ def test_what_is_no_picture_is_refused_and_loses_nothing(carpet: Page, running: 
     for name, content in {"empty.png": b"", "letter.pdf": b"%PDF-1.7"}.items():
         _drop(carpet, name, content)
         refused = re.compile(rf"{name} is (no picture|damaged)")
-        expect(carpet.get_by_role("alert").filter(has_text=refused)).to_be_visible(timeout=PATIENCE)
+        expect(carpet.get_by_role("alert").filter(has_text=refused)).to_be_visible()
     assert (running.project / "carpet.toml").read_text(encoding="utf-8") == before
     _status(carpet, re.compile(r"knots across"))
 
@@ -116,9 +116,9 @@ def test_a_stroke_is_an_edit_that_undo_takes_out(carpet: Page, running: Studio) 
     carpet.get_by_label("Yarn", exact=True).select_option("sage green")
     carpet.mouse.click(x, y)
     until_file(running.project, "carpet.toml", f"set {found[1]},{found[2]} sage green")
-    expect(carpet.locator(".carpet-status")).to_contain_text("sage green", timeout=PATIENCE)
+    expect(carpet.locator(".carpet-status")).to_contain_text("sage green")
     carpet.keyboard.press("Control+z")
-    expect(carpet.locator(".carpet-status")).to_contain_text(found[3], timeout=PATIENCE)
+    expect(carpet.locator(".carpet-status")).to_contain_text(found[3])
     assert _edits(running) == before
 
 
@@ -140,7 +140,7 @@ def test_each_tool_works_by_keys_and_each_edit_is_taken_out(carpet: Page, runnin
             to_whole.click()
         tab = carpet.get_by_role("tab", name=re.compile("^Edits"))
         tab.click()
-        expect(carpet.locator(".carpet-edits code").first).to_have_text(re.compile(f"^{edit}"), timeout=PATIENCE)
+        expect(carpet.locator(".carpet-edits code").first).to_have_text(re.compile(f"^{edit}"))
     until_file(running.project, "carpet.toml", "border 3")
     assert len(_edits(running)) == 5
     carpet.get_by_role("button", name="Take edit 2 out").click()
@@ -148,7 +148,7 @@ def test_each_tool_works_by_keys_and_each_edit_is_taken_out(carpet: Page, runnin
     assert violations(carpet) == []
     carpet.get_by_role("button", name="Take all edits out").click()
     expect(tab).to_have_text("Edits (0)")
-    expect(carpet.locator(".project-saved.saved")).to_be_visible(timeout=PATIENCE)
+    expect(carpet.locator(".project-saved.saved")).to_be_visible()
     assert _edits(running) == []
 
 
@@ -161,7 +161,7 @@ def test_the_crop_is_set_by_keys(carpet: Page, running: Studio) -> None:
     carpet.get_by_role("button", name="Apply").click()
     until_file(running.project, "carpet.toml", "crop = ")
     carpet.keyboard.press("Control+z")
-    expect(carpet.locator(".carpet-side")).to_contain_text("whole picture", timeout=PATIENCE)
+    expect(carpet.locator(".carpet-side")).to_contain_text("whole picture")
 
 
 def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_path: Path) -> None:
@@ -177,7 +177,7 @@ def test_a_knot_is_that_of_the_command_line(carpet: Page, running: Studio, tmp_p
         at_cursor = _status(carpet, f"Row {int(begin[1]) + 10} from below, knot {int(begin[2]) - 11} from")
         carpet.mouse.move(*middle(carpet, ".carpet-marks .cursor"))
         expect(carpet.locator(".carpet-status")).to_have_text(at_cursor)
-        charting.communicate(timeout=PATIENCE / 1000)
+        charting.communicate(timeout=PATIENCE)
         assert charting.returncode == 0
     found = AT_KNOT.search(at_cursor)
     assert found is not None
@@ -195,7 +195,7 @@ def test_the_weaver_goes_on_where_the_page_was_left(carpet: Page, running: Studi
         weaver.press(key)
     heading = weaver.get_by_role("heading")
     expect(heading).to_contain_text(re.compile("^Row 4 of"))
-    expect(weaver.locator("[aria-current=step]")).to_have_count(1, timeout=PATIENCE)
+    expect(weaver.locator("[aria-current=step]")).to_have_count(1)
     assert violations(carpet) == []
     carpet.reload()
     open_view(carpet, running, "carpet")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_data, until_file, violations
+from studio_browser import Studio, data_of, middle, open_view, until_data, until_file, violations
 
 from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.chart import make_charted
@@ -34,7 +34,7 @@ def carpet(page: Page, running: Studio) -> Page:
     recipe += "".join(f'[[yarn]]\nname = "{yarn.name}"\nsrgb = "{yarn.hex}"\n' for yarn in default_yarns())
     (running.project / "carpet.toml").write_text(recipe, encoding="utf-8")
     open_view(page, running, "carpet")
-    expect(page.locator(".carpet-status")).to_contain_text("80 knots across, 120 rows", timeout=PATIENCE)
+    expect(page.locator(".carpet-status")).to_contain_text("80 knots across, 120 rows")
     return page
 
 
@@ -65,7 +65,7 @@ def _tool(page: Page, name: str) -> None:
 def test_a_drawn_colour_gets_a_yarn_by_hand(carpet: Page, running: Studio) -> None:
     carpet.get_by_role("tab", name="Yarns").click()
     rows = carpet.locator(".carpet-assignment tbody tr")
-    expect(rows).to_have_count(4, timeout=PATIENCE)
+    expect(rows).to_have_count(4)
     navy = rows.filter(has_text="#1b2a4e")
     expect(navy).to_contain_text("indigo navy")
     expect(navy).to_contain_text("2,400")
@@ -95,13 +95,13 @@ def test_the_crop_is_a_frame_that_is_dragged(carpet: Page, running: Studio) -> N
 
 def test_specks_are_marked_and_taken_out(carpet: Page, running: Studio) -> None:
     carpet.get_by_text("Specks", exact=True).click()
-    expect(carpet.get_by_text("1 speck: 1 of 1")).to_be_visible(timeout=PATIENCE)
+    expect(carpet.get_by_text("1 speck: 1 of 1")).to_be_visible()
     carpet.get_by_text("Mark them").click()
     expect(carpet.locator(".carpet-marks .specks")).to_have_attribute("d", re.compile("^M[^M]+Z$"))
     assert violations(carpet) == []
     carpet.get_by_role("button", name="Take all 1 out").click()
     assert _edits(running, 1)[0].startswith("set 110,11 ")
-    expect(carpet.get_by_text("0 specks")).to_be_visible(timeout=PATIENCE)
+    expect(carpet.get_by_text("0 specks")).to_be_visible()
     assert len(np.unique(_knots(running)[:30].reshape(-1, 3), axis=0)) == 1
 
 
@@ -189,7 +189,7 @@ def test_edits_keep_their_place_when_the_size_changes(carpet: Page, running: Stu
     size.fill("64x96cm")
     size.press("Enter")
     until_file(running.project, "carpet.toml", 'grid = "80x120"')
-    expect(carpet.locator(".carpet-timing")).to_contain_text("160 × 240", timeout=PATIENCE)
+    expect(carpet.locator(".carpet-timing")).to_contain_text("160 × 240")
     assert (_knots(running) == _sage()).all(axis=-1).mean() == pytest.approx(share)
 
 

@@ -5,7 +5,7 @@ from io import BytesIO
 import pytest
 from playwright.sync_api import Page, expect
 from reportlab.pdfgen.canvas import Canvas
-from studio_browser import PATIENCE, Studio, open_view, until_data, violations
+from studio_browser import Studio, open_view, until_data, violations
 
 EDITS = ["set 1,1 ivory", "set 2,2 ivory", "set 3,3 ivory"]
 
@@ -27,7 +27,7 @@ def _pages() -> bytes:
 def _open(page: Page, running: Studio, recipe: str) -> Page:
     (running.project / "carpet.toml").write_text(recipe, encoding="utf-8")
     open_view(page, running, "carpet")
-    expect(page.locator(".carpet-status")).to_contain_text("40 knots across, 60 rows", timeout=PATIENCE)
+    expect(page.locator(".carpet-status")).to_contain_text("40 knots across, 60 rows")
     return page
 
 
@@ -48,11 +48,11 @@ def test_the_page_of_a_pdf_is_chosen(page: Page, running: Studio) -> None:
     carpet = _open(page, running, recipe)
     carpet.get_by_role("tab", name="Yarns").click()
     rows = carpet.locator(".carpet-assignment tbody tr")
-    expect(rows).to_have_count(2, timeout=PATIENCE)
+    expect(rows).to_have_count(2)
     expect(rows.filter(has_text="#991a1a")).to_have_count(1)
     carpet.get_by_role("tab", name="Picture").click()
     carpet.get_by_label("Page of the PDF").fill("2")
     until_data(running.project, "carpet.toml", lambda data: data.get("page") == 2)
     carpet.get_by_role("tab", name="Yarns").click()
-    expect(rows.filter(has_text="#1a1a80")).to_have_count(1, timeout=PATIENCE)
+    expect(rows.filter(has_text="#1a1a80")).to_have_count(1)
     assert violations(carpet) == []

@@ -4,7 +4,7 @@ import re
 
 import pytest
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
+from studio_browser import Seen, Studio, data_of, middle, open_view, until_data, until_file, violations
 
 
 @pytest.fixture
@@ -14,7 +14,7 @@ def press(page: Page, running: Studio, request: pytest.FixtureRequest) -> str:
     path = f"cyclograms/{name}.toml"
     (running.project / path).write_bytes((running.project / "cyclograms/press.toml").read_bytes())
     open_view(page, running, f"cyclogram/{name}")
-    expect(page.locator(".cyclogram-lanes .bar").first).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".cyclogram-lanes .bar").first).to_be_visible()
     return path
 
 
@@ -24,12 +24,12 @@ def test_a_motion_is_dragged_until_a_rule_is_violated(page: Page, running: Studi
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 200, y, steps=6)
-    expect(page.get_by_text("1 of 9 violated")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("1 of 9 violated")).to_be_visible()
     expect(page.get_by_text("both present").first).to_be_attached()
     page.mouse.up()
     until_data(running.project, press, lambda data: data != before)
     page.get_by_label("Undo (Ctrl+Z)").click()
-    expect(page.get_by_text("All hold")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("All hold")).to_be_visible()
     until_data(running.project, press, lambda data: data == before)
 
 
@@ -37,7 +37,7 @@ def test_the_solver_names_what_binds_and_its_solution_is_taken(page: Page, runni
     before = data_of(running.project, press)
     page.get_by_role("button", name="Least acceleration").click()
     solution = page.get_by_label("Solution")
-    expect(solution.get_by_text("never both die in the tool and feeder in the tool")).to_be_visible(timeout=PATIENCE)
+    expect(solution.get_by_text("never both die in the tool and feeder in the tool")).to_be_visible()
     assert violations(page) == []
     solution.get_by_role("button", name="Take the solution").click()
     expect(solution).to_have_count(0)
@@ -54,16 +54,16 @@ def test_an_end_is_moved_by_keys(page: Page, running: Studio, press: str) -> Non
 def test_a_cyclogram_is_built_from_nothing(page: Page, running: Studio) -> None:
     open_view(page, running, "cyclogram")
     page.get_by_role("button", name="New", exact=True).click()
-    page.wait_for_url(re.compile("#cyclogram/cyclogram$"), timeout=PATIENCE)
+    page.wait_for_url(re.compile("#cyclogram/cyclogram$"))
     path = "cyclograms/cyclogram.toml"
     page.get_by_role("button", name="Add a track").click()
     second = page.locator("details[open]", has_text="track 2")
     second.get_by_role("button", name="Add a motion and its return").click()
     page.get_by_role("button", name="Add a relation").click()
     rules = page.locator(".cyclogram-rules")
-    expect(rules.get_by_text("track 2: motion 1 starts after track 1: out ends")).to_be_visible(timeout=PATIENCE)
+    expect(rules.get_by_text("track 2: motion 1 starts after track 1: out ends")).to_be_visible()
     rules.get_by_label("Gap at least").fill("90deg")
-    expect(rules.get_by_text(re.compile("missing$"))).to_be_visible(timeout=PATIENCE)
+    expect(rules.get_by_text(re.compile("missing$"))).to_be_visible()
     assert violations(page) == []
     second.get_by_label("Name", exact=True).first.fill("slide")
     page.keyboard.press("Enter")
@@ -82,8 +82,8 @@ def test_a_broken_file_states_its_line_and_keeps_the_view(page: Page, running: S
     (running.project / "cyclograms/no-toml.toml").write_text('period = "1s"\nperiod = = 3\n', encoding="utf-8")
     (running.project / "cyclograms/overlap.toml").write_text(text.replace('"85deg"', '"70deg"'), encoding="utf-8")
     open_view(page, running, "cyclogram/overlap")
-    expect(page.get_by_text("out starts at 70 deg, before in ends at 80 deg")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("out starts at 70 deg, before in ends at 80 deg")).to_be_visible()
     open_view(page, running, "cyclogram/no-toml")
-    expect(page.get_by_text("no-toml.toml, line 2")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("no-toml.toml, line 2")).to_be_visible()
     page.get_by_role("button", name="Open Files").click()
-    page.wait_for_url(re.compile("#files/cyclograms/no-toml.toml"), timeout=PATIENCE)
+    page.wait_for_url(re.compile("#files/cyclograms/no-toml.toml"))

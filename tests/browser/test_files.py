@@ -11,7 +11,7 @@ from zipfile import ZipFile
 import pytest
 from click.testing import CliRunner
 from playwright.sync_api import Locator, Page, Route, expect
-from studio_browser import PATIENCE, Seen, Studio, open_view, until_file
+from studio_browser import Seen, Studio, open_view, until_file
 
 from ilmek.cli import main
 from ilmek.jobs.studio.answers import Context
@@ -29,7 +29,7 @@ def write(page: Page, title: str) -> Locator:
     """Write a product; its row."""
     row = product(page, title)
     row.get_by_role("button", name="Write").click()
-    expect(row.get_by_text("up to date")).to_be_visible(timeout=2 * PATIENCE)
+    expect(row.get_by_text("up to date")).to_be_visible()
     return row
 
 
@@ -59,7 +59,7 @@ def test_the_page_of_a_machine_is_the_one_of_the_command_line(page: Page, runnin
     assert content == (by_command(running, row, tmp_path / "copy") / "machine-beat-up.html").read_bytes()
     file = running.project / "machines" / "beat-up.toml"
     file.write_text(file.read_text() + "\n# changed by another program\n")
-    expect(row.get_by_text("older than machines/beat-up.toml")).to_be_visible(timeout=PATIENCE)
+    expect(row.get_by_text("older than machines/beat-up.toml")).to_be_visible()
 
 
 def test_the_chart_of_a_carpet_is_shown_and_packed(page: Page, running: Studio, tmp_path: Path) -> None:
@@ -75,7 +75,7 @@ def test_the_chart_of_a_carpet_is_shown_and_packed(page: Page, running: Studio, 
     assert "small-chart/chart.png" in files
     assert files == made
     page.get_by_role("button", name="Delete out/small-chart").click()
-    expect(row.get_by_text("Not written yet")).to_be_visible(timeout=PATIENCE)
+    expect(row.get_by_text("Not written yet")).to_be_visible()
     assert not (running.project / "out" / "small-chart").exists()
 
 
@@ -98,22 +98,22 @@ def test_files_come_and_go_by_keys_alone(page: Page, running: Studio) -> None:
     open_view(page, running, "files")
     heading = page.locator("#files-chosen")
     press(page, "New file: Linkages")
-    expect(heading).to_have_text("new", timeout=PATIENCE)
+    expect(heading).to_have_text("new")
     press(page, "Duplicate")
-    expect(heading).to_have_text("new-copy", timeout=PATIENCE)
+    expect(heading).to_have_text("new-copy")
     press(page, "Rename")
-    expect(page.get_by_label("New name")).to_be_focused(timeout=PATIENCE)
+    expect(page.get_by_label("New name")).to_be_focused()
     page.keyboard.type("çağrı 2")
     page.keyboard.press("Enter")
-    expect(heading).to_have_text("çağrı 2", timeout=PATIENCE)
+    expect(heading).to_have_text("çağrı 2")
     linkages = running.project / "linkages"
     assert (linkages / "çağrı 2.toml").read_text() == (linkages / "new.toml").read_text()
     assert not (linkages / "new-copy.toml").exists()
     press(page, "Delete")
-    expect(page.get_by_text("linkages/çağrı 2.toml was deleted.")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("linkages/çağrı 2.toml was deleted.")).to_be_visible()
     assert not (linkages / "çağrı 2.toml").exists()
     press(page, "Bring it back")
-    expect(heading).to_have_text("çağrı 2", timeout=PATIENCE)
+    expect(heading).to_have_text("çağrı 2")
     assert (linkages / "çağrı 2.toml").read_text() == (linkages / "new.toml").read_text()
 
 
@@ -124,11 +124,11 @@ def test_a_file_that_goes_is_not_asked_for_again(
     """The list of files without it may arrive before the answer to the request that took it away."""
     (running.project / "linkages" / f"{request_path}.toml").write_text(LINKAGE)
     open_view(page, running, f"files/linkages/{request_path}.toml")
-    expect(page.locator("#files-chosen")).to_have_text(request_path, timeout=PATIENCE)
+    expect(page.locator("#files-chosen")).to_have_text(request_path)
 
     def late(route: Route) -> None:
         answer = route.fetch()
-        with page.expect_response(re.compile(r"/api/project\?"), timeout=PATIENCE):
+        with page.expect_response(re.compile(r"/api/project\?")):
             pass
         page.wait_for_timeout(300)  # time in which a wrong request would be sent
         route.fulfill(response=answer)
@@ -138,9 +138,9 @@ def test_a_file_that_goes_is_not_asked_for_again(
     if button == "Rename":
         page.get_by_label("New name").fill("renamed")
         page.keyboard.press("Enter")
-        expect(page.locator("#files-chosen")).to_have_text("renamed", timeout=PATIENCE)
+        expect(page.locator("#files-chosen")).to_have_text("renamed")
     else:
-        expect(page.get_by_text(f"linkages/{request_path}.toml was deleted.")).to_be_visible(timeout=PATIENCE)
+        expect(page.get_by_text(f"linkages/{request_path}.toml was deleted.")).to_be_visible()
     assert seen.faults == []
 
 
@@ -149,7 +149,7 @@ def test_a_new_file_of_each_kind_can_be_used(page: Page, running: Studio) -> Non
     for kind, folder in (("Machines", "machines"), ("Syntheses", "synthesis"), ("Yarn lists", "yarns")):
         page.get_by_role("button", name=f"New file: {kind}").click()
         path = f"{folder}/new.toml"
-        expect(page.locator("#files-chosen + span")).to_contain_text(path, timeout=PATIENCE)
+        expect(page.locator("#files-chosen + span")).to_contain_text(path)
         assert read_file(PathRequest(path), Context(str(running.project))).error is None
 
 
@@ -159,13 +159,13 @@ def test_a_broken_file_is_mended_at_its_line(page: Page, running: Studio) -> Non
     file.write_text(good + 'lift = "20mm" "30mm"\n')
     line = good.count("\n") + 1
     open_view(page, running, "files")
-    page.get_by_role("button", name=f"cam error in line {line}").click(timeout=PATIENCE)
+    page.get_by_role("button", name=f"cam error in line {line}").click()
     page.get_by_role("button", name=f"Go to line {line}").click()
     text = page.get_by_label("Text of machines/cam.toml")
     assert text.evaluate("area => area.value.slice(area.selectionStart, area.selectionEnd)") == 'lift = "20mm" "30mm"'
     page.keyboard.press("Delete")
     until_file(running.project, "machines/cam.toml", good.rstrip())
-    expect(page.get_by_role("button", name="cam", exact=True)).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_role("button", name="cam", exact=True)).to_be_visible()
     assert "30mm" not in file.read_text()
 
 
@@ -176,20 +176,20 @@ def test_two_changes_of_one_file_are_both_kept(page: Page, running: Studio, seen
     open_view(page, running, f"files/{path}")
     page.get_by_text("Text of the file").click()
     text = page.get_by_label(f"Text of {path}")
-    expect(text).to_be_enabled(timeout=PATIENCE)
+    expect(text).to_be_enabled()
     before = text.input_value()
     page.route("**/api/project/files/**", lambda route: route.abort())
     text.fill(before + "# mine\n")
-    expect(page.get_by_text("Kept in this browser").first).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("Kept in this browser").first).to_be_visible()
     (running.project / path).write_text(before + "# theirs\n")
     page.unroute("**/api/project/files/**")
     dialog = page.get_by_role("dialog", name=f"{path} was changed twice")
-    expect(dialog.get_by_text("# mine")).to_be_visible(timeout=PATIENCE)
+    expect(dialog.get_by_text("# mine")).to_be_visible()
     expect(dialog.get_by_text("# theirs")).to_be_visible()
     assert (running.project / path).read_text() == before + "# theirs\n"
     dialog.get_by_role("button", name=choice).click()
     kept, other = ("# mine", "# theirs") if choice == "Keep mine" else ("# theirs", "# mine")
     until_file(running.project, path, kept)
-    expect(text).to_have_value(re.compile(kept), timeout=PATIENCE)
+    expect(text).to_have_value(re.compile(kept))
     page.get_by_role("button", name=re.compile("^Undo")).click()
     until_file(running.project, path, other)

@@ -6,7 +6,7 @@ import tomllib
 
 from playwright.sync_api import Page, expect
 from processes import ilmek, printed, until
-from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_file, violations
+from studio_browser import Studio, data_of, middle, open_view, until_file, violations
 
 
 def click_at(page: Page, x: float, y: float) -> None:
@@ -22,20 +22,20 @@ def tool(page: Page, letter: str, name: str) -> None:
 
 def degrees_of_freedom(page: Page, count: int, driven: int) -> None:
     facts = page.locator(".linkage-facts").first.locator("dd")
-    expect(facts.nth(0)).to_have_text(str(count), timeout=PATIENCE)
-    expect(facts.nth(1)).to_have_text(str(driven), timeout=PATIENCE)
+    expect(facts.nth(0)).to_have_text(str(count))
+    expect(facts.nth(1)).to_have_text(str(driven))
 
 
 def test_a_four_bar_is_drawn_with_the_mouse(page: Page, running: Studio) -> None:
     open_view(page, running, "linkage")
     page.get_by_role("button", name="New", exact=True).click()
-    expect(page.locator(".linkage-next")).to_contain_text("Draw the first link", timeout=PATIENCE)
+    expect(page.locator(".linkage-next")).to_contain_text("Draw the first link")
     tool(page, "l", "Link")
     bars = (((-200, -100), (-200, 0)), ((-200, 0), (100, 120)), ((100, 120), (150, -100)))
     for number, ends in enumerate(bars, 1):
         for end in ends:
             click_at(page, *end)
-        expect(page.locator(f"[data-body=link{number}]")).to_be_visible(timeout=PATIENCE)
+        expect(page.locator(f"[data-body=link{number}]")).to_be_visible()
     degrees_of_freedom(page, 5, 0)
     tool(page, "o", "Ground pivot")
     click_at(page, -200, -100)
@@ -47,7 +47,7 @@ def test_a_four_bar_is_drawn_with_the_mouse(page: Page, running: Studio) -> None
     expect(page.locator(".linkage-groups li")).to_contain_text(["Driven", "Dyad RRR"])
     tool(page, "t", "Traced point")
     click_at(page, 0, 70)
-    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1, timeout=PATIENCE)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1)
     page.keyboard.press("Escape")
     path = "linkages/linkage.toml"
     until(lambda: len(data_of(running.project, path)["bodies"].get("link2", {}).get("points", {})) == 3)
@@ -74,16 +74,16 @@ def test_a_joint_is_dragged_and_moved_by_keys(page: Page, running: Studio) -> No
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x - 30, y - 10, steps=6)
-    expect(page.locator(".linkage-path:not(.joint)")).not_to_have_attribute("d", str(old), timeout=PATIENCE)
+    expect(page.locator(".linkage-path:not(.joint)")).not_to_have_attribute("d", str(old))
     assert file.read_text(encoding="utf-8") == before
     page.mouse.up()
     until(lambda: file.read_text(encoding="utf-8") != before)
-    expect(page.locator(".project-saved")).to_have_text("Saved", timeout=PATIENCE)
+    expect(page.locator(".project-saved")).to_have_text("Saved")
     assert len(saves) == 1
     assert violations(page) == []
     page.keyboard.press("Control+z")
     until(lambda: file.read_text(encoding="utf-8") == before)
-    expect(page.locator(".linkage-path:not(.joint)")).to_have_attribute("d", str(old), timeout=PATIENCE)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_attribute("d", str(old))
     page.locator(".linkage-canvas").focus()
     for joint in ("A0", "A", "B", "B0"):
         page.keyboard.press("Tab")
@@ -117,7 +117,7 @@ def test_a_traced_point_is_put_anywhere_on_the_plane_of_a_link(page: Page, runni
     path = "linkages/beside.toml"
     (running.project / path).write_text(FOUR_BAR, encoding="utf-8")
     open_view(page, running, "linkage/beside")
-    expect(page.locator("[data-body=link1]")).to_be_visible(timeout=PATIENCE)
+    expect(page.locator("[data-body=link1]")).to_be_visible()
 
     def points(body: str) -> list[str]:
         return list(data_of(running.project, path)["bodies"][body]["points"])
@@ -127,7 +127,7 @@ def test_a_traced_point_is_put_anywhere_on_the_plane_of_a_link(page: Page, runni
     tool(page, "t", "Traced point")
     page.mouse.click(x - 90, y + 60)  # nearest to the rocker, link3
     until(lambda: points("link3") == ["D", "C", "E"])
-    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1, timeout=PATIENCE)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(1)
     page.keyboard.press("Escape")
     page.get_by_role("tab", name="Parts").click()
     page.get_by_role("button", name="link2", exact=True).click()
@@ -135,7 +135,7 @@ def test_a_traced_point_is_put_anywhere_on_the_plane_of_a_link(page: Page, runni
     tool(page, "t", "Traced point")
     page.mouse.click(x - 180, y + 120)  # in the plane of the coupler, which is chosen
     until(lambda: len(points("link2")) == 3)
-    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(2, timeout=PATIENCE)
+    expect(page.locator(".linkage-path:not(.joint)")).to_have_count(2)
     expect(page.locator(".ui-toast")).to_have_count(0)
 
 
@@ -147,7 +147,7 @@ def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, runn
     for typed, words, bodies, entry in (("20mm", "cannot close .*lengthen", 5, '"20mm"'), ("0", "above 0", 4, "0\n")):
         length.fill(typed)
         length.press("Enter")
-        expect(page.locator(".linkage-panels .ui-callout.bad")).to_have_text(re.compile(words), timeout=PATIENCE)
+        expect(page.locator(".linkage-panels .ui-callout.bad")).to_have_text(re.compile(words))
         expect(page.locator("[data-body]")).to_have_count(bodies)
         until_file(running.project, "linkages/watt-six-bar.toml", f"coupler.length = {entry}")
     page.get_by_role("button", name="Save as…").click()

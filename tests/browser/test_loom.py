@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Locator, Page, Route, expect
 from processes import until
-from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, studio, violations
+from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled, studio, violations
 
 from ilmek.jobs.loom_space import loom_in_space
 from ilmek.jobs.studio.loom.scene import project_loom
@@ -74,11 +74,12 @@ def until_changed(page: Page, before: np.ndarray, share: float) -> np.ndarray:
 
 
 def until_drawn(page: Page) -> None:
-    """Wait until no further picture is drawn for some time: a coarse one is followed by a fine one."""
+    """Wait until the picture is a fine one, and no further one is drawn for some time."""
     canvas, counts = page.locator(".loom canvas"), [""]
 
     def rests() -> bool:
-        before = counts[-1]
+        expect(canvas).to_have_attribute("data-fine", "true")
+        before = canvas.get_attribute("data-pictures") or ""
         page.wait_for_timeout(300)
         counts.append(canvas.get_attribute("data-pictures") or "")
         return counts[-1] == before
@@ -246,10 +247,12 @@ def test_a_view_that_was_left_keeps_no_memory(page: Page, running: Studio) -> No
         return float(usage["usedSize"] + usage.get("backingStorageSize", 0)) / 1e6
 
     sizes = []
-    for _ in range(10):
+    for _ in range(7):
         open_view(page, running, "files")
+        settled(page)  # a request that is under way keeps what its view had
         sizes.append(used())
         open_view(page, running, "loom")
+        settled(page)
     assert sizes[-1] - sizes[2] < 2.0, sizes
     assert [one for one in printed if "WebGL" in one] == []
 

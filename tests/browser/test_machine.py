@@ -5,7 +5,7 @@ import re
 
 from click.testing import CliRunner
 from playwright.sync_api import Page, Response, expect
-from studio_browser import PATIENCE, Seen, Studio, data_of, open_view, until_data, until_file, violations
+from studio_browser import Seen, Studio, data_of, open_view, until_data, until_file, violations
 
 from ilmek.cli import main
 
@@ -21,7 +21,7 @@ def type_value(page: Page, label: str, value: str) -> None:
 
 def badge(page: Page, words: str) -> None:
     """Wait until the verdict has these words."""
-    expect(page.locator(".machine-badge")).to_have_text(words, timeout=PATIENCE)
+    expect(page.locator(".machine-badge")).to_have_text(words)
 
 
 def test_values_are_typed_in_any_unit_and_one_out_of_bounds_is_refused(page: Page, running: Studio, seen: Seen) -> None:
@@ -31,10 +31,10 @@ def test_values_are_typed_in_any_unit_and_one_out_of_bounds_is_refused(page: Pag
     until_file(running.project, FILE, 'swing = "31deg"')
     type_value(page, "swing", "0.5rad")
     until_file(running.project, FILE, 'swing = "0.5rad"')
-    expect(page.get_by_text("read as 28.648°")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("read as 28.648°")).to_be_visible()
     type_value(page, "swing", "200deg")
     refusal = page.get_by_role("alert").filter(has_text="swing=200 deg")
-    expect(refusal).to_contain_text("above 0 deg, below 180 deg", timeout=PATIENCE)
+    expect(refusal).to_contain_text("above 0 deg, below 180 deg")
     assert page.get_by_label("swing", exact=True).get_attribute("aria-invalid") == "true"
     assert data_of(running.project, FILE)["settings"]["swing"] == "0.5rad"
     page.get_by_label("swing", exact=True).press("Escape")
@@ -72,12 +72,12 @@ def test_two_settings_are_compared_and_switched(page: Page, running: Studio) -> 
     type_value(page, "swing", "40deg")
     page.get_by_role("tab", name="Compare A and B").click()
     row = page.get_by_role("region", name="Parameters").get_by_role("row").filter(has_text="swing").first
-    expect(row).to_contain_text("40 deg", timeout=PATIENCE)
+    expect(row).to_contain_text("40 deg")
     expect(row).to_contain_text("30 deg")
     expect(row).to_contain_text("+33.3 %")
     page.get_by_role("button", name="Switch A and B").first.click()
     until_file(running.project, FILE, 'swing = "30deg"')
-    expect(row.get_by_role("cell").first).to_have_text("30 deg", timeout=PATIENCE)
+    expect(row.get_by_role("cell").first).to_have_text("30 deg")
 
 
 def test_a_machine_of_the_catalogue_is_opened_with_the_results_of_the_command_line(page: Page, running: Studio) -> None:
@@ -86,14 +86,14 @@ def test_a_machine_of_the_catalogue_is_opened_with_the_results_of_the_command_li
     def is_view(response: Response) -> bool:
         return response.url.endswith("/machines/hammer/view")
 
-    with page.expect_response(is_view, timeout=PATIENCE) as answered:
+    with page.expect_response(is_view) as answered:
         page.locator(".machine-chooser select").select_option("new:hammer")
-    page.wait_for_url(re.compile("#machine/hammer$"), timeout=PATIENCE)
+    page.wait_for_url(re.compile("#machine/hammer$"))
     seen = {one["name"]: one for one in answered.value.json()["results"]}
     page.get_by_role("tab", name="Results").click()
     page.get_by_role("button", name=re.compile(r"^Show all \(")).click()
     rows = page.get_by_role("region", name="Results").get_by_role("row")
-    expect(rows).to_have_count(len(seen) + 1, timeout=PATIENCE)
+    expect(rows).to_have_count(len(seen) + 1)
     shown = page.evaluate(
         "[...document.querySelectorAll('main tbody tr')].map(row => [row.cells[2].innerText, row.cells[1].innerText])"
     )
@@ -103,6 +103,6 @@ def test_a_machine_of_the_catalogue_is_opened_with_the_results_of_the_command_li
     numbers = {name: one["value"] for name, one in seen.items() if one["value"] is not None}
     assert numbers == {name: results[name] for name in numbers}
     page.get_by_role("tab", name="Command").click()
-    expect(page.get_by_text(re.compile("^ilmek design hammer"))).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text(re.compile("^ilmek design hammer"))).to_be_visible()
     page.get_by_label("What each parameter does").check()
-    expect(page.locator(".machine-strip:visible").first).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".machine-strip:visible").first).to_be_visible()

@@ -5,12 +5,12 @@ import re
 
 import pytest
 from playwright.sync_api import Page, expect
-from studio_browser import PATIENCE, Studio, data_of, middle, open_view, until_data, until_file, violations
+from studio_browser import Studio, data_of, middle, open_view, until_data, until_file, violations
 
 
 def full_search_ended(page: Page) -> None:
-    expect(page.locator(".synthesis-gallery").get_by_text("Full search", exact=True)).to_be_visible(timeout=PATIENCE)
-    expect(page.locator(".synthesis-card").first).to_be_visible(timeout=PATIENCE)
+    expect(page.locator(".synthesis-gallery").get_by_text("Full search", exact=True)).to_be_visible()
+    expect(page.locator(".synthesis-card").first).to_be_visible()
 
 
 def test_a_pose_is_dragged_and_undone(page: Page, running: Studio) -> None:
@@ -46,7 +46,7 @@ def test_a_candidate_goes_to_the_editor(page: Page, running: Studio) -> None:
     full_search_ended(page)
     page.locator(".synthesis-card").last.click()
     page.get_by_role("button", name="To the linkage editor").click()
-    page.wait_for_url(re.compile("#linkage/square"), timeout=PATIENCE)
+    page.wait_for_url(re.compile("#linkage/square"))
     assert data_of(running.project, "linkages/square.toml")["inputs"] == {"A0": "crank"}
 
 
@@ -54,19 +54,19 @@ def test_a_path_is_clicked_on_an_empty_plane(page: Page, running: Studio) -> Non
     open_view(page, running, "synthesis")
     page.get_by_role("button", name="New task").click()
     page.get_by_role("button", name="Create").click()
-    page.wait_for_url(re.compile("#synthesis/path$"), timeout=PATIENCE)
-    expect(page.get_by_text("4 more points are needed")).to_be_visible(timeout=PATIENCE)
+    page.wait_for_url(re.compile("#synthesis/path$"))
+    expect(page.get_by_text("4 more points are needed")).to_be_visible()
     box = page.get_by_role("group", name="Plane of the task").bounding_box()
     assert box is not None
     for number, (x, y) in enumerate([(0.3, 0.6), (0.4, 0.45), (0.55, 0.4), (0.68, 0.48), (0.75, 0.62)], 1):
         page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
-        expect(page.get_by_role("button", name=re.compile(f"^Point {number} at"))).to_be_attached(timeout=PATIENCE)
+        expect(page.get_by_role("button", name=re.compile(f"^Point {number} at"))).to_be_attached()
     full_search_ended(page)
     assert violations(page) == []
     points = data_of(running.project, "synthesis/path.toml")["settings"]["points"]
     assert points.count("(") == 5
     page.get_by_role("button", name="Remove all").click()
-    expect(page.get_by_text("4 more points are needed")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("4 more points are needed")).to_be_visible()
     page.get_by_label("Undo (Ctrl+Z)").click()
     until_file(running.project, "synthesis/path.toml", points)
 
@@ -90,7 +90,7 @@ def test_poses_are_pressed_dragged_and_released(page: Page, running: Studio) -> 
         page.mouse.down()
         page.mouse.move(left + 80 * math.cos(to), top - 80 * math.sin(to), steps=6)
         page.mouse.up()
-    expect(page.get_by_text("1 more pose is needed")).to_be_visible(timeout=PATIENCE)
+    expect(page.get_by_text("1 more pose is needed")).to_be_visible()
     page.mouse.click(*at(0.7, 0.65))
     full_search_ended(page)
     until_data(running.project, path, lambda data: data["settings"]["poses"].count("(") == 3)

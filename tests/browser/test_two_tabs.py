@@ -4,7 +4,7 @@ import re
 
 import pytest
 from playwright.sync_api import Browser, Locator, Page, expect
-from studio_browser import PATIENCE, Seen, Studio, context_of, open_view, settled, until_file
+from studio_browser import Seen, Studio, context_of, open_view, settled, until_file
 
 FILE = "machines/beat-up.toml"
 
@@ -35,7 +35,7 @@ def test_an_edit_is_in_the_file_and_in_the_other_tab(browser: Browser, running: 
         open_view(other, running, "machine/beat-up")
         _type_swing(machine, "31deg")
         until_file(running.project, FILE, "31deg")
-        expect(_field(other)).to_have_value(re.compile("^31"), timeout=PATIENCE)
+        expect(_field(other)).to_have_value(re.compile("^31"))
 
 
 def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
@@ -45,7 +45,7 @@ def test_undo_is_there_after_a_reload(running: Studio, machine: Page) -> None:
     machine.reload()
     open_view(machine, running, "machine/beat-up")
     machine.get_by_role("button", name=re.compile("^Undo")).first.click()
-    expect(_field(machine)).to_have_value(before, timeout=PATIENCE)
+    expect(_field(machine)).to_have_value(before)
 
 
 def test_an_edit_survives_a_server_that_is_killed(running: Studio, machine: Page, seen: Seen) -> None:
@@ -58,9 +58,7 @@ def test_an_edit_survives_a_server_that_is_killed(running: Studio, machine: Page
     )
     running.kill()
     _type_swing(machine, "34deg")
-    expect(machine.get_by_role("status").filter(has_text=re.compile("server|connection", re.I)).first).to_be_visible(
-        timeout=PATIENCE
-    )
+    expect(machine.get_by_role("status").filter(has_text=re.compile("server|connection", re.I)).first).to_be_visible()
     running.restart()
     until_file(running.project, FILE, "34deg")
     settled(machine)
@@ -71,4 +69,4 @@ def test_a_change_of_another_program_is_shown(running: Studio, machine: Page) ->
     path = running.project / FILE
     text = path.read_text(encoding="utf-8")
     path.write_text(re.sub(r'swing = ".*?"', 'swing = "29deg"', text), encoding="utf-8")
-    expect(_field(machine)).to_have_value(re.compile("^29"), timeout=PATIENCE)
+    expect(_field(machine)).to_have_value(re.compile("^29"))

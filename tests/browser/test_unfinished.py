@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 from playwright.sync_api import Browser, Page, expect
-from studio_browser import PATIENCE, VIEWS, Seen, context_of, settled, studio
+from studio_browser import VIEWS, Seen, context_of, settled, studio
 
 OPTION = re.compile(r"(?<![\w-])--[a-z]\S*")
 RED = ".ui-callout.bad:visible, [role=alert]:visible:not(:empty), .ui-badge.bad:visible, .ui-toast.bad:visible"
@@ -177,7 +177,7 @@ def test_a_new_or_half_filled_file_is_shown_as_what_it_is(half: tuple[Page, Seen
     if state.tab:
         page.get_by_role("tab", name=state.tab).click()
     for words in state.says:
-        expect(page.locator("body")).to_contain_text(words, timeout=PATIENCE)
+        expect(page.locator("body")).to_contain_text(words)
     settled(page)
     text = nothing_wrong(page, seen)
     for words in state.never:
@@ -200,7 +200,7 @@ def test_the_list_of_files_marks_what_is_not_finished(half: tuple[Page, Seen]) -
     page, seen = half
     page.evaluate("location.hash = '#files'")
     unfinished = page.get_by_role("button", name="not finished")
-    expect(unfinished.first).to_be_visible(timeout=PATIENCE)
+    expect(unfinished.first).to_be_visible()
     settled(page)
     nothing_wrong(page, seen)
     named = {text.split("\n")[0] for text in unfinished.all_inner_texts()}
@@ -241,6 +241,6 @@ def test_a_project_without_files(bare: tuple[Page, Seen, Path], view: str) -> No
     (folder / "carpet.toml").unlink(missing_ok=True)
     page.evaluate(f"location.hash = '#{view}'")
     page.wait_for_selector(f"main[data-view='{view}'][data-ready='true']")
-    expect(page.locator(RED)).to_have_count(0, timeout=PATIENCE)  # the page has heard of the deletion
+    expect(page.locator(RED)).to_have_count(0)  # the page has heard of the deletion
     settled(page)
     nothing_wrong(page, seen)

@@ -75,6 +75,7 @@ def test_a_part_that_is_moved_by_a_millimetre_is_through_another(name: str) -> N
     assert any(name in parts for parts in through)
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize(("side", "heads"), [(-1, LEFT), (1, RIGHT)])
 def test_a_post_at_the_end_of_the_heads_way_is_met_there_alone(
     side: int, heads: str, monkeypatch: pytest.MonkeyPatch

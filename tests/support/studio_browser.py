@@ -33,8 +33,10 @@ FLAGS = (
     "--enable-unsafe-swiftshader",
 )
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-PATIENCE = 60_000
-"""Longest wait for something to appear [ms]; machines with other work are slow."""
+PATIENCE = 180_000
+"""Longest wait for something to appear [ms]: a loom that is designed beside four busy processes on two processors took
+more than a minute.
+"""
 
 COUNT_REQUESTS = """
 window.requestsUnderWay = 0;

@@ -106,9 +106,9 @@ def test_with_the_defaults_nothing_is_left_out(name: str) -> None:
 
 
 def test_the_scaling_of_the_largest_carpets_is_drawn() -> None:
-    settings = {"width": "4m", "length": "8m", "knots_across": "250/dm", "knots_along": "250/dm"}
+    settings = {"width": "4m", "length": "8m", "knots_across": "250/dm", "knots_along": "250/dm", "beat": "comb"}
     loom = MACHINE.design(MACHINE.params.read(settings))
     assert 0.9 * MOST_KNOTS < loom.rows * loom.columns <= MOST_KNOTS
     assert len(time_against_pitch(loom).series) == 3
-    narrow = {"width": "2cm", "length": "50m", "knots_across": "500/dm", "knots_along": "500/dm"}
+    narrow = {"width": "2cm", "length": "50m", "knots_across": "500/dm", "knots_along": "500/dm", "beat": "comb"}
     assert len(time_of_one_head(MACHINE.design(MACHINE.params.read(narrow))).series[0].x) == 33

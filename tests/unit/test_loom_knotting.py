@@ -22,7 +22,9 @@ from ilmek.weaving.knots.word import knot
 
 @cache
 def loom(kind: str = "symmetric", knotting: str = "auto", pitch: float = 2 * mm, **others: str) -> LoomDesign:
-    settings = dict(knot=kind, knotting=knotting, warp_pitch=f"{pitch} m", width="0.6m", length="0.9m", **others)
+    settings = dict(
+        knot=kind, knotting=knotting, warp_pitch=f"{pitch} m", width="0.6m", length="0.9m", beat="comb", **others
+    )
     return design(AutomatedLoomParams.read(settings))
 
 

@@ -130,6 +130,7 @@ def test_a_head_with_arms_has_no_views_of_grippers() -> None:
     assert "knot_from_the_front" not in names
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_a_motion_is_written_by_its_name(tmp_path: Path) -> None:
     target = tmp_path / "knot.gif"
     call = ["design", "automated-loom", "--animation", str(target), "--motion", "loom-knot-front"]

@@ -75,7 +75,7 @@ def lamp(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("lamp")
 def test_a_machine_joins_the_loom_by_one_package_and_one_entry() -> None:
-    lit, plain = ({"lamp.power": "120W"}, {"width": "1.2m"})
+    lit, plain = ({"lamp.power": "120W", "beat": "comb"}, {"beat": "comb"})
     with_lamp, without = (loom_report(design(AutomatedLoomParams.read(settings))) for settings in (lit, plain))
     bare = design(AutomatedLoomParams())
     assert with_lamp["lamp.power_width"] == pytest.approx(100.0)

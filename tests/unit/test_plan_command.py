@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from default_machines import out_of_space
 from PIL import Image
 from small_programme import small_programme
 
@@ -36,10 +37,14 @@ def plan(folder: Path, *more: str) -> Result:
     return CliRunner().invoke(main, ["plan", str(folder / "orders.toml"), "--looms", str(folder / "looms.toml"), *more])
 
 
+pytestmark = pytest.mark.usefixtures("not_in_space")
+
+
 @pytest.fixture(scope="module")
 def example(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], Path]:
     out = tmp_path_factory.mktemp("plan") / "out"
-    done = plan(EXAMPLES, "--out", str(out), "--json", "-", "--time-limit", "200s")
+    with out_of_space():
+        done = plan(EXAMPLES, "--out", str(out), "--json", "-", "--time-limit", "200s")
     assert done.exit_code == 3, done.output
     return json.loads(done.stdout), out
 
