@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.brackets import Bracket, bracket_checks, brac
 from ilmek.machines.automated_loom.parts import own_tree, parts_of_loom
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding.tree import tree as shedding_tree
+from ilmek.machines.warp_tension.cylinders import cylinders as cylinders_of
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
@@ -46,13 +47,17 @@ def test_every_bearing_touches_its_bracket_and_every_shaft_ends_at_its_outer_fac
     design = loom(number)
     made = brackets_of(design)
     cylinders, cams = cylinder_tree(design.warp_tension), shedding_tree(design.shedding)
+    found = cylinders_of(design.warp_tension)
     named = {one.name: one for one in made.plates}
     for name, own in (("upper", "upper"), ("lower", "lower"), ("spacer", "spacer")):
         bracket = named[f"{own}-bracket"]
         assert extent(cylinders, f"warp-tension/{name}-bearing")[1] == pytest.approx(bracket.inner, abs=1e-9)
         assert extent(cylinders, f"warp-tension/{name}-end")[1] == pytest.approx(bracket.outer, abs=1e-9)
+        keyed = next(one for one in found if one.name == name).driven_end.length  # goes on into the reducer
+        assert extent(cylinders, f"warp-tension/{name}-driven-end")[1] == pytest.approx(bracket.outer + keyed, abs=1e-9)
     assert extent(cams, "shedding/bearing")[1] == pytest.approx(named["cam-bracket"].inner, abs=1e-9)
-    assert extent(cams, "shedding/cam-shaft")[1] == pytest.approx(named["cam-bracket"].outer, abs=1e-9)
+    keyed = design.shedding.first.driven_end.length
+    assert extent(cams, "shedding/cam-shaft")[1] == pytest.approx(named["cam-bracket"].outer + keyed, abs=1e-9)
     assert made.face >= max(one.outer for one in made.plates)
 
 

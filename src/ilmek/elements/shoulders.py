@@ -19,6 +19,10 @@ FILLET = 0.05
 """Radius of a journal's fillet over its diameter: 1 mm at 20 mm, as much as the chamfer of the inner ring leaves."""
 
 
+LEAST_SAFETY = 1.2
+"""Against fatigue and against yielding: DIN 743-1."""
+
+
 @record
 class Shoulder:
     """A journal at its shoulder; a shaft that is no thicker than the journal has no notch.

@@ -18,7 +18,7 @@ from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.sections import square_section
-from ilmek.elements.shoulders import Shoulder
+from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.elements.whirl import uniform_speed
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json
@@ -88,7 +88,7 @@ class ShaftBearings:
     """The bearings of the shaft.
 
     bearing   the one chosen      life  of it [s], 90 % of them reach it
-    shoulder  of the driven journal in it, with the safety
+    shoulder  of the driven journal in it, under the load without the safety
     """
 
     reaction: float = result("N", "load of the most loaded bearing, without the safety", name="bearing_load")
@@ -98,11 +98,9 @@ class ShaftBearings:
     shoulder: Shoulder
 
     journal_stress = computed(
-        "MPa", "stress of the driven journal [von Mises], with the safety", lambda it: it.shoulder.stress
+        "MPa", "stress of the driven journal [von Mises], without the safety", lambda it: it.shoulder.stress
     )
-    journal_endurance = computed(
-        "1", "safety of its shoulder against fatigue, besides that of the load", lambda it: it.shoulder.safety
-    )
+    journal_endurance = computed("1", "safety of its shoulder against fatigue", lambda it: it.shoulder.safety)
     name = computed("", "bearing of the shaft", lambda it: it.bearing.name, name="bearing")
     life_of_bearing = computed("h", "rating life", lambda it: it.life, name="bearing_life")
 
@@ -204,21 +202,23 @@ def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float)
     """Bearings for the load of a span [N], its safety included, on journals turned from the bar [m].
 
     A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises; its shoulder at the bearing's side
-    bears half of a span's load too, and must not fail by fatigue. A support between the ends carries a whole span, an
-    end half of one; the bearings of the steadies are taken no larger than those of the ends. Where no insert bearing
-    that fits the bar has the life and the bore, the strongest that fits the bar is taken.
+    bears half of a span's load too, and must have the safety of DIN 743 against fatigue. A support between the ends
+    carries a whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends.
+    Where no insert bearing that fits the bar has the life and the bore, the strongest that fits the bar is taken.
     """
     torque, loaded = safety * task.torque, span_load / safety
     reaction = loaded if task.spans > 1 else loaded / 2
     journal = float((16 * math.sqrt(3) * torque / (math.pi * task.strength)) ** (1 / 3))
 
     def shoulder(row: RollingBearing) -> Shoulder:
-        return Shoulder(bar, row.bore, task.tensile, span_load / 2 * row.width / 2, torque)
+        return Shoulder(bar, row.bore, task.tensile, loaded / 2 * row.width / 2, task.torque)
 
     revolutions = task.bearing_life * task.speed / turn
     if task.bearing is None:
         offered = sorted(_inserts(), key=lambda one: one.bore)
-        bore = next((one.bore for one in offered if one.bore >= journal and shoulder(one).safety >= 1), journal)
+        bore = next(
+            (one.bore for one in offered if one.bore >= journal and shoulder(one).safety >= LEAST_SAFETY), journal
+        )
         found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=bore)
         bearing = found if found is not None and found.bore <= bar else _strongest(bar)
     else:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from ilmek.elements import bearings, shafts
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.motors import MOTORS
+from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.report import Check, Choice, at_least, at_most, failing
@@ -94,7 +95,7 @@ def _bearing_checks(one: CamShaft, bearing: RollingBearing) -> tuple[Check, ...]
         at_least(
             "fatigue of the driven journal at its shoulder",
             replace(seat.shoulder, journal=bearing.bore).safety,
-            1.0,
+            LEAST_SAFETY,
             "1",
             "DIN 743-2",
         ),

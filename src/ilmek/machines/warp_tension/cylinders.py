@@ -37,7 +37,7 @@ from ilmek.elements.bearings import (
 )
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
-from ilmek.elements.shoulders import Shoulder
+from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
@@ -260,7 +260,7 @@ def bearing_checks(
         at_least("static safety", static, params.static_safety, "1", "ISO 76: parameter static_safety"),
         at_most("slope of the bearing", slope, slope_limit(bearing), "rad", "its kind"),
         at_least("shaft end", safety, params.stub_safety, "1", f"yield of {STUB.name}: parameter stub_safety"),
-        at_least("fatigue of the shaft end", end.safety, 1.0, "1", "Goodman, DIN 743-2"),
+        at_least("fatigue of the shaft end", end.safety, LEAST_SAFETY, "1", "Goodman, DIN 743-2"),
         keyed_end(bearing.bore, torque, STUB.strength).check("shaft end", "", ()),
     )
 

@@ -3,6 +3,7 @@
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
+from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
@@ -118,7 +119,12 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             cure=f"{larger}, or a shorter stub",
         ),
         at_least(
-            *(f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder", notched.end.safety, 1.0, "1"),
+            *(
+                f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder",
+                notched.end.safety,
+                LEAST_SAFETY,
+                "1",
+            ),
             f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
             parts=(part_id(f"{notched.name}-end"),),
             cure=f"{larger}, or a shorter stub",
