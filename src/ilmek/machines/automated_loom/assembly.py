@@ -31,12 +31,6 @@ NEAREST = 10
 _STANDING = "at all angles"
 
 
-@lru_cache(maxsize=4)
-def freedoms_of(loom: LoomDesign) -> Freedoms:
-    """The degrees of freedom of a loom beside its motors."""
-    return freedoms(loom_tree(loom))
-
-
 @record
 class LoomAssembly:
     """The parts of a loom against each other.

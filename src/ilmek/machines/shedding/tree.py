@@ -99,6 +99,7 @@ def _turning(design: SheddingDesign, index: int) -> tuple[Occurrence, ...]:
 
 
 def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
     shaft = design.shafts[index]
     stack, bar = shaft.stack, shaft.shaft.bar
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
