@@ -19,7 +19,7 @@ from ilmek.report import Check, at_most
 SAG = 0.1
 """Allowed sag of the tools over the pitch of the warps; assumed by this project."""
 
-STRESS = ALUMINIUM.fatigue / 2
+STRESS = (ALUMINIUM.fatigue or 0.0) / 2
 """Allowed stress [Pa]: fatigue limit over 2; assumed by this project."""
 
 
