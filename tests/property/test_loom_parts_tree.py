@@ -86,7 +86,7 @@ def _spare_volume(design: Any, index: int) -> float:
     square = bar**2 * (2 * bearing_inner(design, index) - sum(shaft.numbers) * shaft.stack.shares.pitch)
     journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET)
     end = shaft.driven_end
-    journals += keyed_journal(end).volume + end.keyway.width * end.keyway.height * end.length
+    journals += keyed_journal(end).volume + end.number * end.keyway.width * end.keyway.height * end.length
     return float(square + journals + 2 * NUT * (math.pi * bar**2 - bar**2))
 
 
