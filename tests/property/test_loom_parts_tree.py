@@ -19,6 +19,7 @@ from ilmek.machines.shedding.tree import NUT, bearing_inner
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.tension_compensator.tree import tree as compensator_tree
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
+from ilmek.part.catalogue import keyed_journal
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import volume
 
@@ -84,6 +85,8 @@ def _spare_volume(design: Any, index: int) -> float:
     bar, seat = shaft.shaft.bar, shaft.seat
     square = bar**2 * (2 * bearing_inner(design, index) - sum(shaft.numbers) * shaft.stack.shares.pitch)
     journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET)
+    end = shaft.driven_end
+    journals += keyed_journal(end).volume + end.number * end.keyway.width * end.keyway.height * end.length
     return float(square + journals + 2 * NUT * (math.pi * bar**2 - bar**2))
 
 

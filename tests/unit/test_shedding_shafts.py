@@ -18,6 +18,7 @@ from ilmek.machines.shedding.positions import dealt
 from ilmek.machines.shedding.stack import shared
 from ilmek.machines.shedding.tree import NUT, bearing_inner
 from ilmek.machines.shedding.warp import shed_warp
+from ilmek.part.catalogue import keyed_journal
 from ilmek.report import Report
 from ilmek.units import mm
 
@@ -150,6 +151,7 @@ def beyond_the_stack(design: SheddingDesign, index: int) -> float:
     shaft = design.shafts[index]
     bar, seat = shaft.shaft.bar, shaft.seat.bearing
     square = bar**2 * (2 * bearing_inner(design, index) - shaft.shaft.length)
+    square += keyed_journal(shaft.driven_end).volume
     return square + 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET) + 2 * NUT * (math.pi - 1) * bar**2
 
 
