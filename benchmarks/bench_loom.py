@@ -9,7 +9,7 @@ from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.report import all_checks
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 
 RUNS = 7
 ALLOWED, CHOOSING = 0.1, 1.0
@@ -48,7 +48,7 @@ def run() -> None:
         checked = seconds(lambda loom=loom: all_checks(replace(loom)))  # type: ignore[misc]
         reported = seconds(lambda loom=loom: MACHINE.report(replace(loom)))  # type: ignore[misc]
         spaced = processor_seconds(lambda loom=loom: assembly(replace(loom)))  # type: ignore[misc]
-        free = processor_seconds(lambda loom=loom: freedoms(loom_tree(loom)))  # type: ignore[misc]
+        free = processor_seconds(lambda loom=loom: drive_balance(loom_tree(loom)))  # type: ignore[misc]
         print(
             f"loom, {beat}: in space {spaced:.2f} s of processor time, {SPACE / spaced:.1f} times within {SPACE:g} s; "
             f"degrees of freedom {free * 1e3:.0f} ms"

@@ -15,7 +15,7 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.catalogue import find_machine
 from ilmek.machines.tufting.design import Tufting
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
 from ilmek.units import mm, turn
@@ -108,7 +108,9 @@ def test_the_loom_follows_its_cyclograms_and_touches_nothing_but_its_joints() ->
     """Both side grippers meet in the knot: found here, 6 mm³; the comparison of meshes counts from 50 mm³ on."""
     tree, judge = _loom()
     assert judge.degrees_of_freedom() == judge.model.nu
-    assert judge.degrees_of_freedom(transmissions=True) == freedoms(tree).axes + 1  # the sprung bar beside the motors
+    assert (
+        judge.degrees_of_freedom(transmissions=True) == drive_balance(tree).axes + 1
+    )  # the sprung bar beside the motors
     mujoco.mj_resetDataKeyframe(judge.model, judge.data, 0)
     assert _farthest(tree, judge, "row", 0.0) <= 0.1 * mm
     touched: set[tuple[str, str]] = set()

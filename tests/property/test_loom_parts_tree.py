@@ -12,7 +12,7 @@ from ilmek.errors import IlmekError
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
-from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.automated_loom.parts import motors, parts_of_loom
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.shedding.tree import NUT, bearing_inner
@@ -40,7 +40,7 @@ def _trees(loom: Any) -> dict[str, Tree]:
         "warp-tension": cylinder_tree(loom.warp_tension),
         "tension-compensator": compensator_tree(machines["tension-compensator"].design),
         "carried": carried_tree(loom, parts_of_loom(loom).frame),
-        "frame": frame_tree(loom, parts_of_loom(loom).frame, parts_of_loom(loom).axes),
+        "frame": frame_tree(loom, parts_of_loom(loom).frame, motors(parts_of_loom(loom).parts)),
     }
 
 

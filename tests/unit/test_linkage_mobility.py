@@ -1,4 +1,4 @@
-"""Freedoms by count and by rank, constraints that repeat others, poses that are special."""
+"""DriveBalance by count and by rank, constraints that repeat others, poses that are special."""
 
 import dataclasses
 

@@ -90,7 +90,7 @@ NUMBERS: dict[str, tuple[Callable[[], float], Callable[[], float]]] = {
     "energy of the shuttle": (lambda: energy("shuttle"), shuttle_passages),
     "energy of what stands by": (
         lambda: results("automated-loom")["power_shares"]["standing by"],
-        lambda: 10.0 * results("automated-loom")["driven_axes"],
+        lambda: 10.0 * number_of("axis of the control"),
     ),
     "power in all": (
         lambda: results("automated-loom")["power_mean"],

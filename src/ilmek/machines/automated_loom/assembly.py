@@ -19,7 +19,7 @@ from ilmek.machines.automated_loom.nearest_parts import (
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 from ilmek.part.tree import JointKind, RigidBody
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
@@ -61,10 +61,10 @@ class LoomAssembly:
     degrees_of_freedom = computed(
         "1",
         "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
-        lambda it: freedoms(loom_tree(it.loom)).number,
+        lambda it: drive_balance(loom_tree(it.loom)).number,
     )
     passive_bodies = computed(
-        "1", "bodies that move and that nothing has to drive", lambda it: len(freedoms(loom_tree(it.loom)).passive)
+        "1", "bodies that move and that nothing has to drive", lambda it: len(drive_balance(loom_tree(it.loom)).passive)
     )
 
     @computed(

@@ -1,14 +1,14 @@
 """Whether motors drive all that can move, one for each degree of freedom, and whether each motor has its power."""
 
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 from ilmek.part.tree import Tree
 from ilmek.report import Check, at_least, at_most
 
 
 def drive_checks(tree: Tree) -> tuple[Check, ...]:
     """Degrees of freedom against those that motors take, motors against these, and against their amplifiers."""
-    free = freedoms(tree)
+    free = drive_balance(tree)
     held = {body.id: body.occurrences for body in tree.bodies}
     parts = (occurrence.part.id for body in free.undriven for occurrence in held[body])
     named, passive = ", ".join(free.undriven), f"rank of joints, transmissions and motors; passive: {len(free.passive)}"

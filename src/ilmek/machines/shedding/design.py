@@ -161,10 +161,8 @@ class SheddingDesign:
 
     cam_area = computed("cm^2", "area inside the cam's surface, bore included", lambda it: limits.area(it.cam))
 
-    shim_interval = computed("1", "pitches of a shaft between two places of shims", lambda it: it.chain.interval)
-    shims = computed(
-        "mm", "nominal thickness of the shims of a place", lambda it: it.chain.shims, name="shim_thickness"
-    )
+    shim_interval = computed("1", "pitches of a shaft from one pile of shims to the next", lambda it: it.chain.interval)
+    shims = computed("mm", "nominal thickness of a pile of shims", lambda it: it.chain.shims, name="shim_thickness")
 
     shed_opening = computed("mm", "largest distance of even and odd warps", lambda it: it.peak(it.shed.opening))
     shuttle_start = computed("deg", "shaft angle at which the even shed opens", lambda it: it.shuttle_window[0])

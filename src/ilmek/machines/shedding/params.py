@@ -78,7 +78,7 @@ class SheddingParams(Params):
         None,
         at_least=1,
         at_most=1000,
-        doc="pitches of a shaft between two places of shims; default: the most that keeps the cams at their warps",
+        doc="pitches of a shaft from one pile of shims to the next; default: the most that keeps cams at their warps",
     )
     offset_limit: float = kind.ratio(
         0.25,

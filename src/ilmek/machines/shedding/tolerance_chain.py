@@ -30,9 +30,9 @@ _MOST = 1000
 
 @record
 class ToleranceChain:
-    """The chain from one place of shims to the next.
+    """The chain from one pile of shims to the next.
 
-    interval     pitches between two places of shims       shims  nominal thickness of those of a place, their range [m]
+    interval     pitches from one pile of shims to the next      shims  nominal thickness of a pile, its range [m]
     worst        sum of the tolerances of these pitches [m]
     statistical  distance of a cam from its warp that 99.7 % of them keep [m]
     groove       least thickness of a cam: the groove of its warp, or room between neighbours for a reed [m]

@@ -76,10 +76,7 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
 
 def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     params, spacer, case = found.design.params, found.spacer, f"worst case: {found.design.loads.worst_case}"
-    tired = min(found.cylinders, key=lambda one: one.static_safety)
-    weak = min(found.cylinders, key=lambda one: one.stub_safety)
-    notched = min(found.cylinders, key=lambda one: one.end.safety)
-    under, wider, larger = f"under the slots; {case}", "set a stiffer tube", "set a larger bearing, or a lower tension"
+    under = f"under the slots; {case}"
     return (
         at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, parts=_SPACER, cure=SPACER_CURE),
         at_most(
@@ -91,16 +88,33 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             parts=_SPACER,
             cure=SPACER_CURE,
         ),
-        *(
-            # Within the limit, but more than the kind of the bearing allows.
-            at_most(
-                *(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"),
-                parts=(part_id(f"{one.name}-bearing"),),
-                cure=wider,
-            )
-            for one in found.cylinders
-            if slope_limit(one.bearing) < one.slope <= params.slope_limit
-        ),
+        *_end_checks(found, case),
+        *_warp_checks(found),
+    )
+
+
+def _slope_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
+    """Slopes of the cylinders within their limit, but more than the kinds of their bearings allow."""
+    return tuple(
+        at_most(
+            *(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"),
+            parts=(part_id(f"{one.name}-bearing"),),
+            cure="set a stiffer tube",
+        )
+        for one in found.cylinders
+        if slope_limit(one.bearing) < one.slope <= found.design.params.slope_limit
+    )
+
+
+def _end_checks(found: WarpTensionAnalysis, case: str) -> tuple[Check, ...]:
+    """Bearings, shaft ends and keys of the cylinders."""
+    params = found.design.params
+    tired = min(found.cylinders, key=lambda one: one.static_safety)
+    weak = min(found.cylinders, key=lambda one: one.stub_safety)
+    notched = min(found.cylinders, key=lambda one: one.end.safety)
+    larger = "set a larger bearing, or a lower tension"
+    return (
+        *_slope_checks(found),
         at_least(
             *(
                 f"static safety, {tired.bearing.name}",
@@ -134,7 +148,6 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             for one in found.cylinders
             if one.torque > 0
         ),
-        *_warp_checks(found),
     )
 
 

@@ -25,7 +25,7 @@ from ilmek.units import format_quantity, mm
 RAPIER_BODY, EDGE_MOTOR = part_id("rapier with its carriage"), part_id("edge-motor")
 """Ids of the body that moves, and of the motor of a device at an edge."""
 
-Place = tuple[int, int]
+Station = tuple[int, int]
 
 CUTTER, SELECTOR, TUCKER = 0.3, 0.2, 0.5
 """Masses of a weft cutter, of the fingers of the selector and of a tuck-in needle [kg]; assumed by this project."""
@@ -128,9 +128,9 @@ class RapierSide:
         """Cutters, tuck-in needles and selector before the plates, each moved by a motor below it."""
         size = box(SIDE, SIDE, SIDE)
 
-        def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *places: Place) -> RigidBody:
+        def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *stations: Station) -> RigidBody:
             part = _bought(names, "machined link", size, Bought(names[1], mass))
-            return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*places))
+            return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*stations))
 
         shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)
         along = Joint(JointKind.SLIDE, motor=EDGE_MOTOR)
@@ -152,13 +152,13 @@ class RapierSide:
             Bought("slide", length=2 * self.params.turn),
         )
         yield Occurrence(slide, self._beside((-1, 2), (1, 2), high=SIDE / 2 - long))
-        places = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
-        yield Occurrence(motor, self._beside(*places, depth=row.face if row else catalogue.SPECIAL_FACE))
+        stations = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
+        yield Occurrence(motor, self._beside(*stations, depth=row.face if row else catalogue.SPECIAL_FACE))
 
-    def _beside(self, *places: Place, high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
+    def _beside(self, *stations: Station, high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
         """Before the plates at an edge, -1 left, 1 right, as the device of a number from the cloth on."""
         z = self.plate_back + PLATE + depth / 2
-        return tuple(_upright(side * (self.edge + number * PITCH), high, z) for side, number in places)
+        return tuple(_upright(side * (self.edge + number * PITCH), high, z) for side, number in stations)
 
     def _plates(self) -> Iterator[Occurrence]:
         """The plates, from below the axis to the devices."""

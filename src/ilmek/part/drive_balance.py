@@ -18,7 +18,7 @@ from ilmek.records import record
 
 
 @record
-class Freedoms:
+class DriveBalance:
     """The degrees of freedom of a tree beside its motors.
 
     number    degrees of freedom, without those of the bodies that nothing has to drive
@@ -37,7 +37,7 @@ class Freedoms:
     passive: tuple[str, ...]
 
 
-def freedoms(tree: Tree) -> Freedoms:
+def drive_balance(tree: Tree) -> DriveBalance:
     """The degrees of freedom of a tree, the bodies that have no motor, and the motors in excess."""
     mobility = TreeMobility(tree)
     bodies = [chain[-1].body for chain, _ in mobility.coordinates]
@@ -55,7 +55,7 @@ def freedoms(tree: Tree) -> Freedoms:
     needed = set(independent_rows(rows))
     driven = sum(row >= before for row in needed)
     twice = (bodies[axis].joint.motor for row, axis in enumerate(axes, before) if row not in needed)
-    return Freedoms(
+    return DriveBalance(
         number=len(bodies) - len(needed) + driven,
         axes=sum(motors.values()),
         driven=driven,

@@ -12,7 +12,7 @@ from ilmek.machines.automated_loom import design as loom_design
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 from ilmek.part.mobility import TreeMobility, independent_rows
 from ilmek.part.tree import Joint, JointKind, RigidBody, Tree
 
@@ -38,7 +38,7 @@ def _failed(tree: Tree) -> dict[str, str]:
 @pytest.mark.parametrize("number", range(len(_LOOMS)), ids=map(str, _LOOMS))
 def test_a_loom_has_a_degree_of_freedom_for_each_axis_of_its_list(number: int) -> None:
     tree, axes = _loom(number)
-    free = freedoms(tree)
+    free = drive_balance(tree)
     assert free.number == free.driven == free.axes == axes
     assert free.undriven == free.excess == ()
     assert all("bar" in name for name in free.passive)
@@ -51,7 +51,7 @@ def test_the_degrees_of_freedom_are_the_null_space_of_the_jacobian(number: int) 
     tree, axes = _loom(number)
     mobility = TreeMobility(tree)
     rank = int(np.linalg.matrix_rank(mobility.jacobian, tol=1e-7))
-    assert len(mobility.coordinates) - rank == axes + len(freedoms(tree).passive)
+    assert len(mobility.coordinates) - rank == axes + len(drive_balance(tree).passive)
     assert len(independent_rows(mobility.jacobian)) == rank
 
 
@@ -69,7 +69,7 @@ def test_the_degrees_of_freedom_are_the_null_space_of_the_jacobian(number: int) 
 def test_what_keeps_nothing_any_more_leaves_a_body_that_no_motor_holds(part: str, freed: str) -> None:
     tree, axes = _loom(0)
     faulty = without(tree, part)
-    assert freedoms(faulty).number == axes + len(freed.split(", "))
+    assert drive_balance(faulty).number == axes + len(freed.split(", "))
     assert _failed(faulty) == {"degrees of freedom": f"no motor holds: {freed}"}
 
 
@@ -97,7 +97,7 @@ def test_a_slide_without_a_motor_is_a_degree_of_freedom_more_unless_it_is_passiv
     slide = RigidBody("slide", (), "weaver/head", Joint(JointKind.SLIDE))
     assert _failed(tree.replaced((*tree.bodies, slide))) == {"degrees of freedom": "no motor holds: slide"}
     held = replace(slide, joint=replace(slide.joint, passive="a spring holds it"))
-    free = freedoms(tree.replaced((*tree.bodies, held)))
+    free = drive_balance(tree.replaced((*tree.bodies, held)))
     assert (free.number, len(free.passive)) == (axes, 2)
 
 
