@@ -97,6 +97,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
             "thickness of a(?: guide)? cam": lambda _: (0.25 * mm / 2, math.nan),
             "groove against warp": lambda _: (0.25 * mm / 2 - 0.02 * mm, warp_diameter(29.525)),
             "cam stack": None,  # nothing is left of a guide cam for shims
+            "buckling of a cam": None,  # it is thinner than its groove by the tolerance of the sheet
+            "sensors without room": None,  # the compensator's levers lie closer than the sensor is wide
             "yarn path: tension of the yarn": None,  # a yarn so fine bears less than the pull of the head
         },
     ),

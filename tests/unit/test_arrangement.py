@@ -118,7 +118,9 @@ def test_distances_from_the_carpet_are_those_of_points_along_the_edges(settings:
     made = loom(**settings)
     side, row = made.side, made.row_cyclogram
     low, back = side.lower.at.imag, -side.room.warp
-    carpet = np.array([complex(back, low), complex(side.pile, low), side.pile, back])
+    yarns, pile = made.task.yarns, made.params.pile
+    leg = yarns.warp.diameter / 2 + yarns.pile.diameter + pile.pile_height + pile.cut_waste
+    carpet = np.array([complex(back, low), complex(leg, low), leg, back])
     away = sample(row.track("heads"), np.arange(0.0, turn, 2 * deg)).position * RETREAT
     head = side.head.body + np.array([0, side.head.size.real, side.head.size, 1j * side.head.size.imag])
     found = {(one.body, one.cloth): one.value for one in cloth_clearances(made)}

@@ -2,8 +2,8 @@
 
 Parts are compared with parts in space [`assembly`]; warps and carpet are no parts. A sheet of warps runs straight from
 the fell over its point of lift at each cam shaft to the back rest, as thick as a warp; the carpet hangs down from the
-fell, as thick as warp and pile, and the whole of it is a roll about the lower cylinder. What moves is convex polygons
-and discs. Distances are those of polygons at angles at most `STEP` apart, and at every joint of a track.
+fell, as thick as warp and cut pile, and the whole of it is a roll about the lower cylinder. What moves is convex
+polygons and discs. Distances are those of polygons at angles at most `STEP` apart, and at every joint of a track.
 
 What touches the cloth to work with it is left out: guide cams and leaves of a comb between the warps, the sley at the
 fell, tools of the head while it knots.
@@ -17,6 +17,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
+from ilmek.carpet.pile import leg_length
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.beat_motion import beat_displacement, beat_joints, beat_tip
 from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS, ODD, weft_windows
@@ -172,7 +173,9 @@ def _cloth(loom: LoomDesign, side: SideView, angle: FloatArray) -> Iterator[Move
         run = (still, *(cam.lift * lifted + 1j * cam.at.imag for cam in side.cams), still + 1j * side.spans.back_rest)
         for first, last in pairwise(run):
             yield MovedOutline(WARPS, np.stack([first, last], axis=1), radius)
-    deep = complex(side.pile + side.room.warp, -side.lower.at.imag)
+    yarns = loom.task.yarns
+    tip = leg_length(yarns.warp.diameter, yarns.pile.diameter, loom.params.pile)  # each knot is cut in the head
+    deep = complex(tip + side.room.warp, -side.lower.at.imag)
     yield MovedOutline(CARPET, rectangle(SideBox(complex(-side.room.warp, side.lower.at.imag), deep))[None, :])
     yield MovedOutline(ROLL, np.array([[side.lower.at]]), side.roll)
 
