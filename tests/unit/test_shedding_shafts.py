@@ -15,8 +15,8 @@ from ilmek.machines.automated_loom import AutomatedLoomParams
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams, shed_lengthenings
 from ilmek.machines.shedding.positions import dealt
-from ilmek.machines.shedding.stack import shared
 from ilmek.machines.shedding.reed import dent
+from ilmek.machines.shedding.stack import shared
 from ilmek.machines.shedding.tree import NUT, bearing_inner, reed, tree
 from ilmek.machines.shedding.warp import shed_warp
 from ilmek.part import catalogue
@@ -282,9 +282,8 @@ def test_the_baulks_of_a_reed_clamp_all_dents_and_stand_on_the_bearings(shafts) 
     design = made(shafts=shafts, guides="reed", cloth=cloth(warps=12, **CLOTH), **LENGTHS)
     connected = contacts(tree(design, [placement(y=float(k)) for k in range(shafts)])).groups
     held = [group for group in connected if any(name.startswith("shedding/reed") for name in group.parts)]
-    assert (
-        sum(group.parts["shedding/reed-dent"] for group in held if "shedding/reed-dent" in group.parts) == 13 * shafts
-    )
+    dents = [n for group in held for name, n in group.parts.items() if name.startswith("shedding/reed-dent")]
+    assert dents == [13] * shafts
     assert len(held) == shafts
 
 
