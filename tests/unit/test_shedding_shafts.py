@@ -15,10 +15,13 @@ from ilmek.machines.automated_loom import AutomatedLoomParams
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams, shed_lengthenings
 from ilmek.machines.shedding.positions import dealt
+from ilmek.machines.shedding.reed import dent
 from ilmek.machines.shedding.stack import shared
-from ilmek.machines.shedding.tree import NUT, bearing_inner
+from ilmek.machines.shedding.tree import NUT, bearing_inner, reed, tree
 from ilmek.machines.shedding.warp import shed_warp
-from ilmek.part.catalogue import keyed_journal
+from ilmek.part import catalogue
+from ilmek.part.contacts import contacts
+from ilmek.part.placement import placement
 from ilmek.report import Report
 from ilmek.units import mm
 
@@ -151,15 +154,15 @@ def beyond_the_stack(design: SheddingDesign, index: int) -> float:
     shaft = design.shafts[index]
     bar, seat = shaft.shaft.bar, shaft.seat.bearing
     square = bar**2 * (2 * bearing_inner(design, index) - shaft.shaft.length)
-    square += keyed_journal(shaft.driven_end).volume
-    return square + 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET) + 2 * NUT * (math.pi - 1) * bar**2
+    driven = catalogue.keyed_journal(shaft.driven_end).volume
+    return square + driven + 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET) + 2 * NUT * (math.pi - 1) * bar**2
 
 
 @pytest.mark.parametrize(("shafts", "guides"), [(1, "cams"), (1, "reed"), (3, "cams"), (2, "reed")])
 def test_parts_weigh_what_the_stacks_weigh(shafts, guides) -> None:
     design = made(shafts=shafts, guides=guides, **SPANS)
     parts = MACHINE.parts(design)
-    turning = [part for part in parts if part.name.split(" of ")[0] != "dent" and not math.isnan(part.mass)]
+    turning = [part for part in parts if " of the reed" not in part.name and not math.isnan(part.mass)]
     weighed = sum(part.mass_all for part in turning if part.kind in ("laser-cut part", "steel bar"))
     beyond = design.params.density * math.fsum(beyond_the_stack(design, index) for index in range(shafts))
     assert weighed == pytest.approx(design.stack.mass + beyond, rel=1e-9)
@@ -272,3 +275,24 @@ def test_two_shafts_in_a_loom() -> None:
 def test_too_few_warps_for_the_shafts() -> None:
     with pytest.raises(ParameterError, match="3 warps on 2 shafts; two warps a shaft; set fewer shafts"):
         made(cloth=cloth(warps=3), shafts=2)
+
+
+@pytest.mark.parametrize("shafts", [1, 2])
+def test_the_baulks_of_a_reed_clamp_all_dents_and_stand_on_the_bearings(shafts) -> None:
+    design = made(shafts=shafts, guides="reed", cloth=cloth(warps=12, **CLOTH), **LENGTHS)
+    connected = contacts(tree(design, [placement(y=float(k)) for k in range(shafts)])).groups
+    held = [group for group in connected if any(name.startswith("shedding/reed") for name in group.parts)]
+    dents = [n for group in held for name, n in group.parts.items() if name.startswith("shedding/reed-dent")]
+    assert dents == [13] * shafts
+    assert len(held) == shafts
+
+
+def test_a_dent_weighs_its_solid_and_baulks_follow_the_beam() -> None:
+    design = made(shafts=1, guides="reed", **SPANS)
+    own, shaft = reed(design, 0), design.first
+    assert own is not None
+    assert dent(shaft).volume * design.params.density == pytest.approx(shaft.stack.guide_mass, rel=1e-12)
+    inertia = 2 * own.side**4 / 12
+    expected = 5 * own.rubbing * own.length**3 / (384 * 210e9 * inertia)
+    assert own.sags[0] == pytest.approx(expected, rel=1e-3)
+    assert "deflection of the reed across the warps" in {check.name for check in MACHINE.report(design).checks}

@@ -35,6 +35,7 @@ from ilmek.machines.arrangement.spans import (
     spans_at,
     warp_length,
 )
+from ilmek.machines.shedding.tree import front_of
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.machines.weaver.tree import head_mass
@@ -86,11 +87,19 @@ class SideBox:
 
 @record
 class CamPosition:
-    """A cam shaft: its axis, the radius of its guides, and the lift of its warps [m]."""
+    """A cam shaft: its axis, the radius of its guides, the front of these or of its reed before the axis, and the lift
+    of its warps [m].
+    """
 
     at: complex
     guide_radius: float
+    front: float
     lift: float
+
+    @property
+    def reeded(self) -> bool:
+        """Whether a reed stands before its cams."""
+        return self.front > self.guide_radius
 
 
 @record
@@ -201,8 +210,13 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         room=room,
         spans=spans,
         cams=tuple(
-            CamPosition(complex(-one.cam.prime_radius, height), one.stack.guide_radius, one.params.lift)
-            for one, height in zip(shedding.shafts, spans.front, strict=True)
+            CamPosition(
+                complex(-one.cam.prime_radius, height),
+                one.stack.guide_radius,
+                front_of(shedding, index),
+                one.params.lift,
+            )
+            for index, (one, height) in enumerate(zip(shedding.shafts, spans.front, strict=True))
         ),
         carrier=_carrier(room, spans),
         comb=comb,

@@ -1,4 +1,4 @@
-"""The arm of a crank-rocker that clears the heads: at rest its rocker is over heads that knot, its plate in front.
+"""The arm of a crank-rocker that clears heads and reed: at rest its rocker is over heads that knot, its plate in front.
 
 Side view, the fell at 0, the pivot of the rocker at P in front of it. At rest the rocker has swung up by d; its half
 width is e. The plate of crank and rocker has its lower corner at P - e - i e, and its edge there runs as the heads
@@ -6,18 +6,29 @@ retreat, down and to the front at the angle r. A corner x + i y of a head or of 
 
     (P - x) sin d - y cos d >= e + c,   (P - e - x) sin r - (e + y) cos r >= c                      [plane geometry]
 
+The coupler keeps c before the front of the cams' reed, by samples of a turn.
+
 All lengths of the linkage grow with its ground, so that the least P gives the least ground.
 """
 
 import cmath
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.linkage.solve import solve
 from ilmek.machines.arrangement.side_view import RETREAT, SideView
-from ilmek.machines.beat_up.carriage import PLATE
+from ilmek.machines.beat_up.carriage import PLATE, shaft
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.report import Check, at_least
+from ilmek.units import turn
+
+_SAMPLES, _LARGEST, _STEP = 181, 2.0, 0.005
+"""Samples of a turn and of the coupler, and the largest and the step of the scales that are tried."""
 
 _SLOPE = -cmath.phase(RETREAT)
 
@@ -33,7 +44,9 @@ def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
         *((clearance - gap) / math.sin(linkage.swing) for gap in _over(linkage, side)),
         *((clearance - gap) / math.sin(_SLOPE) for gap in _before(linkage, side)),
     )
-    return ground * (1 + max(longer, 0.0) / linkage.lengths["beater"])
+    grown = 1 + max(longer, 0.0) / linkage.lengths["beater"]
+    scales = grown * np.arange(1.0, _LARGEST, _STEP)
+    return ground * next((one for one in scales.tolist() if _before_reeds(linkage, side, one) >= clearance), grown)
 
 
 def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> tuple[Check, ...]:
@@ -42,7 +55,11 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
         return ()
     cure = "leave the ground of the crank-rocker open, or set fewer heads"
     source = "parameter clearance; the rail no larger than its room in the arrangement"
+    gap, open_ground = _before_reeds(linkage, side), "leave the ground of the crank-rocker open"
+    named, coupler = ("clearance: coupler and reed", gap, clearance, "mm", "parameter clearance"), PART_IDS["coupler"]
+    before = (at_least(*named, cure=open_ground, parts=(coupler,)),) if math.isfinite(gap) else ()
     return (
+        *before,
         at_least(
             "clearance: rocker at rest and heads that knot",
             min(_over(linkage, side)),
@@ -77,6 +94,31 @@ def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:
         (arm - half - corner.real) * math.sin(_SLOPE) - (half + corner.imag) * math.cos(_SLOPE)
         for corner in _corners(side)
     )
+
+
+def _before_reeds(linkage: BeatUp, side: SideView, scale: float = 1.0) -> float:
+    """Least gap before the reeds over a turn of a linkage of a scale [m]: of its coupler, at their heights."""
+    gaps = [math.inf]
+    for cam in side.cams:
+        if cam.reeded:
+            points, high = scale * _coupler(linkage), 2 * (cam.front - cam.guide_radius)
+            near = points.real[np.abs(points.imag - cam.at.imag) < high]
+            gaps.append(float(near.min(initial=math.inf)) - linkage.params.width / 2 - cam.at.real - cam.front)
+    return min(gaps)
+
+
+@lru_cache(maxsize=4)
+def _coupler(linkage: BeatUp) -> ComplexArray:
+    """Points of the coupler's middle line over a turn in the side view [m]."""
+    motion, lengths = solve(linkage.plan, np.linspace(0.0, turn, _SAMPLES)), linkage.lengths
+    crank, rocker = (lengths[name] * np.exp(1j * motion.angle(name)) for name in ("crank", "rocker"))
+    first, last = _in_side_view(linkage, crank), _in_side_view(linkage, lengths["ground"] + rocker)
+    return np.asarray(first + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (last - first))
+
+
+def _in_side_view(linkage: BeatUp, pin: ComplexArray) -> ComplexArray:
+    """Positions of a pin of the linkage in the side view [m] (see `tree.in_side_view`)."""
+    return np.asarray(shaft(linkage) - np.conj(pin) * np.exp(1j * linkage.rocker_angles[0]))
 
 
 def _corners(side: SideView) -> Iterator[complex]:

@@ -43,11 +43,11 @@ def fit(task: LoomTask) -> BeatUpParams:
 
 
 def _bar_distance(task: LoomTask) -> float:
-    """Distance of the beater's bar from the warps [m]: as usual, or in front of the guide cams beside it."""
+    """Distance of the beater's bar from the warps [m]: as usual, or before the guide cams or the reed beside it."""
     usual = TravelParams().bar_distance
     if task.side is None:
         return usual
-    cams = max(cam.at.real + cam.guide_radius for cam in task.side.cams)
+    cams = max(cam.at.real + cam.front for cam in task.side.cams)
     return max(usual, cams + SPARE * task.params.clearance)
 
 

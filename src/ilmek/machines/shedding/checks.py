@@ -13,6 +13,7 @@ from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.phases import required_window
 from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.stack_choice import buckling_check, height_check, line_check, plate_checks
+from ilmek.machines.shedding.tree import reed
 from ilmek.machines.shedding.warp import nose_radius, shed_warp
 from ilmek.report import Check, at_least, at_most
 from ilmek.report.verdict import weight
@@ -44,8 +45,16 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
         *of(_bearing_checks, "bearing"),
         *of(_key_checks, "key", "cam-shaft"),
         *of(_motor_checks, "motor", "reducer"),
+        *_reed_checks(design),
         *worst([tuple(_warp_checks(one)) for one in design.shafts]),
     )
+
+
+def _reed_checks(design: SheddingDesign) -> Iterator[Check]:
+    """Deflections of the reeds."""
+    reeds = [reed(design, index) for index in range(len(design.shafts))]
+    parts = tuple(part_id("reed-baulk", index) for index in range(len(reeds)))
+    return (replace(check, parts=parts) for check in worst([tuple(own.checks()) for own in reeds if own is not None]))
 
 
 def worst(of_shafts: list[tuple[Check, ...]]) -> tuple[Check, ...]:

@@ -31,6 +31,9 @@ POINTS = 1440
 LEAST_SHIM = 0.1 * mm
 """The thinnest shim ring of DIN 988 [m]."""
 
+DENT_TAB = 20 * mm, 10 * mm
+"""Length before its ring and height of the tab by which a dent is clamped [m]; assumed by this project."""
+
 LEAST_SHARE = 0.1
 """Share of the pitch that counts as cam and guides where the warps alone fill it; their checks then fail."""
 
@@ -180,8 +183,15 @@ def stack_of(params: SheddingParams, cam: PlateCam, shares: PitchShares, cams: i
     return CamStack(shares.thickness, shares.guide, outer, cam_mass, guide_mass, mass, inertia, shares, spacer_mass)
 
 
+def dent_room(params: SheddingParams) -> float:
+    """Room between the noses and the inner edge of the dents [m]: a share of the warp, which cannot slip through."""
+    return min(params.diameter / 3, params.guide_height / 2)
+
+
 def dent_area(params: SheddingParams, cam: PlateCam) -> float:
-    """Area of a dent [m^2]: the ring round the noses, from the warps' line over the tip and back to it."""
+    """Area of a dent [m^2]: the ring round the noses, from the warps' line over the tip and back to it, and its tab."""
     outer, base = guide_radius(params, cam, params.lift), cam.prime_radius - cam.roller_radius
-    inner = outer - params.guide_height
-    return math.acos(min(base / outer, 1.0)) * (outer**2 - inner**2)
+    inner, (long, high) = outer - params.guide_height + dent_room(params), DENT_TAB
+    root = math.asin(high / 2 / outer)
+    tab = high * (outer + long) - outer**2 * (root + math.sin(root) * math.cos(root))
+    return math.acos(min(base / outer, 1.0)) * (outer**2 - inner**2) + tab

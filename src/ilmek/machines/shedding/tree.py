@@ -18,6 +18,7 @@ from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
+from ilmek.machines.shedding.reed import Reed, dent, reed_of
 from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
 from ilmek.machines.shedding.steady import steadies
 from ilmek.machines.shedding.tolerance_chain import tolerance_chain
@@ -222,21 +223,31 @@ def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: fl
     return replace(made, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
 
 
+def reed(design: SheddingDesign, index: int) -> Reed | None:
+    """The reed of a shaft; None where guide cams turn."""
+    return reed_of(design.shafts[index], design.params.cloth.warps, bearing_inner(design, index))
+
+
+def front_of(design: SheddingDesign, index: int) -> float:
+    """The front of a shaft's guide cams or reed before its axis [m]."""
+    own = reed(design, index)
+    return design.shafts[index].stack.guide_radius if own is None else own.front
+
+
 def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
-    """The dents that stand between the warps, where no guide cams turn: rings from the warps' line over the tip."""
-    shaft = design.shafts[index]
-    stack, high = shaft.stack, shaft.params.guide_height
-    if stack.shares.guides or high <= 0:
+    """Dents between the warps, where no guide cams turn, with baulks and arms."""
+    shaft, own = design.shafts[index], reed(design, index)
+    if own is None:
         return
-    outer, inner = stack.guide_radius, stack.guide_radius - high
-    half = math.acos(min(shaft.base_radius / outer, 1.0))
-    ends = np.exp(1j * half * np.array([-1, 1]))
-    bend = math.tan(half / 2)
-    outline = Contour(np.concatenate([outer * ends, inner * ends[::-1]]), np.array([bend, 0.0, -bend, 0.0]))
-    shape = Prism(Profile(outline), stack.guide_thickness)
-    dent = _made(design, index, "reed-dent", "dent of the reed", shape, _CUT, f"round {_mm(outer)}")
+    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT, f"round {_mm(own.outer)}")
     x, pitch = warp_positions(design), design.params.cloth.warp_pitch
-    yield Occurrence(dent, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), stack.guide_thickness))
+    yield Occurrence(made, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), shaft.stack.guide_thickness))
+    shape = Prism(Profile(_square(own.side)), own.length)
+    baulk = _made(design, index, "reed-baulk", "baulk of the reed", shape, "steel bar", f"square {_mm(own.side)}")
+    yield Occurrence(baulk, tuple(placement(z.real, z.imag, -own.length / 2) for z in own.axes))
+    size = f"plate {_mm(catalogue.FLANGE)}"
+    arm = _made(design, index, "reed-arm", "arm of the reed", own.arm, _CUT, size)
+    yield Occurrence(arm, tuple(placement(z=z) for z in (own.length / 2, -own.length / 2 - catalogue.FLANGE)))
 
 
 def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
