@@ -60,7 +60,8 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
     bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
     room = box(face, face, REDUCER_LENGTH * face)
     if end is not None:
-        hollow = end.diameter / 2 + end.keyway.in_hub + HOLLOW
+        corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
+        hollow = abs(corner) + HOLLOW
         face = max(face, 2 * hollow + 2 * WALL)
         room = Prism(Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, end.length))
     return Part(name, title, "reducer", shape=room, purchase=bought, envelope=True)
