@@ -35,6 +35,7 @@ def carpet(page: Page, running: Studio) -> Page:
     (running.project / "carpet.toml").write_text(recipe, encoding="utf-8")
     open_view(page, running, "carpet")
     expect(page.locator(".carpet-status")).to_contain_text("80 knots across, 120 rows")
+    settled(page)  # the chart lies where it stays: what is pressed in it is what is meant
     return page
 
 
