@@ -69,6 +69,11 @@ def buckling(loom: LoomDesign) -> tuple[float, float]:
     return math.nan, 3.0
 
 
+def _plate() -> float:
+    """Thickness of a cam on two shafts at a pitch of 0.25 mm [m]."""
+    return (0.5 * mm - warp_diameter(29.525) - 2 * 0.025 * mm) / 3
+
+
 BESIDE: dict[str, Figure | None] = {"room of the rapier": lambda loom: (loom.task.cloth.width + 0.51, 3.0)}
 
 DRIVE = r"force of a warp|distance of the rows|force of the crank-rockers"
@@ -89,13 +94,14 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
     ({"beat": "comb", "colours": 200}, {}),
     # The head of the thesis leads both ends round the outside of their warps: never the asymmetric knot.
     ({"beat": "comb", "knotting": "cams", "knot": "asymmetric"}, {"asymmetric knot tied": None}),
-    # 0.25 mm: a warp of 29.5 tex is 0.203 mm thick, which leaves 0.047 mm between two; a plate is 0.125 mm.
+    # 0.25 mm: a warp of 29.5 tex is 0.203 mm thick, which leaves 0.047 mm between two. On two shafts a cam and its two
+    # guide cams share the pitch of 0.5 mm with the other warp and its clearances of 0.025 mm.
     (
         {"beat": "comb", "warp_pitch": "0.25mm", "width": "0.6m", "length": "0.9m"},
         {
             "opener: points between two warps": lambda _: (math.nan, 0.25 * mm - warp_diameter(29.525)),
-            "thickness of a(?: guide)? cam": lambda _: (0.25 * mm / 2, math.nan),
-            "groove against warp": lambda _: (0.25 * mm / 2 - 0.02 * mm, warp_diameter(29.525)),
+            "thickness of a(?: guide)? cam": lambda _: (_plate(), math.nan),
+            "groove against warp": lambda _: (_plate() - 0.02 * mm, warp_diameter(29.525)),
             "cam stack": None,  # nothing is left of a guide cam for shims
             "buckling of a cam": None,  # it is thinner than its groove by the tolerance of the sheet
             "sensors without room": None,  # the compensator's levers lie closer than the sensor is wide
