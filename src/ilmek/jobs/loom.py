@@ -200,7 +200,7 @@ def make_loomed(
     """The loom for a chart, with the number of heads required, and its programme.
 
     illustrated  False: the report of a loom that is designed has no tables and figures
-    assembled    False: nor its parts against each other in space
+    assembled    False: nor its parts against each other in space, by which a beat that was left open may be exchanged
     A loom that cannot be designed is a result without design, with the reason as a failed check.
     Raises ParameterError for wishes that contradict each other, and the errors of a design that only settings prevent.
     """
@@ -211,7 +211,8 @@ def make_loomed(
     try:
         carpet = CarpetPile(chart, knot_yarns(charted))
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
-        made = MACHINE.with_room(made, replace(params, heads=made.heads))
+        if assembled:
+            made = MACHINE.with_room(made, replace(params, heads=made.heads))
         colours = () if made.params.tubes is None else (colours_check(chart, made.heads, made.params),)
         if any(not check.ok for check in colours):
             report = with_nearest(reported(made), params, progress.part(0.7, 1.0))

@@ -102,7 +102,7 @@ class Component(Generic[P, D, A]):
     fit         loom's task -> parameters, for a machine that can be in a loom
     beat        loom's task, kind of beat -> its planned beat, for a machine that can beat (`ilmek.machines.beat`)
     own_figures beginnings of the names of figures that only its own page shows, not a loom's
-    assembly    design -> its parts against each other in space; takes about a second
+    assembly    design -> its parts against each other in space; takes some seconds
     with_room   design, parameters -> the design, or the next choice whose parts have room in space; takes seconds
     verdict     report -> a record with results that follow from all checks, of the machines in it too
     headline    names of results that stand at the top level of the JSON too

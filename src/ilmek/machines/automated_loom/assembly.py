@@ -113,7 +113,7 @@ class LoomAssembly:
 
 @lru_cache(maxsize=4)
 def assembly(loom: LoomDesign) -> LoomAssembly:
-    """The parts of a loom against each other; takes about a second."""
+    """The parts of a loom against each other; takes some seconds."""
     return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
 
 

@@ -119,11 +119,11 @@ export interface Comparison extends Judgement {
 export type SceneBody = [parent: string, joint: string, drive: string];
 
 /** What holds a body, and what holds that, down to the floor. */
-export function carriers({ bodies }: SceneAbout, body: string): { parent: string; joint: string; drive: string }[] {
-  const held = bodies[body];
+export function carriers(about: SceneAbout, body: string): { parent: string; joint: string; drive: string }[] {
+  const held = about.bodies[body];
   if (held === undefined) return [];
   const [parent, joint, drive] = held;
-  return [{ parent, joint, drive }, ...(parent === "" ? [] : carriers({ bodies } as SceneAbout, parent))];
+  return [{ parent, joint, drive }, ...(parent === "" ? [] : carriers(about, parent))];
 }
 
 export interface SceneAbout extends Judgement {

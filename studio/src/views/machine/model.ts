@@ -229,7 +229,7 @@ export class MachineModel {
     this.#move(state);
   }
 
-  /** The parts against each other in space take about a second: the view is whole when they are there. */
+  /** The parts against each other in space take some seconds: the view is whole when they are there. */
   #compareInSpace(state: State): void {
     post<DesignView>(path(state.machine, "space"), { settings: state.settings }, this.#later.signal).then(
       (view) => {

@@ -106,7 +106,7 @@ def view(request: DesignRequest, context: Context) -> DesignView:
 
 
 def in_space(request: DesignRequest, context: Context) -> DesignView:
-    """The same with its parts against each other in space: about a second of work."""
+    """The same with its parts against each other in space: some seconds of work."""
     began = time.perf_counter()
     params, report = whole(request.name, request.settings, context.progress)
     return shown(report, params, time.perf_counter() - began)
