@@ -75,9 +75,10 @@ browser: venv
 	|| echo "Chromium is missing and cannot be installed here: the tests in a browser are left out"
 	$(BIN)/pytest -n 2 --dist loadfile tests/browser
 
-# Side by side, so that no processor waits for the end of a phase; the seconds of each phase stand at the end.
+# Two lanes, so that no processor waits for the end of a phase; the browser is not beside the unit tests, which use both
+# processors. The seconds of each phase stand at the end.
 test: venv
-	@$(BIN)/python tests/support/phases.py browser "lint layers client-check types" unit
+	@$(BIN)/python tests/support/phases.py "browser unit" "lint layers client-check types"
 
 lint: venv
 	$(BIN)/ruff check .

@@ -1,7 +1,8 @@
 """Run targets of make side by side, and print how long each took: `tests/support/phases.py "lint layers" unit browser`.
 
 A lane is one argument: its targets one after the other; the lanes run at once, so that no processor waits for the end
-of a phase. Lines are shown as they come. A target that fails ends its lane; the others go on, and the exit code is 1.
+of a phase. Lines are shown as they come. After a target that fails all others still run; its last lines stand again at
+the end, and the exit code is 1.
 """
 
 import os
@@ -10,19 +11,23 @@ import subprocess
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 WIDTH = 12
+LAST_LINES = 12
+"""Lines of a phase that failed, shown again before the table: a reader of the end of a log sees what failed."""
 
 
 @dataclass(frozen=True)
 class Phase:
-    """A target that has ended: status, time by the clock [s]."""
+    """A target that has ended: status, time by the clock [s], its last lines."""
 
     name: str
     status: int
     seconds: float
+    last: tuple[str, ...] = ()
 
 
 def run(lanes: Sequence[Sequence[str]], make: Sequence[str] = ("make", "--no-print-directory")) -> list[Phase]:
@@ -40,21 +45,22 @@ def _run_lane(lane: Sequence[str], make: Sequence[str], ended: list[Phase]) -> N
     for name in lane:
         begin = time.monotonic()
         options = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "stdin": subprocess.DEVNULL}
+        last: deque[str] = deque(maxlen=LAST_LINES)
         with subprocess.Popen([*make, name], text=True, errors="replace", **options) as process:  # type: ignore[call-overload]
             for line in process.stdout:
-                _show(f"{name:{WIDTH}} | {line.rstrip()}")
-        ended.append(Phase(name, process.returncode, time.monotonic() - begin))
-        if process.returncode:
-            return
+                last.append(f"{name:{WIDTH}} | {line.rstrip()}")
+                _show(last[-1])
+        ended.append(Phase(name, process.returncode, time.monotonic() - begin, tuple(last)))
 
 
 def table(phases: Sequence[Phase], seconds: float, processor: float) -> str:
-    """A line for each phase, and one for all of them."""
+    """The last lines of each phase that failed, a line for each phase, and one for all of them."""
+    failures = [line for phase in phases if phase.status for line in phase.last]
     lines = [
         f"{phase.name:{WIDTH}} {phase.seconds:6.0f} s{'' if phase.status == 0 else '  FAILED'}" for phase in phases
     ]
     total = f"{'all':{WIDTH}} {seconds:6.0f} s; {processor:.0f} s of processor time on {os.cpu_count()} processors"
-    return "\n".join((*lines, total))
+    return "\n".join((*failures, *lines, total))
 
 
 def main() -> int:
@@ -64,8 +70,7 @@ def main() -> int:
     phases = run(lanes)
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     _show(table(phases, time.monotonic() - begin, used.ru_utime + used.ru_stime))
-    whole = len(phases) == sum(map(len, lanes))
-    return int(not whole or any(phase.status for phase in phases))
+    return int(any(phase.status for phase in phases))
 
 
 def _show(text: str) -> None:
