@@ -46,11 +46,12 @@ def walk(page: Page, server: int, seed: int, seconds: float, check: Callable[[],
 
 def resident(process: int) -> float:
     """Bytes in memory of a process and of those that it started."""
-    tasks = Path(f"/proc/{process}/task")
-    if not tasks.is_dir():  # the process has ended, or the system has no such folder
+    try:
+        tasks = list(Path(f"/proc/{process}/task").iterdir())
+        children = [int(child) for task in tasks for child in (task / "children").read_text().split()]
+        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+    except OSError:  # the process or a thread of it has ended, or the system has no such folder
         return 0.0
-    children = [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
-    pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGESIZE") + sum(resident(child) for child in children)
 
 
