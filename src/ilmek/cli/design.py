@@ -52,9 +52,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     metavar="NAME=VALUE",
     help="Set a parameter, with its unit; @FILE reads the value from FILE.",
 )
-@click.option(
-    "--aim", metavar="price|time", help="The same as --set aim=price or aim=time: what a loom's choice makes least."
-)
+@click.option("--aim", metavar="price|time|cost", help="The same as --set aim=price: what a loom's choice makes least.")
 @json_option
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option

@@ -18,6 +18,8 @@ from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, order_in_words, time_in_words, weave, weave_json
+from ilmek.machines.automated_loom.cost import CarpetCost
+from ilmek.machines.automated_loom.report import analyse
 from ilmek.machines.automated_loom.params import AIMS
 
 EXAMPLES = """\b
@@ -42,7 +44,9 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
 )
 @click.option("--deadline", metavar="TIME", help="Weave the carpet in this time, like 72h, with the fewest heads.")
 @click.option(
-    "--aim", type=click.Choice(AIMS), help="Choose what is left open for least price or time; default: price."
+    "--aim",
+    type=click.Choice(AIMS),
+    help="Choose what is left open for least price of the loom, weaving time, or cost of a carpet; default: price.",
 )
 @click.option(
     "--warp-pitch", metavar="LENGTH", help="Distance between the warps of your loom; default: that of the quality."
@@ -121,6 +125,13 @@ def show_woven(woven: WeaveResult) -> None:
     show_proposed(woven.charted.chart)
 
 
+def cost_in_words(cost: CarpetCost, yarn: float | None) -> str:
+    """What a carpet and its loom cost; yarn: price of the yarn to buy."""
+    of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
+    price, year = cost.machine_price["sold"], cost.carpets_per_year
+    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}; the loom {price:,.0f}, {year:,.0f} carpets a year"
+
+
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     """Weaving time, heads and choices of the loom; none where it cannot be designed."""
     made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
@@ -131,5 +142,6 @@ def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     return [
         ("weaving time", f"{time_in_words(programme.duration)}{within}; {order_in_words(programme)}"),
         ("heads", f"{programme.heads} (of {made.heads_max} that fit)"),
+        ("cost", cost_in_words(analyse(made).cost, woven.charted.bill.price)),
         *([("chosen", "; ".join(chosen))] if chosen else []),
     ]

@@ -12,6 +12,7 @@ from ilmek.loom.production import Production, production_time
 from ilmek.machines import SUMMARIES
 from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
+from ilmek.machines.automated_loom.cost import CarpetCost
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
@@ -75,6 +76,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
         Energy,
         YarnPath,
         PartsList,
+        CarpetCost,
         FrameModes,
         LoomAssembly,
     ),
@@ -91,5 +93,5 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     assembly=assembly,
     with_room=with_room,
     verdict=LoomVerdict,
-    headline=("weaves", BUILDABLE, "row_pitch_left"),
+    headline=("weaves", BUILDABLE, "row_pitch_left", "cost_per_carpet"),
 )

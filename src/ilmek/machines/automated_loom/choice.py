@@ -1,7 +1,8 @@
 """What a loom chooses of what its parameters leave open: beat and number of heads; its machines choose the rest.
 
-Candidates stand in ascending order of what `aim` makes least, price or time. The first whose checks all hold is chosen;
-where none does, the one that misses its limits least, and its failed checks are the loom's.
+Candidates stand in ascending order of what `aim` makes least, price or time; for the least cost of a carpet they are
+whole looms [`selection`]. The first whose checks all hold is chosen; where none does, the one that misses its limits
+least, and its failed checks are the loom's.
 """
 
 from collections.abc import Callable

@@ -10,6 +10,7 @@ from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
+from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_heads
 from ilmek.machines.automated_loom.cyclogram import (
     BEATER,
     CARRIAGE,
@@ -68,6 +69,7 @@ class LoomAnalysis:
     listed: PartsList
     energy: Energy
     beat: BeatDrive
+    cost: CarpetCost
 
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
@@ -104,14 +106,15 @@ class LoomAnalysis:
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = whole_list(loom)
-    energy = energy_of(loom, motors(listed.parts))
-    return LoomAnalysis(loom, estimated_time(loom), time_shares(loom), listed, energy, loom.beat)
+    energy, time = energy_of(loom, motors(listed.parts)), estimated_time(loom)
+    cost = carpet_cost(loom, listed, time, energy.total)
+    return LoomAnalysis(loom, time, time_shares(loom), listed, energy, loom.beat, cost)
 
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
     path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
-    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed, modes)
+    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed, found.cost, modes)
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
@@ -224,12 +227,20 @@ def tables(found: LoomAnalysis) -> tuple[Table, ...]:
 
 
 def _heads_table(found: LoomAnalysis) -> Table:
-    loom, rows = found.loom, []
-    for heads in range(1, loom.heads_max + 1):
-        time = estimated_time(loom, heads)
-        rows.append((heads, time, time / loom.rows, 60 * found.knots / time))
-    heads_of = columns("heads", "weaving time [h]", "a row [s]", "knots a minute")
-    return Table("loom-heads", "Weaving time by number of heads, estimated", heads_of, tuple(rows))
+    loom = found.loom
+    rows = tuple(
+        (heads, cost.time, cost.time / loom.rows, 60 * found.knots / cost.time, cost.parts, cost.cost_per_carpet)
+        for heads, cost in enumerate(costs_by_heads(loom, found.listed, found.energy.total), 1)
+    )
+    heads_of = columns(
+        "heads",
+        "weaving time [h]",
+        "a row [s]",
+        "knots a minute",
+        "price of the parts",
+        "cost of a carpet without yarn",
+    )
+    return Table("loom-heads", "Time, price and cost by number of heads, estimated: the frame as it is", heads_of, rows)
 
 
 def _parts_table(listed: PartsList) -> Table:

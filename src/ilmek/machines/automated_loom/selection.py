@@ -6,11 +6,14 @@ loom decides. These checks are formulas. Where the parts of the chosen loom have
 tried [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
+import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
 
 from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.cost import costs_by_heads
 from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
 from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
 from ilmek.machines.automated_loom.report import analyse, checks
@@ -46,6 +49,8 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
 
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The loom with the first kind of beat that keeps every limit; refused: checks in space by kinds."""
+    if params.aim == "cost":
+        return _by_cost(params, refused)
     ready = ready_loom(params)
     if len(ready.options) == 1:
         return with_beat(ready, ready.options[0])
@@ -80,3 +85,34 @@ def _by_whole_price(ready: ReadyLoom, refused: Mapping[str, tuple[Check, ...]]) 
     ]
     index, choice = choose("beat", found)
     return with_beat(ready, whole[index][2], (choice,))
+
+
+def _by_cost(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
+    """The loom whose carpet costs least: each kind of beat with its heads of least cost, by the estimate over heads."""
+    trial = ready_loom(params)
+    offers = sorted(
+        (_of_least_cost(params, with_beat(trial, option)) for option in trial.options),
+        key=lambda loom: (analyse(loom).cost.cost_per_carpet, loom.params.beat),
+    )
+    alternatives = [
+        Alternative(
+            f"{loom.params.beat}, heads={loom.heads}", (*checks(analyse(loom)), *refused.get(loom.params.beat, ()))
+        )
+        for loom in offers
+    ]
+    index, choice = choose("beat and heads", alternatives, params.aim)
+    return replace(offers[index], choices=(choice, *offers[index].choices))
+
+
+def _of_least_cost(params: AutomatedLoomParams, trial: LoomDesign) -> LoomDesign:
+    """The loom with the trial's beat, and the heads of least cost of those that keep the deadline; all as given."""
+    if params.heads is not None:
+        return trial
+    found = analyse(trial)
+    costs = costs_by_heads(trial, found.listed, found.energy.total)
+    timely = [number for number, cost in enumerate(costs) if cost.time <= (params.deadline or math.inf)]
+    number = min(timely or [len(costs) - 1], key=lambda number: costs[number].cost_per_carpet) + 1
+    if number == trial.heads:
+        return trial
+    ready = ready_loom(replace(params, heads=number, beat=trial.params.beat))
+    return with_beat(ready, ready.options[0])

@@ -21,7 +21,7 @@ def fit(task: LoomTask) -> WeftParams:
     return WeftParams(
         carrier=carrier,
         edge=edge,
-        aim=params.aim,
+        aim="time" if params.aim == "time" else "price",
         cloth=task.cloth,
         rows=task.rows,
         selvedge_warps=params.selvedge_warps,

@@ -1,0 +1,60 @@
+"""Rates from which the cost of a carpet follows. They are assumed by this project, without a currency's year or place;
+each states the range that is usual. Amounts are in the currency of the prices of parts.
+"""
+
+from dataclasses import dataclass
+
+from ilmek.params import Params, kind, param
+
+
+@dataclass(frozen=True, slots=True)
+class CostRates(Params):
+    """Wage, hours, capital, energy, floor and the making of the machine."""
+
+    wage: float = param(
+        8 / 3600, unit="1/h", at_least=0.0, at_most=1.0, doc="cost of an hour of a person; usual: 2 to 40 an hour"
+    )
+    persons: float = param(0.25, at_least=0.0, at_most=20.0, doc="persons a loom; usual: 0.1 to 1")
+    hours: float = kind.time(
+        4000 * 3600.0, unit="h", above=0.0, at_most=8784 * 3600.0, doc="hours a year of work; usual: 2,000 to 8,000 h"
+    )
+    availability: float = param(
+        0.85, unit="%", above=0.0, at_most=1.0, doc="share of the hours in which the loom runs; usual: 60 to 95 %"
+    )
+    changeover: float = kind.time(
+        8 * 3600.0, unit="h", at_least=0.0, at_most=1e7, doc="time between two carpets: cut off, warp, dress; 4 to 24 h"
+    )
+    life: float = param(7.0, above=0.0, at_most=100.0, doc="years over which the loom is paid; usual: 5 to 15")
+    interest: float = param(0.05, unit="%", at_least=0.0, at_most=1.0, doc="interest a year; usual: 2 to 15 %")
+    upkeep: float = param(
+        0.03, unit="%", at_least=0.0, at_most=1.0, doc="upkeep a year, of the machine's price; usual: 2 to 6 %"
+    )
+    energy: float = param(
+        0.15 / 3.6e6, unit="1/kWh", at_least=0.0, at_most=1e-3, doc="price of energy; usual: 0.05 to 0.4 a kWh"
+    )
+    rent: float = param(40.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="rent of floor a year; usual: 15 to 120")
+    aisle: float = kind.length(
+        0.8, unit="m", at_least=0.0, at_most=20.0, doc="floor round the fence; usual: 0.6 to 1 m"
+    )
+    finishing: float = param(
+        12.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="shearing and washing of the carpet; usual: 5 to 30"
+    )
+    screw_time: float = kind.time(
+        90.0, at_least=0.0, at_most=1e5, doc="fitting of a screw and what it holds; 60 to 300 s"
+    )
+    axis_time: float = kind.time(
+        6 * 3600.0, unit="h", at_least=0.0, at_most=1e6, doc="wiring and setting of an axis; usual: 3 to 10 h"
+    )
+    commissioning: float = kind.time(
+        80 * 3600.0, unit="h", at_least=0.0, at_most=1e7, doc="putting the loom to work; usual: 40 to 300 h"
+    )
+    fitter_wage: float = param(
+        35 / 3600, unit="1/h", at_least=0.0, at_most=1.0, doc="cost of an hour of a fitter; usual: 15 to 70 an hour"
+    )
+    margin: float = param(
+        0.35, unit="%", at_least=0.0, at_most=20.0, doc="margin of the maker on what is made; usual: 20 to 60 %"
+    )
+    weaver_knots: float = param(
+        8000.0, above=0.0, at_most=1e6, doc="knots that a weaver ties a day; usual: 5,000 to 12,000"
+    )
+    weaver_day: float = kind.time(8 * 3600.0, unit="h", above=0.0, at_most=86400.0, doc="hours of a weaver's day")
