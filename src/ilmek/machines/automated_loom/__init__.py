@@ -93,5 +93,5 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     assembly=assembly,
     with_room=with_room,
     verdict=LoomVerdict,
-    headline=("weaves", BUILDABLE, "row_pitch_left", "cost_per_carpet"),
+    headline=("weaves", BUILDABLE, "row_pitch_left"),
 )
