@@ -31,15 +31,15 @@ class Placement:
     rotation: Float[np.ndarray, "3 3"]
 
     def __post_init__(self) -> None:
-        if self.rotation is not _NOT_TURNED and not _is_rotation(self.rotation.tolist()):
+        if not _is_rotation(self.rotation.tolist()):
             raise ParameterError("a matrix that is no rotation", allowed="orthogonal, of determinant 1")
 
     def after(self, inner: "Placement") -> "Placement":
         """First `inner`, then this: the place in the outer frame of a thing that lies at `inner` in this one."""
         if self.rotation is _NOT_TURNED:
-            return Placement(self.origin + inner.origin, inner.rotation)
+            return _sure(self.origin + inner.origin, inner.rotation)
         turned = self.rotation if inner.rotation is _NOT_TURNED else self.rotation @ inner.rotation
-        return Placement(self.points(inner.origin), turned)
+        return _sure(self.points(inner.origin), turned)
 
     def points(self, points: Float[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3"]:
         """Points of the thing's own frame in the other [m]."""
@@ -48,7 +48,7 @@ class Placement:
     @property
     def inverse(self) -> "Placement":
         """The place of the other frame in the thing's own."""
-        return Placement(-self.rotation.T @ self.origin, self.rotation.T)
+        return _sure(-self.rotation.T @ self.origin, self.rotation.T)
 
 
 def _is_rotation(rows: list[list[float]]) -> bool:
@@ -57,6 +57,14 @@ def _is_rotation(rows: list[list[float]]) -> bool:
     across = a * d + b * e + c * f, a * g + b * h + c * i, d * g + e * h + f * i
     right = all(abs(own - 1) < _RIGHT_ANGLES for own in lengths) and all(abs(own) < _RIGHT_ANGLES for own in across)
     return right and a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) > 0
+
+
+def _sure(origin: Float[np.ndarray, " 3"], turned: Float[np.ndarray, "3 3"]) -> Placement:
+    """The placement of a matrix that is a rotation by its making: it is not checked."""
+    made = object.__new__(Placement)
+    object.__setattr__(made, "origin", origin)
+    object.__setattr__(made, "rotation", turned)
+    return made
 
 
 def placement(
@@ -72,7 +80,7 @@ def placement(
     >>> placement(1.0, about=(0, 0, 1), angle=math.pi / 2).points(np.array([1.0, 0.0, 0.0])).round(12).tolist()
     [1.0, 1.0, 0.0]
     """
-    return Placement(np.array([x, y, z], dtype=float), _NOT_TURNED if about is None else rotation(about, angle))
+    return _sure(np.array([x, y, z], dtype=float), _NOT_TURNED if about is None else rotation(about, angle))
 
 
 @lru_cache(maxsize=1024)
