@@ -155,10 +155,12 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
 
     The deviation of n chords over the sweep is R (1 - cos(sweep/2n)).
     """
-    parts = []
-    for start, end, bulge in zip(contour.points, following(contour.points), contour.bulges, strict=True):
-        pieces = _chords(float(abs(end - start)), abs(float(bulge)), chord_error)
-        parts.append(on_piece(complex(start), complex(end), float(bulge), np.arange(pieces) / pieces))
+    if not contour.bulges.any():
+        return contour.points.astype(complex)
+    parts, ends = [], following(contour.points)
+    for start, end, bulge in zip(contour.points.tolist(), ends.tolist(), contour.bulges.tolist(), strict=True):
+        pieces = _chords(abs(end - start), abs(bulge), chord_error)
+        parts.append([start] if pieces == 1 else on_piece(start, end, bulge, np.arange(pieces) / pieces))
     return np.concatenate(parts)
 
 
