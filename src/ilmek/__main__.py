@@ -10,6 +10,8 @@ _SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if
 
 def run() -> None:
     """Run the command line as a program: a signal ends it with one line, also while it starts and ends."""
+    # The matrices are small: threads of BLAS wait for each other longer than they work. numpy is not imported yet.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     usual = (signal.SIG_DFL, signal.default_int_handler)
     numbers = [number for number in _SIGNALS if signal.getsignal(number) in usual]
     for number in numbers:

@@ -19,6 +19,8 @@ def pick(table: Mapping[str, Part], name: str, what: str) -> Part:
 
     Raises ParameterError with the nearest name of the table for an unknown one.
     """
+    if name in table:
+        return table[name]
     known = {plain(offered): offered for offered in table}
     found = known.get(plain(name))
     if found is None:

@@ -145,7 +145,9 @@ class Component(Generic[P, D, A]):
     def __post_init__(self) -> None:
         tree = self.tree
         if tree is not None:
-            object.__setattr__(self, "parts", lambda design: bill(tree(design)))
+            tree = lru_cache(maxsize=8)(tree)
+            object.__setattr__(self, "tree", tree)
+            object.__setattr__(self, "parts", lru_cache(maxsize=8)(lambda design: bill(tree(design))))
             object.__setattr__(self, "plates", lambda design: plates_of(tree(design)))
             object.__setattr__(self, "pieces", lambda design: pieces_of(tree(design)))
 

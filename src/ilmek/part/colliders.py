@@ -264,23 +264,28 @@ def _contains(box: Float[np.ndarray, "2 3"], points: Points) -> bool:
 
 
 def distances(
-    first: Collider,
-    other: Collider,
+    colliders: Iterable[tuple[Collider, Collider]],
     turned: Float[np.ndarray, "n 3 3"],
     moved: Float[np.ndarray, "n 3"],
     *,
     exact: bool = True,
 ) -> Float[np.ndarray, " n"]:
-    """Distances at positions of the other in the first one's axes [m]; 0 where they touch or are through each other.
+    """Distances of two at a time, the other at positions in the first one's axes [m]; 0 where they touch or are through
+    each other.
 
     exact  False: of their convex hulls
     """
     if exact:
         lies = np.column_stack([turned.reshape(-1, 9), moved]).round(_SAME) + 0.0
-        keys = ((first.digest, other.digest, row.tobytes()) for row in lies)
-        poses = zip(keys, turned, moved, strict=True)
-        return np.array([_APART.of(key, partial(_exact, first, other, *where)) for key, *where in poses])
-    return np.array([_apart(first.outer[0], other.outer[1], *where) for where in zip(turned, moved, strict=True)])
+        both = zip(colliders, lies, turned, moved, strict=True)
+        return np.array(
+            [
+                _APART.of((first.digest, other.digest, row.tobytes()), partial(_exact, first, other, *where))
+                for (first, other), row, *where in both
+            ]
+        )
+    both = zip(colliders, turned, moved, strict=True)
+    return np.array([_apart(first.outer[0], other.outer[1], *where) for (first, other), *where in both])
 
 
 def _exact(first: Collider, other: Collider, turned: Rotation, moved: Vector) -> float:
@@ -289,13 +294,13 @@ def _exact(first: Collider, other: Collider, turned: Rotation, moved: Vector) ->
 
 def _apart(own: fcl.CollisionObject, its: fcl.CollisionObject, turned: Rotation, moved: Vector) -> float:
     its.setTransform(fcl.Transform(turned, moved))
-    return max(float(fcl.distance(own, its, _REQUEST, fcl.DistanceResult())), 0.0)
+    return max(float(fcl.distance(own, its, _REQUEST, _RESULT)), 0.0)
 
 
 def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vector, most: float) -> float:
     """The distance of two colliders as of `distances` [m]; inf or more than `most` where it is above that."""
     if not (first.large or other.large):
-        return float(distances(first, other, turned[None], moved[None])[0])
+        return float(distances([(first, other)], turned[None], moved[None])[0])
     if first.large and other.large:
         return math.inf
     if other.large:
@@ -306,4 +311,4 @@ def gap_between(first: Collider, other: Collider, turned: Rotation, moved: Vecto
     return _apart(own, its, turned, moved)
 
 
-_REQUEST = fcl.DistanceRequest()
+_REQUEST, _RESULT = fcl.DistanceRequest(), fcl.DistanceResult()

@@ -6,7 +6,6 @@ Pieces of like parts that lie alike to each other are measured once.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -61,12 +60,6 @@ class _Piece:
     rigid: tuple[tuple[str, int], ...]
     along: Float[np.ndarray, " 3"] | None = None
 
-    @cached_property
-    def box(self) -> Float[np.ndarray, "2 3"]:
-        """Least and largest x, y, z [m]."""
-        points = self.position.points(self.collider.corners)
-        return np.stack([points.min(0), points.max(0)])
-
 
 def groups(tree: Tree, gap: float = TOUCHING) -> tuple[TouchingParts, ...]:
     """The groups of parts that touch within a gap [m], the largest first; parts without a shape are left out."""
@@ -78,7 +71,7 @@ def contacts(tree: Tree, gap: float = TOUCHING) -> Contacts:
     pieces = tuple(_pieces(tree))
     if not pieces:
         return Contacts((), ())
-    pairs = _near(np.array([piece.box for piece in pieces]), gap)
+    pairs = _near(_boxes(pieces), gap)
     touch, depth, volume = _measured(pieces, pairs, gap)
     return Contacts(_groups(pieces, pairs[touch]), _through(pieces, pairs, depth, volume))
 
@@ -103,6 +96,19 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
                 )
                 for position in positions:
                     yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, along)
+
+
+def _boxes(pieces: Sequence[_Piece]) -> Float[np.ndarray, "pieces 2 3"]:
+    """Least and largest x, y, z of each piece [m]."""
+    boxes, alike = np.empty((len(pieces), 2, 3)), dict[Collider, list[int]]()
+    for number, piece in enumerate(pieces):
+        alike.setdefault(piece.collider, []).append(number)
+    for collided, numbers in alike.items():
+        turned = np.array([pieces[number].position.rotation for number in numbers]).swapaxes(1, 2)
+        away = np.array([pieces[number].position.origin for number in numbers])
+        points = collided.corners @ turned + away[:, None]
+        boxes[numbers, 0], boxes[numbers, 1] = points.min(1), points.max(1)
+    return boxes
 
 
 def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:

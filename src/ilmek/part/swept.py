@@ -170,6 +170,7 @@ def _members(shape: Shape) -> Iterator[tuple[Shape, Placement]]:
         yield from ((own, position.after(at)) for position in member.positions for own, at in inner)
 
 
+@lru_cache(maxsize=16)
 def intervals(windows: tuple[Window, ...]) -> Float[np.ndarray, "intervals samples"]:
     """Angles of the intervals of the windows [rad]: both ends of each, and samples between them."""
     rows = []

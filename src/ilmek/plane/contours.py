@@ -114,6 +114,8 @@ def area(contour: Contour) -> float:
     points = contour.points
     corners = points - points[0]
     flat = 0.5 * float(np.sum(cross(corners, following(corners))))
+    if not contour.bulges.any():
+        return flat
     return flat + float(np.sum(_slivers(np.abs(following(points) - points), contour.bulges)))
 
 
@@ -153,10 +155,12 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
 
     The deviation of n chords over the sweep is R (1 - cos(sweep/2n)).
     """
-    parts = []
-    for start, end, bulge in zip(contour.points, following(contour.points), contour.bulges, strict=True):
-        pieces = _chords(float(abs(end - start)), abs(float(bulge)), chord_error)
-        parts.append(on_piece(complex(start), complex(end), float(bulge), np.arange(pieces) / pieces))
+    if not contour.bulges.any():
+        return contour.points.astype(complex)
+    parts, ends = [], following(contour.points)
+    for start, end, bulge in zip(contour.points.tolist(), ends.tolist(), contour.bulges.tolist(), strict=True):
+        pieces = _chords(abs(end - start), abs(bulge), chord_error)
+        parts.append([start] if pieces == 1 else on_piece(start, end, bulge, np.arange(pieces) / pieces))
     return np.concatenate(parts)
 
 
@@ -191,15 +195,17 @@ def arc_centre(start: complex, end: complex, bulge: float) -> complex:
     return (start + end) / 2 + 1j * (end - start) * (1 - bulge**2) / (4 * bulge)
 
 
+@lru_cache(maxsize=1024)
 def bounds(contour: Contour) -> tuple[complex, complex]:
     """Lower left and upper right corner [m] of the bounding box, with the extremes of arcs.
 
     >>> bounds(circle(1 + 0j, 1.0))
     (-1j, (2+1j))
     """
-    reached = [contour.points]
-    for start, end, bulge in zip(contour.points, following(contour.points), contour.bulges, strict=True):
-        if abs(bulge) >= STRAIGHT and start != end:
+    reached, ends = [contour.points], following(contour.points)
+    for piece in np.flatnonzero(np.abs(contour.bulges) >= STRAIGHT):
+        start, end, bulge = contour.points[piece], ends[piece], contour.bulges[piece]
+        if start != end:
             centre = arc_centre(complex(start), complex(end), float(bulge))
             summits = centre + abs(start - centre) * np.array([1, 1j, -1, -1j])
             sweep = 4 * math.atan(bulge)

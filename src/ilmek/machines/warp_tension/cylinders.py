@@ -20,6 +20,7 @@ turns, the torque stands.
 """
 
 import math
+from functools import cache, lru_cache
 
 import numpy as np
 
@@ -147,6 +148,7 @@ def slots_of(params: WarpTensionParams) -> Slots:
     return Slots(pitch, width, depth, warp)
 
 
+@lru_cache(maxsize=8)
 def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     """Upper and lower cylinder, and the spacer, in the worst case of the warps' loads."""
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
@@ -244,6 +246,7 @@ def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope
     return next(enough, max(offered, key=lambda one: one.static * (one.kind == DEEP_GROOVE)))
 
 
+@cache
 def bearings_offered() -> tuple[RollingBearing, ...]:
     """The thesis' bearing; then flanged inserts, deep-groove ball and cylindrical roller bearings, each by its bore."""
     by_bore = sorted(ROLLING_BEARINGS.values(), key=lambda one: (_KINDS.index(one.kind), one.bore, one.mass))

@@ -6,7 +6,8 @@ A lever counts with its inertia about its pivot over the square of its arm to th
 turns with the handler with its inertia about that axis over the square of the handler's radius. Springs count a third.
 """
 
-from collections.abc import Iterator
+from collections.abc import Mapping
+from functools import lru_cache
 
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.followers import follower_id
@@ -38,7 +39,8 @@ def moved_mass(weaver: Weaver, track: str) -> float:
     if track == HANDLER:
         turning = sum(about_axis(tree.body(name)) for name in (HANDLER_BODY, PINION_BODY))
         return (turning + (follower + sprung) * weaver.params.pinion**2) / weaver.handler_radius**2
-    sliding = sum(_with_carried(tree.bodies, name) for name in _SLIDING[track])
+    masses = _masses(weaver)
+    sliding = sum(masses[name] for name in _SLIDING[track])
     lever = weaver.shape.levers.get(track)
     swung = 0.0 if lever is None else about_axis(tree.body(lever_id(track))) / (lever.ratio * lever.arm) ** 2
     return sliding + swung + sprung + follower / cam.ratio**2
@@ -50,12 +52,12 @@ def about_axis(body: RigidBody) -> float:
     return float(second[0, 0] + second[1, 1])
 
 
-def _with_carried(bodies: tuple[RigidBody, ...], name: str) -> float:
-    """Mass of a body, and of what it carries but the bodies that are named themselves [kg]."""
-    return sum(mass for own, mass in _masses(bodies) if own == name)
-
-
-def _masses(bodies: tuple[RigidBody, ...]) -> Iterator[tuple[str, float]]:
-    for body in bodies:
-        named = body.id in {LEFT, RIGHT, CENTRE, PLATES, SLEY_BODY}
-        yield body.id if named else body.parent, body.moments.zeroth
+@lru_cache(maxsize=8)
+def _masses(weaver: Weaver) -> Mapping[str, float]:
+    """Mass of each body that slides, and of what it carries but the bodies that are named themselves [kg]."""
+    masses = dict.fromkeys((LEFT, RIGHT, CENTRE, PLATES, SLEY_BODY), 0.0)
+    for body in head_tree(weaver).bodies:
+        own = body.id if body.id in masses else body.parent
+        if own in masses:
+            masses[own] += body.moments.zeroth
+    return masses
