@@ -14,7 +14,7 @@ from ilmek.machines.tension_compensator.members import (
     pin_checks,
 )
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared
+from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared, spring_room
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
 from ilmek.units import deg, mm, turn
 
@@ -122,6 +122,13 @@ def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Ch
     found = (
         at_least("fatigue of a spring", fatigue, params.spring_fatigue, "1", "parameter spring_fatigue"),
         at_most("length of a spring at rest", length, params.strut - SEATS, "mm", "parameter strut"),
+        at_most(
+            "outer diameter of a spring",
+            strong.diameter + strong.wire_diameter,
+            spring_room(params, one.springs),
+            "mm",
+            "springs beside each other in a lever's share of the width",
+        ),
     )
     failed = tuple(check for check in found if not check.ok)
     return failed or (must("springs of the table", False, SPRING_SOURCE),)

@@ -18,6 +18,7 @@ With one bar for all warps l is half of the lifted warps' lengthening, and of it
 one k l / 2 slacker than the mean.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,8 +33,11 @@ from ilmek.units import deg, format_quantity, mm
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
 """Leans of the springs that are tried [rad]; beyond 45 deg small errors of the pins change the arm too much."""
 
-SPRINGS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
+SPRINGS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20)
 """Springs on a lever that are tried."""
+
+PLAY = 1 * mm
+"""Play of rollers and springs to what is beside them along their axis [m]; assumed by this project."""
 
 SPREAD, ARM_SHARE = 6.0, 0.55
 """Least height of the rods over the bar, over the warp that a bar gives and over its arm; assumed by this project."""
@@ -85,6 +89,11 @@ class SprungLever:
     def free_length(self) -> float:
         """Springs from pin to pin without force [m]."""
         return float(self.lever.spring_length(0.0)) + self.preload / self.rate
+
+    @property
+    def pitch(self) -> float:
+        """Distance of two springs beside each other [m]; 0 where none of the table is enough."""
+        return 0.0 if self.spring is None else self.spring.diameter + self.spring.wire_diameter + PLAY
 
 
 def lever_for(params: TensionCompensatorParams, radius: float, slack: float) -> Lever:
@@ -141,6 +150,14 @@ def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float) -
     return replace(found, angle=0.0, force=found.preload, rate=found.preload / params.strut)
 
 
+def spring_room(params: TensionCompensatorParams, number: int) -> float:
+    """Greatest outer diameter of so many springs of a lever [m]: they stand on both sides of it, in its share of the
+    width.
+    """
+    beside = (params.cloth.width / params.levers - params.lever_thickness) / 2
+    return beside / math.ceil(number / 2) - PLAY
+
+
 def with_springs(params: TensionCompensatorParams, one: SprungLever) -> SprungLever:
     """The lever with the fewest springs of the table, or the number given; with the most where none is enough."""
     made = [shared(params, one, number) for number in ((params.springs,) if params.springs else SPRINGS)]
@@ -157,6 +174,7 @@ def shared(params: TensionCompensatorParams, one: SprungLever, number: int) -> S
         preload,
         travel,
         wire=params.wire,
+        outer=spring_room(params, number),
         length=params.strut - SEATS,
         fatigue=params.spring_fatigue,
     )
