@@ -8,6 +8,7 @@ cross-pieces, that of a bar on the other side of its lever, so that they pass ea
 import cmath
 import math
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -57,10 +58,10 @@ class BarSupports:
 
     @property
     def spring_stations(self) -> tuple[float, ...]:
-        """Positions of the springs along the width [m]: beside their lever, on both sides in turn; none without one."""
+        """Positions of the springs along the width [m]: beside their lever, on both sides in turn."""
         pitch, thick = self.sprung.pitch, self.params.lever_thickness
         offsets = [(-1) ** k * (thick / 2 + pitch * (k // 2 + 0.5)) for k in range(self.sprung.springs)]
-        return tuple(z + offset for z in self.stations for offset in offsets) if pitch else ()
+        return tuple(z + offset for z in self.stations for offset in offsets)
 
     @property
     def bar(self) -> complex:
@@ -191,7 +192,6 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
     motion  of the lever; None: it stands at rest
     """
     at, thick = parts.supports, parts.supports.params.lever_thickness
-    saddle = at.saddle(at.bar, -at.bar)
     return RigidBody(
         part_id(f"{name} bar"),
         (
@@ -199,9 +199,9 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
             Occurrence(parts.lever, _places([0j], at.stations, -thick / 2)),
             Occurrence(parts.bush, _places([0j], at.stations, -at.members.pin)),
             Occurrence(parts.saddle, _places([at.bar], at.stations, -1.5 * thick, turned=-at.bar)),
-            *_rollers(parts, saddle, -1),
+            *_rollers(parts, [at.bar], -at.bar, -1),
             Occurrence(parts.spring_pin, _places([at.reach], at.stations, -at.springs_wide / 2)),
-            Occurrence(parts.eye, _places([at.reach], at.spring_stations, turned=-at.along)),
+            *_eyes(parts, at.reach, -at.along),
         ),
         joint=Joint(JointKind.PIN, motion=motion, passive="its springs hold it against the warps"),
         positions=(_along(at.sprung.lever.pivot),),
@@ -234,24 +234,39 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
             Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
             Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
             Occurrence(parts.cross_piece, _places([0j], at.stations, middle)),
-            *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1),
+            *_rollers(parts, rods, -1, 1),
             Occurrence(parts.anchor_lug, _places([anchor], at.stations, middle, turned=at.along)),
             Occurrence(parts.spring, tuple(_along(anchor, z).after(leaning) for z in springs)),
-            Occurrence(parts.eye, _places([anchor], springs, turned=at.along)),
+            *_eyes(parts, anchor, at.along),
             Occurrence(parts.spring_pin, _places([anchor], at.stations, -at.springs_wide / 2)),
         ),
         positions=(position,),
     )
 
 
-def _rollers(parts: CompensatorParts, saddles: ComplexArray, side: int) -> tuple[Occurrence, ...]:
-    """The rollers of saddles on their pins, beside the saddles at a side of the levers' middle planes, +1 or -1."""
-    at, axes = parts.supports, [complex(axis) for saddle in saddles.reshape(-1, 3) for axis in saddle[::2]]
-    thick, wide = at.params.lever_thickness, at.members.roller.width
+def _eyes(parts: CompensatorParts, pin: complex, towards: complex) -> tuple[Occurrence, ...]:
+    """The eyes of the springs on their pins at a point, in a direction; none where no spring of the table is enough."""
+    at = parts.supports
+    places = _places([pin], at.spring_stations, turned=towards)
+    return () if at.sprung.spring is None else (Occurrence(parts.eye, places),)
+
+
+def _rollers(
+    parts: CompensatorParts, axes: Sequence[complex], towards: complex, side: int
+) -> tuple[Occurrence, Occurrence]:
+    """The rollers of the saddles behind some axes, on their pins beside the saddles.
+
+    towards  from the axes to the saddles' corners      side  of the levers' middle planes, +1 or -1
+    """
+    at, thick, wide = parts.supports, parts.supports.params.lever_thickness, parts.supports.members.roller.width
     far = 1.5 * thick + PLAY + wide
+    rollers, pins = (far - wide, thick / 2) if side > 0 else (-far, -far)
+    pairs = [(axis, complex(node)) for axis in axes for node in at.saddle(axis, towards)[::2]]
+    # A corner of a roller's mesh points to what it carries.
+    turned = (_places([node], at.stations, rollers, turned=axis - node) for axis, node in pairs)
     return (
-        Occurrence(parts.roller, _places(axes, at.stations, far - wide if side > 0 else -far)),
-        Occurrence(parts.roller_pin, _places(axes, at.stations, thick / 2 if side > 0 else -far)),
+        Occurrence(parts.roller, tuple(chain(*turned))),
+        Occurrence(parts.roller_pin, _places([node for _, node in pairs], at.stations, pins)),
     )
 
 
