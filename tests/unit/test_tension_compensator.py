@@ -19,7 +19,6 @@ from ilmek.machines.tension_compensator.design import equilibrium_tension, stiff
 from ilmek.machines.tension_compensator.geometry import WarpPath
 from ilmek.machines.tension_compensator.linkage import spring_forces
 from ilmek.machines.tension_compensator.members import STEEL, bar_checks
-from ilmek.machines.tension_compensator.report import clearance
 from ilmek.units import deg, mm
 from ilmek.weaving.shed import shed_lengthening
 
@@ -186,7 +185,7 @@ def test_springs_hold_their_force_and_fit() -> None:
     assert spring.rate == pytest.approx(usual().spring_rate)
     assert spring.fatigue_safety(usual().spring_preload, usual().spring_force) >= usual().params.spring_fatigue
     assert spring.free_length - usual().spring_preload / spring.rate < usual().params.strut
-    assert clearance(usual()) > 0
+    assert usual().one.clearance(usual().lever_height) > 0
 
 
 def test_where_no_spring_is_enough_the_check_fails() -> None:

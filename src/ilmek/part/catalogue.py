@@ -89,6 +89,12 @@ def length_of(part: Part) -> float:
     return part.shape.length
 
 
+def face_of(part: Part) -> float:
+    """Width of a motor or reducer [m]."""
+    assert part.shape is not None
+    return float(np.ptp(np.concatenate(part.shape.pieces(1 * mm))[:, 0]))
+
+
 def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ...] = ()) -> Part:
     """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))

@@ -162,6 +162,11 @@ class SideView:
         return (self.rail.corner + self.rail.size + self.retreat * RETREAT).real - rear
 
     @property
+    def cam_front(self) -> float:
+        """The foremost x of guide cams and reeds [m]."""
+        return max(cam.at.real + cam.front for cam in self.cams)
+
+    @property
     def lift(self) -> float:
         """Lift of the warps at the lowest cam shaft [m]."""
         return self.cams[0].lift

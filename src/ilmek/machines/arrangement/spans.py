@@ -20,6 +20,7 @@ would strain the warps more.
 import math
 from typing import TYPE_CHECKING
 
+from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.records import value_record
 from ilmek.units import mm
 
@@ -71,6 +72,7 @@ class ShedRoom:
     half_depth   of the compensator, to either side of the warps
     tube         radius of the upper cylinder             warp      diameter of a warp
     clearance    least distance of what moves
+    rear         from the compensator's middle to the cylinder's axis: its beams, and the cylinder or its bearings
     """
 
     carrier_depth: float
@@ -84,6 +86,7 @@ class ShedRoom:
     tube: float
     warp: float
     clearance: float
+    rear: float = 0.0
 
     @property
     def share(self) -> float:
@@ -126,7 +129,16 @@ def shed_room(task: "LoomTask") -> ShedRoom:
         tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
         warp=task.yarns.warp.diameter,
         clearance=spare,
+        rear=_rear(task),
     )
+
+
+def _rear(task: "LoomTask") -> float:
+    """From the middle of the compensator to the upper cylinder's axis [m]; 0 before both are designed."""
+    if task.compensator is None or task.warp_tension is None:
+        return 0.0
+    upper = cylinders(task.warp_tension)[0]
+    return task.compensator.rear + max(upper.outer, upper.seat.side / 2)
 
 
 def shed_spans(room: ShedRoom, prime_radius: float, guide_radius: float, shafts: int = 1) -> ShedSpans:
@@ -176,7 +188,7 @@ def _above_carrier(room: ShedRoom, prime_radius: float, guide_radius: float) -> 
 
 def cylinder_offset(room: ShedRoom) -> float:
     """Distance of the upper cylinder's axis behind that of the back rest [m]."""
-    return room.back_rest + room.swing + room.tube + room.clearance
+    return room.back_rest + max(room.swing + room.tube, room.swing / 2 + room.rear) + room.clearance
 
 
 def _back_span(room: ShedRoom, prime_radius: float, guide_radius: float) -> float:

@@ -1,12 +1,14 @@
 """The brackets of the frame: plates that carry the bearings of cylinders and cam shafts, back rest, and compensator.
 
 A bracket is a plate of the thickness t beside the column, between the column's face and the seats. A force R at a
-distance d from the column's axis bends it in its plane, and, as the bearing stands o beside its middle, out of it:
+distance d from the column's axis bends it in its plane, and, as a bearing or the end of a beam stands o beside its
+middle, out of it; its height h is that of its outline at the column:
 
     sigma = 6 sum(R d) / (t h²) + 6 sum(R o) / (h t²)        so that the least height h solves
     s h² - 6 sum(R o) / t² h - 6 sum(R d) / t = 0            s: yield over the safety of the columns      [beam theory]
 
-It is never lower than its housings are wide. Side view: complex, x to the front, y up from the fell [m].
+It is never lower than its housings are wide, nor does it reach to the reducer of a cam shaft.
+Side view: complex, x to the front, y up from the fell [m].
 The back rest lies on a beam from bracket to bracket, which bears the warps' pull P down and to the back, sqrt(2) P.
 """
 
@@ -23,11 +25,13 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.bearing_seats import BRACKET, BearingSeat
 from ilmek.machines.beat import GUIDED
-from ilmek.machines.shedding.tree import bearing_inner
+from ilmek.machines.shedding.tree import bearing_inner, reducer
 from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.part import catalogue
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import circle, rounded_hull
+from ilmek.plane.curves import hull
 from ilmek.records import record
 from ilmek.report import Check, Contour, at_least, at_most
 from ilmek.units import mm
@@ -47,8 +51,8 @@ class Bracket:
     """A plate of a side of the loom, alike on both sides.
 
     name, title   of the part                         inner   face from the middle of the width [m]
-    nodes         that its outline surrounds, the column's among them [m]
-    radius        of the outline about them [m]: half of its height at the column
+    nodes         that its outline surrounds [m]          ends    of their hull at the column's axis, its heights [m]
+    radius        of the outline about them [m]
     bores         through it [m]                      seats   that stand on it
     seat          of the bearing on it
     load, moment  sum of the forces [N], and of their moments about the column's axis in its plane, out of it [N m]
@@ -58,6 +62,7 @@ class Bracket:
     title: str
     inner: float
     nodes: ComplexArray
+    ends: tuple[float, float]
     radius: float
     bores: tuple[Contour, ...]
     seat: BearingSeat
@@ -77,13 +82,12 @@ class Bracket:
     @property
     def stress(self) -> float:
         """Greatest stress at the column [Pa]."""
-        height = 2 * self.radius
-        return 6 * self.moment[0] / (BRACKET * height**2) + 6 * self.moment[1] / (height * BRACKET**2)
+        return 6 * self.moment[0] / (BRACKET * self.depth**2) + 6 * self.moment[1] / (self.depth * BRACKET**2)
 
     @property
     def depth(self) -> float:
-        """Height of the outline at the column [m]."""
-        return 2 * self.radius
+        """Height of the outline at the column [m], more where its edges slope there."""
+        return self.ends[1] - self.ends[0] + 2 * self.radius
 
 
 def least_height(moment: tuple[float, float], stress: float) -> float:
@@ -174,22 +178,45 @@ def _upper(
     (at, seat, reaction), (beam, section, force) = cylinder, rest
     column, carried = loom.side.column, compensator_beams(loom)
     nodes = np.array([at, beam, *(one.axis for one in carried)])
-    loads = [(reaction, abs(at.real - column)), (force, abs(beam.real - column))]
-    loads += [(force, abs(one.axis.real - column)) for one in carried]
-    aside = (seat.bearing.width + BRACKET) / 2
-    moment = sum(load * lever for load, lever in loads), sum(load for load, _ in loads) * aside
+    bearing = (seat.bearing.width + BRACKET) / 2
+    loads = [(reaction, abs(at.real - column), bearing), (force, abs(beam.real - column), BRACKET / 2)]
+    loads += [(force, abs(one.axis.real - column), BRACKET / 2) for one in carried]
+    moment = sum(load * lever for load, lever, _ in loads), sum(load * aside for load, _, aside in loads)
     sides = max([section.side, *(one.section.side for one in carried)]) / math.sqrt(2)
+    ends = _crossed(nodes, column)
     return Bracket(
         "upper-bracket",
         "bracket of upper cylinder, back rest and compensator",
         far + seat.bearing.width,
         nodes,
-        _radius(loom, moment, max(seat.radius, sides)),
+        ends,
+        _radius(loom, moment, ends, max(seat.radius, sides), _over_reducers(loom, nodes)),
         _bores(seat, np.array([at])),
         seat,
-        sum(load for load, _ in loads),
+        sum(load for load, *_ in loads),
         moment,
     )
+
+
+def _crossed(nodes: ComplexArray, x: float) -> tuple[float, float]:
+    """Heights at which the hull of some nodes on both sides of x [m] crosses it, the lower first."""
+    starts = hull(nodes)
+    ends = np.roll(starts, -1)
+    over = (starts.real - x) * (ends.real - x) < 0
+    starts, along = starts[over], (ends - starts)[over]
+    heights = starts.imag + (x - starts.real) * along.imag / along.real
+    return float(heights.min()), float(heights.max())
+
+
+def _over_reducers(loom: LoomDesign, nodes: ComplexArray) -> float:
+    """Radius about the hull of some nodes that leaves room for the reducers of the cam shafts below [m]."""
+    around, most = hull(nodes), math.inf
+    edges = np.roll(around, -1) - around
+    for index, cam in enumerate(loom.side.cams):
+        share = np.clip((np.conj(edges) * (cam.at - around)).real / np.abs(edges) ** 2, 0.0, 1.0)
+        distance = float(np.abs(around + share * edges - cam.at).min())
+        most = min(most, distance - catalogue.face_of(reducer(loom.shedding, index)) / math.sqrt(2) - ROOM)
+    return most
 
 
 def _of_seat(  # noqa: PLR0917
@@ -208,12 +235,14 @@ def _of_seat(  # noqa: PLR0917
     at, seat, force = carried
     moved = at + (np.zeros(1, complex) if shift is None else shift)
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
-    radius, half = min(_radius(loom, moment, seat.radius), max(most, seat.side / 2)), seat.side / 2
+    ends, half = (float(moved.imag.min()), float(moved.imag.max())), seat.side / 2
+    radius = min(_radius(loom, moment, ends, seat.radius), max(most, half))
     # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
     beyond = max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
-    end = moved + math.copysign(beyond, at.real - loom.side.column)
-    nodes = np.concatenate([end, loom.side.column + 1j * moved.imag])
-    return Bracket(name, title, far + seat.bearing.width, nodes, radius, _bores(seat, moved), seat, force, moment)
+    outer = moved + math.copysign(beyond, at.real - loom.side.column)
+    nodes = np.concatenate([outer, loom.side.column + 1j * moved.imag])
+    bores = _bores(seat, moved)
+    return Bracket(name, title, far + seat.bearing.width, nodes, ends, radius, bores, seat, force, moment)
 
 
 def _bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
@@ -239,9 +268,16 @@ def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:
         yield _of_seat(loom, name, title, bearing_inner(design, index), (cam.at, shaft.seat, force), shift=shift)
 
 
-def _radius(loom: LoomDesign, moment: tuple[float, float], least: float) -> float:
-    height = least_height(moment, STEEL.strength / loom.params.column_safety)
-    return max(math.ceil(height / 2 / _STEP) * _STEP, least)
+def _radius(
+    loom: LoomDesign,
+    moment: tuple[float, float],
+    ends: tuple[float, float],
+    least: float,
+    most: float = math.inf,
+) -> float:
+    """Radius about a hull [m] for the height at the column that the moments need, from least to most."""
+    height = least_height(moment, STEEL.strength / loom.params.column_safety) - (ends[1] - ends[0])
+    return max(min(math.ceil(height / 2 / _STEP) * _STEP, most), least)
 
 
 def _beam(loom: LoomDesign, pull: float) -> HollowSquare:

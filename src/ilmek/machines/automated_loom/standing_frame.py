@@ -145,7 +145,7 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     section = welded_to(frame, one.depth)
     if gap > _LEAST:
         spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
-        height = float(one.nodes.imag.mean())
+        height = sum(one.ends) / 2
         yield _placed(
             spacer,
             (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face)),

@@ -171,12 +171,6 @@ def driving(drive: Sequence[Part], z: float, axis: complex = 0j) -> tuple[Occurr
     return tuple(Occurrence(one.part, tuple(behind.after(at) for at in one.positions)) for one in parts)
 
 
-def face_of(part: Part) -> float:
-    """Width of a motor or reducer [m]."""
-    assert part.shape is not None
-    return float(np.ptp(np.concatenate(part.shape.pieces(mm))[:, 0]))
-
-
 def on_slide(linkage: BeatUp, high: float, drive: Sequence[Part]) -> tuple[Occurrence, ...]:
     """The plate over the slide on a beam of a height [m], its pins, and the drive of the crank on it."""
     plate = plate_part(linkage, AXIS_SIDE, high + AXIS_SIDE, BLOCK_HEIGHT)

@@ -45,10 +45,7 @@ def fit(task: LoomTask) -> BeatUpParams:
 def _bar_distance(task: LoomTask) -> float:
     """Distance of the beater's bar from the warps [m]: as usual, or before the guide cams or the reed beside it."""
     usual = TravelParams().bar_distance
-    if task.side is None:
-        return usual
-    cams = max(cam.at.real + cam.front for cam in task.side.cams)
-    return max(usual, cams + SPARE * task.params.clearance)
+    return usual if task.side is None else max(usual, task.side.cam_front + SPARE * task.params.clearance)
 
 
 def work(linkage: BeatUp) -> tuple[Work, ...]:

@@ -25,7 +25,6 @@ from ilmek.machines.beat_up.carriage import (
     beam_corner,
     carried,
     driving,
-    face_of,
     in_links_axes,
     on_slide,
     plate_begin,
@@ -44,6 +43,7 @@ from ilmek.machines.beat_up.parts import link_parts, pin_part
 from ilmek.machines.beat_up.travel import MOTOR, slide_length, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.link_tree import GAP, JOURNAL
+from ilmek.part import catalogue
 from ilmek.part.link_motion import carriers, closures
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
@@ -77,7 +77,7 @@ def travelling(
     high = use.beam.section.side
     on_beam = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE / 2)
     # A drive wider than the slide lies on the beam, too.
-    raised = on_beam + 0.5j * max(0.0, *(face_of(part) - AXIS_SIDE for part in drive))
+    raised = on_beam + 0.5j * max(0.0, *(catalogue.face_of(part) - AXIS_SIDE for part in drive))
     standing = (
         *beam_occurrences(design, use.beam),
         _in_loom(design, Occurrence(axis, (placement(z=-length / 2),)), on_beam, middle),

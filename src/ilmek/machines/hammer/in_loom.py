@@ -69,7 +69,16 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         ground=beat_up.ground_for(stroke + SPARE * params.clearance),
         beam_length=task.width + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
+        leaf_reach=_before_reeds(task, kind),
     )
+
+
+def _before_reeds(task: LoomTask, kind: str) -> float | None:
+    """Reach of leaves whose bar goes up before the reeds [m]; None where the usual one does, and on crank-rockers."""
+    if task.side is None or kind == "linkage":
+        return None
+    least = task.side.cam_front + SPARE * task.params.clearance
+    return least if least > HammerParams().reach else None
 
 
 def work(hammer: Hammer) -> tuple[Work, ...]:

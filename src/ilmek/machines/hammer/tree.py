@@ -14,7 +14,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
-from ilmek.machines.beat_up.carriage import beam_corner, face_of
+from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, loops, on_rocker, rocker_position
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
@@ -177,7 +177,7 @@ def _low(params: HammerParams) -> float:
 def _before_axes(hammer: Hammer) -> float:
     """From the fell to the vertical axes [m]: their carriages lead past the reducers."""
     params = hammer.params
-    wide = max(face_of(part) for part in _driving(hammer))
+    wide = max(catalogue.face_of(part) for part in _driving(hammer))
     deep = max(BLOCK_DEPTH, (wide - AXIS_SIDE) / 2 + BLOCK_DEPTH / 2)
     return params.reach + params.comb_thickness + deep
 

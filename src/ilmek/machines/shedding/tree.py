@@ -261,17 +261,17 @@ def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     yield from steadies(shaft, part_id("steady", index), _numbered(design, index, "steady of the cam shaft"))
 
 
+def reducer(design: SheddingDesign, index: int) -> Part:
+    """The reducer on the driven end of a shaft, outside of its bracket."""
+    drive, title = design.shafts[index].drive, _numbered(design, index, "reducer of the cam shaft")
+    end = design.shafts[index].driven_end
+    return catalogue.reducer(part_id("reducer", index), title, drive.reducer.ratio, drive.motor, end)
+
+
 def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """Reducer and motor at the right end, one behind the other: their position there is assumed by this project."""
     shaft = design.shafts[index]
-    drive = shaft.drive
-    geared = catalogue.reducer(
-        part_id("reducer", index),
-        _numbered(design, index, "reducer of the cam shaft"),
-        drive.reducer.ratio,
-        drive.motor,
-        shaft.driven_end,
-    )
+    drive, geared = shaft.drive, reducer(design, index)
     motor = catalogue.motor(
         part_id("motor", index),
         _numbered(design, index, "motor of the cam shaft"),

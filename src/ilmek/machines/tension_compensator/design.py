@@ -12,11 +12,17 @@ from ilmek.machines.tension_compensator.parts import CompensatorParts, parts_of,
 from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, synthesise
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Choice, at_least, at_most
-from ilmek.units import turn
+from ilmek.units import mm, turn
 from ilmek.weaving.tension import compensated_tension
 
 STEPS = 33
 """Rotations between rest and open shed at which the tension is computed."""
+
+CLEARANCE = 3 * mm
+"""Least distance of a lever from a rod's surface, its warps between them; assumed by this project."""
+
+_ROUNDS, _FARTHER = 12, 5 * mm
+"""Spans of the rods that are tried beyond the usual one, and their step [m]."""
 
 STEP = 1e-4
 """Step of the finite differences of the arms [rad]."""
@@ -109,6 +115,11 @@ class TensionCompensator:
         return 2 * self.span
 
     @property
+    def rear(self) -> float:
+        """From its middle to the rear of its last beam, that of the rods, along the warps [m]."""
+        return self.parts.supports.beams[1][0].imag + self.members.beam.side / 2
+
+    @property
     def roller_radius(self) -> float:
         """Radius of its bars and rods [m]."""
         return self.radius
@@ -139,13 +150,11 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
     bars, choice = _bars(params)
     task = bar_task(params, bars)
     tube = _tube(params, task)
-    one = synthesise(params, task, tube[0].outer_radius)
-    loads = _loads(params, one)
+    one, loads, members = _beside_the_rods(params, task, tube)
     mean = task.tension + rate * task.lengthening
     if one.angle > 0:
         mean = float(equilibrium_tension(one, np.linspace(0.0, one.angle, STEPS)).max())
     apart = rate * (longer - task.lengthening)
-    members = members_for(params, tube, loads)
     parts = parts_of(params, one, members)
     mass = moving_mass(parts)
     stiff = min(stiffness(one, angle) for angle in (0.0, one.angle))
@@ -163,6 +172,21 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
         frequency=math.sqrt(max(stiff, 0.0) / (mass / params.levers * params.bar_arm**2)) / turn,
         moving_mass=mass,
     )
+
+
+def _beside_the_rods(
+    params: TensionCompensatorParams, task: BarTask, tube: tuple[Tube, Choice]
+) -> tuple[SprungLever, Loads, Members]:
+    """The lever, its loads and its members; the rods so far apart that it passes the lower one."""
+    span = 0.0
+    for _ in range(_ROUNDS):
+        one = synthesise(params, task, tube[0].outer_radius, span)
+        loads = _loads(params, one)
+        members = members_for(params, tube, loads)
+        if params.guide_span or one.clearance(members.lever) >= CLEARANCE:
+            break
+        span = one.lever.path.half + _FARTHER
+    return one, loads, members
 
 
 def _bars(params: TensionCompensatorParams) -> tuple[int, Choice]:

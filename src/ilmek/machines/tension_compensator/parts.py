@@ -1,13 +1,14 @@
 """The parts of the compensator and its bodies: sprung bars on levers, rods, springs, beams.
 
 Axes of a parity as in `geometry`: x to the outside, y up along the warps; z along the width, 0 in its middle. Bars and
-rods turn in the saddles of their supports, on two rollers each. The saddle of a bar is welded beside the end of its
-lever, its rollers beside the saddle.
+rods turn in the saddles of their supports, on two rollers each. The saddles of the rods are welded beside their
+cross-pieces, that of a bar on the other side of its lever, so that they pass each other; the rollers are beside them.
 """
 
 import cmath
 import math
 from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ilmek.elements.materials import MATERIALS, Material
 from ilmek.errors import ParameterError
 from ilmek.machines.tension_compensator.members import BUSH_WALL, SADDLE, Members, part_id
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
-from ilmek.machines.tension_compensator.synthesis import SprungLever
+from ilmek.machines.tension_compensator.synthesis import PLAY, SprungLever
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import Profile, drilled
@@ -29,10 +30,6 @@ from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm
 
 BRONZE = MATERIALS["tin bronze"]
-
-PLAY = 1 * mm
-"""Play of rollers and springs to what is beside them along their axis [m]; assumed by this project."""
-
 
 BEHIND = 5 * mm
 """The rods' beam before the axis of the rear rod [m]: it leaves room for that of the back rest; assumed."""
@@ -48,10 +45,23 @@ class BarSupports:
 
     @property
     def stations(self) -> tuple[float, ...]:
-        """Middles of equal parts of the width [m]; of a narrow one as far apart as the springs of a lever are wide."""
+        """Middles of equal parts of the width [m]."""
         number = self.params.levers
-        step = max(self.params.cloth.width / number, _springs_wide(self.sprung) + PLAY)
+        step = self.params.cloth.width / number
         return tuple(step * (k + 0.5 - number / 2) for k in range(number))
+
+    @property
+    def springs_wide(self) -> float:
+        """Length of the pin that carries the springs of a lever, as far beside it on both sides [m]."""
+        beside = math.ceil(self.sprung.springs / 2) * self.sprung.pitch
+        return self.params.lever_thickness + 2 * max(beside, 5 * PLAY)
+
+    @property
+    def spring_stations(self) -> tuple[float, ...]:
+        """Positions of the springs along the width [m]: beside their lever, on both sides in turn."""
+        pitch, thick = self.sprung.pitch, self.params.lever_thickness
+        offsets = [(-1) ** k * (thick / 2 + pitch * (k // 2 + 0.5)) for k in range(self.sprung.springs)]
+        return tuple(z + offset for z in self.stations for offset in offsets)
 
     @property
     def bar(self) -> complex:
@@ -166,7 +176,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
             envelope=True,
         ),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, _round(roller.bore)),
-        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, _springs_wide(sprung)), _round(pin)),
+        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), _round(pin)),
         spring=_spring(supports),
         eye=_made("eye", "eye of a spring", flat, _eye(supports), _mm(_eye_wide(sprung))),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
@@ -182,18 +192,16 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
     motion  of the lever; None: it stands at rest
     """
     at, thick = parts.supports, parts.supports.params.lever_thickness
-    saddle = at.saddle(at.bar, -at.bar)
-    wide = _springs_wide(at.sprung)
     return RigidBody(
         part_id(f"{name} bar"),
         (
             Occurrence(parts.bar, _places([at.bar], [-at.params.cloth.width / 2])),
             Occurrence(parts.lever, _places([0j], at.stations, -thick / 2)),
             Occurrence(parts.bush, _places([0j], at.stations, -at.members.pin)),
-            Occurrence(parts.saddle, _places([at.bar], at.stations, thick / 2, turned=-at.bar)),
-            *_rollers(parts, saddle, 1.5 * thick),
-            Occurrence(parts.spring_pin, _places([at.reach], at.stations, -wide / 2)),
-            Occurrence(parts.eye, _places([at.reach], _spring_stations(at), turned=-at.along)),
+            Occurrence(parts.saddle, _places([at.bar], at.stations, -1.5 * thick, turned=-at.bar)),
+            *_rollers(parts, [at.bar], -at.bar, -1),
+            Occurrence(parts.spring_pin, _places([at.reach], at.stations, -at.springs_wide / 2)),
+            *_eyes(parts, at.reach, -at.along),
         ),
         joint=Joint(JointKind.PIN, motion=motion, passive="its springs hold it against the warps"),
         positions=(_along(at.sprung.lever.pivot),),
@@ -211,7 +219,7 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
     anchor, middle = complex(lever.anchor), -thick / 2
     upwards = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     leaning = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(at.along) - math.pi / 2).after(upwards)
-    springs = _spring_stations(at)
+    springs = at.spring_stations
     lugs = [pin + aside for pin in at.stations for aside in (-members.pin - thick, members.pin)]
     own = Occurrence(
         parts.beam,
@@ -226,23 +234,39 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
             Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
             Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
             Occurrence(parts.cross_piece, _places([0j], at.stations, middle)),
-            *_rollers(parts, np.concatenate([at.saddle(rod, -1) for rod in rods]), 1.5 * thick),
+            *_rollers(parts, rods, -1, 1),
             Occurrence(parts.anchor_lug, _places([anchor], at.stations, middle, turned=at.along)),
             Occurrence(parts.spring, tuple(_along(anchor, z).after(leaning) for z in springs)),
-            Occurrence(parts.eye, _places([anchor], springs, turned=at.along)),
-            Occurrence(parts.spring_pin, _places([anchor], at.stations, -_springs_wide(at.sprung) / 2)),
+            *_eyes(parts, anchor, at.along),
+            Occurrence(parts.spring_pin, _places([anchor], at.stations, -at.springs_wide / 2)),
         ),
         positions=(position,),
     )
 
 
-def _rollers(parts: CompensatorParts, saddles: ComplexArray, beside: float) -> tuple[Occurrence, ...]:
-    """The rollers of saddles on their pins, from `beside` the levers' middle planes [m] on."""
+def _eyes(parts: CompensatorParts, pin: complex, towards: complex) -> tuple[Occurrence, ...]:
+    """The eyes of the springs on their pins at a point, in a direction; none where no spring of the table is enough."""
     at = parts.supports
-    axes = [complex(axis) for saddle in saddles.reshape(-1, 3) for axis in saddle[::2]]
+    places = _places([pin], at.spring_stations, turned=towards)
+    return () if at.sprung.spring is None else (Occurrence(parts.eye, places),)
+
+
+def _rollers(
+    parts: CompensatorParts, axes: Sequence[complex], towards: complex, side: int
+) -> tuple[Occurrence, Occurrence]:
+    """The rollers of the saddles behind some axes, on their pins beside the saddles.
+
+    towards  from the axes to the saddles' corners      side  of the levers' middle planes, +1 or -1
+    """
+    at, thick, wide = parts.supports, parts.supports.params.lever_thickness, parts.supports.members.roller.width
+    far = 1.5 * thick + PLAY + wide
+    rollers, pins = (far - wide, thick / 2) if side > 0 else (-far, -far)
+    pairs = [(axis, complex(node)) for axis in axes for node in at.saddle(axis, towards)[::2]]
+    # A corner of a roller's mesh points to what it carries.
+    turned = (_places([node], at.stations, rollers, turned=axis - node) for axis, node in pairs)
     return (
-        Occurrence(parts.roller, _places(axes, at.stations, beside + PLAY)),
-        Occurrence(parts.roller_pin, _places(axes, at.stations, beside - at.params.lever_thickness)),
+        Occurrence(parts.roller, tuple(chain(*turned))),
+        Occurrence(parts.roller_pin, _places([node for _, node in pairs], at.stations, pins)),
     )
 
 
@@ -336,7 +360,7 @@ def _spring_seat(at: BarSupports) -> float:
 
 
 def _eye_wide(sprung: SprungLever) -> float:
-    return max(_spring_pitch(sprung) - 2 * PLAY, PLAY)
+    return max(sprung.pitch - 2 * PLAY, PLAY)
 
 
 def _eye(at: BarSupports) -> Sum:
@@ -361,26 +385,3 @@ def _spring(at: BarSupports) -> Part:
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
     room = Sum((Placed(coil, (placement(z=seat),)),))
     return Part(part_id("spring"), title, "spring", size, room, purchase=Bought(size, wound.mass), envelope=True)
-
-
-def _spring_pitch(sprung: SprungLever) -> float:
-    wound = sprung.spring
-    return 0.0 if wound is None else wound.diameter + wound.wire_diameter + PLAY
-
-
-def _springs_wide(sprung: SprungLever) -> float:
-    """Length of the pin that carries the springs of a lever, as far beside it on both sides [m]."""
-    return 2 * max((abs(offset) for offset in _beside(sprung, 0.0)), default=0.0) + max(
-        _spring_pitch(sprung), 10 * PLAY
-    )
-
-
-def _spring_stations(at: BarSupports) -> list[float]:
-    """Positions of the springs along the width [m]: beside their lever, on both sides in turn."""
-    return [z + offset for z in at.stations for offset in _beside(at.sprung, at.params.lever_thickness)]
-
-
-def _beside(sprung: SprungLever, thick: float) -> list[float]:
-    """Offsets of the springs from the middle of a lever of a thickness [m]."""
-    pitch = _spring_pitch(sprung)
-    return [(-1) ** k * (thick / 2 + pitch * (k // 2 + 0.5)) for k in range(sprung.springs)]

@@ -1,10 +1,8 @@
 """The report of the tension compensator: checks, choices, tables."""
 
-import math
-
 from ilmek.elements.springs import choose_spring, least_stress_share
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis
-from ilmek.machines.tension_compensator.design import TensionCompensator, swing_checks
+from ilmek.machines.tension_compensator.design import CLEARANCE, TensionCompensator, swing_checks
 from ilmek.machines.tension_compensator.members import (
     bar_checks,
     beam_checks,
@@ -14,15 +12,12 @@ from ilmek.machines.tension_compensator.members import (
     pin_checks,
 )
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared
+from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared, spring_room
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
-from ilmek.units import deg, mm, turn
+from ilmek.units import deg, turn
 
 STRAND_LEAST = 10 * deg
 """Least deflection of a strand at the bar: below it the warps would leave the rods; assumed by this project."""
-
-CLEARANCE = 3 * mm
-"""Least distance of a lever from a rod's surface, its warps between them; assumed by this project."""
 
 SPRING_SOURCE = "stress at the solid length, fatigue, buckling and length [EN 13906-1]"
 
@@ -72,22 +67,11 @@ def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
             cure="set a larger strand_angle or guide_span",
         ),
         at_least(
-            *("room between lever and rod", clearance(design), CLEARANCE, "mm", assumed),
+            *("room between lever and rod", design.one.clearance(design.members.lever), CLEARANCE, "mm", assumed),
             parts=(part_id("lever"), part_id("rod")),
             cure="set a larger arm_angle or guide_span",
         ),
     )
-
-
-def clearance(design: TensionCompensator) -> float:
-    """Least distance of a lever's edge from the lower rod [m], at rest and in the open shed."""
-    lever = design.one.lever
-    rod, least = complex(-design.radius, -lever.path.half), math.inf
-    for angle in (0.0, design.one.angle):
-        arm = complex(lever.bar(angle)) - lever.pivot
-        along = ((rod - lever.pivot) * arm.conjugate()).real / abs(arm) ** 2
-        least = min(least, abs(rod - lever.pivot - min(max(along, 0.0), 1.0) * arm))
-    return least - design.radius - design.members.lever / 2
 
 
 def choices(design: TensionCompensator) -> tuple[Choice, ...]:
@@ -122,6 +106,13 @@ def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Ch
     found = (
         at_least("fatigue of a spring", fatigue, params.spring_fatigue, "1", "parameter spring_fatigue"),
         at_most("length of a spring at rest", length, params.strut - SEATS, "mm", "parameter strut"),
+        at_most(
+            "outer diameter of a spring",
+            strong.diameter + strong.wire_diameter,
+            spring_room(params, one.springs),
+            "mm",
+            "springs beside each other in a lever's share of the width",
+        ),
     )
     failed = tuple(check for check in found if not check.ok)
     return failed or (must("springs of the table", False, SPRING_SOURCE),)

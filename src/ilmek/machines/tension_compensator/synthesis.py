@@ -18,6 +18,7 @@ With one bar for all warps l is half of the lifted warps' lengthening, and of it
 one k l / 2 slacker than the mean.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,8 +33,11 @@ from ilmek.units import deg, format_quantity, mm
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
 """Leans of the springs that are tried [rad]; beyond 45 deg small errors of the pins change the arm too much."""
 
-SPRINGS = (1, 2, 3, 4, 6, 8, 12, 16, 20)
+SPRINGS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20)
 """Springs on a lever that are tried."""
+
+PLAY = 1 * mm
+"""Play of rollers and springs to what is beside them along their axis [m]; assumed by this project."""
 
 SPREAD, ARM_SHARE = 6.0, 0.55
 """Least height of the rods over the bar, over the warp that a bar gives and over its arm; assumed by this project."""
@@ -86,18 +90,34 @@ class SprungLever:
         """Springs from pin to pin without force [m]."""
         return float(self.lever.spring_length(0.0)) + self.preload / self.rate
 
+    def clearance(self, height: float) -> float:
+        """Least distance of the edge of a lever of a height from the lower rod [m], at rest and in the open shed."""
+        lever, least = self.lever, np.inf
+        rod = complex(-lever.path.radius, -lever.path.half)
+        for angle in (0.0, self.angle):
+            arm = complex(lever.bar(angle)) - lever.pivot
+            along = ((rod - lever.pivot) * arm.conjugate()).real / abs(arm) ** 2
+            least = min(least, abs(rod - lever.pivot - min(max(along, 0.0), 1.0) * arm))
+        return least - lever.path.radius - height / 2
 
-def lever_for(params: TensionCompensatorParams, radius: float, slack: float) -> Lever:
+    @property
+    def pitch(self) -> float:
+        """Distance of two springs beside each other [m]; 0 where none of the table is enough."""
+        return 0.0 if self.spring is None else self.spring.diameter + self.spring.wire_diameter + PLAY
+
+
+def lever_for(params: TensionCompensatorParams, radius: float, slack: float, span: float = 0.0) -> Lever:
     """The lever for rollers of a radius [m] that is to give a length of warp [m], its springs upright.
 
-    The rods stand so far from the bar that the strands' deflection changes little. Raises ParameterError for a
-    guide_span at which bar and rods meet.
+    The rods stand so far from the bar that the strands' deflection changes little, at least a span [m]. Raises
+    ParameterError for a guide_span at which bar and rods meet.
     """
     if params.guide_span is not None and params.guide_span < NARROWEST * radius:
         shown, least = (format_quantity(one, "mm") for one in (params.guide_span, NARROWEST * radius))
         given = f"guide_span={shown} between rollers of {format_quantity(2 * radius, 'mm')}"
         raise ParameterError(given, allowed=f"at least {least}", do="leave guide_span out, or set a smaller bar_tube")
-    path = WarpPath(params.guide_span or max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm), radius)
+    least = max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm, span)
+    path = WarpPath(params.guide_span or least, radius)
     rest = path.at_rest(params.strand_angle)
     return Lever(path, rest, params.bar_arm, params.arm_angle, params.spring_arm, params.strut, 0.0)
 
@@ -117,10 +137,10 @@ def open_angle(lever: Lever, slack: float) -> float:
     return found
 
 
-def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float) -> SprungLever:
-    """Lean and springs of a lever."""
+def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float, span: float = 0.0) -> SprungLever:
+    """Lean and springs of a lever, its rods at least a span [m] from its bar."""
     wanted = task.lengthening - (task.open_tension(params.rate_share) - task.tension) / task.rate
-    upright = lever_for(params, radius, wanted)
+    upright = lever_for(params, radius, wanted, span)
     angle = open_angle(upright, wanted)
     tension = task.tension + task.rate * (task.lengthening - float(upright.slack(angle)))
     leaning = replace(upright, lean=LEANS)
@@ -141,6 +161,14 @@ def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float) -
     return replace(found, angle=0.0, force=found.preload, rate=found.preload / params.strut)
 
 
+def spring_room(params: TensionCompensatorParams, number: int) -> float:
+    """Greatest outer diameter of so many springs of a lever [m]: they stand on both sides of it, in its share of the
+    width.
+    """
+    beside = (params.cloth.width / params.levers - params.lever_thickness) / 2
+    return beside / math.ceil(number / 2) - PLAY
+
+
 def with_springs(params: TensionCompensatorParams, one: SprungLever) -> SprungLever:
     """The lever with the fewest springs of the table, or the number given; with the most where none is enough."""
     made = [shared(params, one, number) for number in ((params.springs,) if params.springs else SPRINGS)]
@@ -157,6 +185,7 @@ def shared(params: TensionCompensatorParams, one: SprungLever, number: int) -> S
         preload,
         travel,
         wire=params.wire,
+        outer=spring_room(params, number),
         length=params.strut - SEATS,
         fatigue=params.spring_fatigue,
     )
