@@ -161,7 +161,7 @@ class WeaverParams(Params):
     selector_acceleration: float = _acceleration(1.0, "acceleration of the colour selector")
     selector_jerk: float = _jerk(50.0, "jerk of the colour selector")
     tube_mass: float = kind.mass(0.02, at_least=0.0, at_most=10.0, doc="a yarn tube with its share of the slide")
-    selector_pulley: float = kind.length(10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of the tubes' pulley")
+    selector_pulley: float = kind.length(10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of a slide's pulley")
 
     def check_together(self) -> None:
         """The steps of the turn and the motions of a tool follow each other; the opener makes room for a gripper."""

@@ -20,7 +20,7 @@ from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import jaw_bodies
 from ilmek.machines.weaver.knife import KNIFE_CLOSURE, knife_bodies, knife_stands
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
-from ilmek.machines.weaver.magazine_parts import magazine_parts
+from ilmek.machines.weaver.magazine_parts import index_sensor, magazine_parts
 from ilmek.machines.weaver.parts import MOTOR, cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.transmissions import CAM_SHAFT, transmissions
@@ -91,7 +91,7 @@ def head_tree(weaver: Weaver) -> Tree:
         (
             RigidBody(
                 HEAD,
-                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver)),
+                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver), *index_sensor(weaver)),
                 joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motor=CARRIAGE_MOTOR),
             ),
             RigidBody(
