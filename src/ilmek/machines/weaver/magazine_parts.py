@@ -1,6 +1,6 @@
 """The magazine of a head: the yarn tubes on their carrier, a drum or a slide, on an axle over the colours' motor.
 
-A flag under the carrier passes over a sensor, from which the motor's steps count.
+A flag under the carrier passes over a sensor, from which the motor's steps count; of several tiers, at the lowest.
 """
 
 import cmath
