@@ -8,10 +8,10 @@ import pytest
 from cloths import cloth
 
 from ilmek.cams.laws import SMOOTH_LAWS
+from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver import MACHINE, WeaverParams, design, mass_of
 from ilmek.machines.weaver.cyclogram import DRAW_TURN
-from ilmek.machines.weaver.design import shaft_torque
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.rods import rod_frequency
 from ilmek.timing.s_curve import AxisLimits, move_time, s_curve, travel_time
@@ -181,19 +181,21 @@ def test_parts_and_work_of_one_head() -> None:
     assert mass == pytest.approx(sum(mass_of(head).values()))
     assert parts["yarn tube"].number == 16
     assert [part.name for part in parts.values() if part.drives] == [
+        "motor of the cutter",
         "motor of a head",
         "motor of the colours",
         "motor of a carriage",
     ]
     work = {one.name: one for one in MACHINE.work(head)}
     even = np.arange(20_000) * (2 * math.pi / 20_000)
-    torque = np.maximum(shaft_torque(head, even), 0.0)
+    torque = np.maximum(torque_at(head.cams, even), 0.0)
     assert work["knotting"].energy == pytest.approx(float(torque.mean()) * 2 * math.pi, rel=1e-3)
     step = s_curve(0.004, AxisLimits(0.25, 2.0, 100.0))
     assert work["carriages"].energy == pytest.approx(0.5 * mass * step.speed**2)
     heavy = design(WeaverParams(head_mass=2 * mass))
-    assert MACHINE.work(heavy)[1].energy == pytest.approx(2 * work["carriages"].energy)
-    assert [one.per for one in work.values()] == ["knot", "knot", "colour change"]
+    (carriages,) = (one for one in MACHINE.work(heavy) if one.name == "carriages")
+    assert carriages.energy == pytest.approx(2 * work["carriages"].energy)
+    assert [one.per for one in work.values()] == ["knot", "knot", "knot", "colour change"]
 
 
 def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
@@ -206,6 +208,7 @@ def test_work_of_the_moves_is_their_greatest_kinetic_energy() -> None:
     work = {one.name: one for one in MACHINE.work(design(params))}
     assert {name: one.per for name, one in work.items()} == {
         "knotting": "knot",
+        "cutting": "knot",
         "carriages": "knot",
         "colours": "colour change",
     }

@@ -282,18 +282,14 @@ class CamShaftDrive:
 def drive_for(
     cams: Sequence[LoadedPlateCam],
     speed: float,
-    besides: Callable[[FloatArray], FloatArray] | None = None,
     belt: float = 1.0,
 ) -> CamShaftDrive:
     """The drive of a cam shaft with these cams at a speed [rad/s].
 
-    besides  torque on the shaft [N m] of what is no cam, at its angles [rad]; default: none
-    belt     ratio of a belt between reducer and shaft; default: the reducer is on it
+    belt  ratio of a belt between reducer and shaft; default: the reducer is on it
     """
     angle = np.arange(DRIVE_SAMPLES) * (turn / DRIVE_SAMPLES)
     torque = torque_at(cams, angle)
-    if besides is not None:
-        torque = torque + besides(angle)
     most, inertia = float(np.max(np.abs(torque))), sum(cam.inertia for cam in cams)
     turning, still = np.full(DRIVE_SAMPLES, belt * speed), np.zeros(DRIVE_SAMPLES)
     cycle = LoadCycle(turning, still, torque / belt, inertia / belt**2)

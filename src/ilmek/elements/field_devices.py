@@ -34,6 +34,7 @@ _CLASS = "class of catalogue parts; makers differ by some millimetres"
 ROWS = (
     FieldDevice("absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3),
     FieldDevice("magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3),
+    FieldDevice("inductive sensor M8, 1.5 mm, PNP", "sensor", _size(8, 8, 45), 30 * g, "IEC 60947-5-2", 1e-3),
     FieldDevice("strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3),
     FieldDevice("photoelectric yarn sensor", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3),
     FieldDevice("disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS),
@@ -51,8 +52,11 @@ ROWS = (
 FIELD_DEVICES = {row.name: row for row in ROWS}
 """The rows by their names."""
 
-ENCODER, AXIS_SENSOR, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, CONTROLLER, \
-    SUPPLY, TERMINAL = ROWS  # fmt: skip
+ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, \
+    CONTROLLER, SUPPLY, TERMINAL = ROWS  # fmt: skip
+
+REPEATED = 0.1 * 1.5 * mm
+"""Repeat accuracy of the inductive sensor [m]: a tenth of its operating distance, IEC 60947-5-2."""
 
 BRAKE_FORCES = (0.02, 0.5)
 """Range of a yarn's disc brake [N]; makers differ, assumed by this project."""

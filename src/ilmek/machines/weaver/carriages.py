@@ -42,13 +42,11 @@ from ilmek.machines.weaver.tool_parts import (
     CENTRE,
     CENTRE_BAR,
     HANDLER_SHAFT,
-    KNIFE,
     LEFT,
     PLATES,
     RIGHT,
     SLEY_ARM,
     SLEY_BODY,
-    knife,
     part_id,
 )
 from ilmek.machines.weaver.turning import pivot
@@ -102,15 +100,12 @@ def carried_parts(weaver: Weaver) -> Mapping[str, tuple[Occurrence, ...]]:
 
 
 def standing_parts(weaver: Weaver) -> Iterator[Occurrence]:
-    """What stands in the case for the carriages: partition, nut, the sley's rod, springs, the knife."""
+    """What stands in the case for the carriages: partition, nut, the sley's rod, springs."""
     yield _partition(weaver)
     if not weaver.params.with_arms:
         yield _nut(weaver)
     yield from _sley_rod(weaver)
     yield from _springs(weaver)
-    across, along, deep = KNIFE
-    at = pivot(weaver) - 1j * (weaver.handler_radius + across)
-    yield Occurrence(knife(weaver.params), (placement(at.real, at.imag - along / 2, weaver.shape.body.real - deep),))
 
 
 def _levels(weaver: Weaver) -> tuple[float, float]:

@@ -13,6 +13,7 @@ import numpy as np
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, SLEY_HEIGHT, SLEY_TOOL, UPPER_PLATE
+from ilmek.machines.weaver.knife import HUB, PLAY, eye_at, eye_diameter, shaft_at
 from ilmek.machines.weaver.motions import CENTRE_ARM
 from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT, SLEY_ARM, ToolBodies, part_id
@@ -97,7 +98,7 @@ def _face(weaver: Weaver) -> Prism:
     params, shape = weaver.params, weaver.shape
     axle = pivot(weaver)
     shaft = GuideHole(axle - complex(1, 1) * HANDLER_SHAFT / 2, axle + complex(1, 1) * HANDLER_SHAFT / 2, round=True)
-    guides = apart((*_guides(weaver.tool_bodies), shaft))
+    guides = apart((*_guides(weaver.tool_bodies), shaft, *_of_the_knife(weaver)))
     low = complex(min(guide.low.real for guide in guides), min(guide.low.imag for guide in guides))
     high = complex(max(guide.high.real for guide in guides), max(guide.high.imag for guide in guides))
     half = case_width(params) / 2
@@ -127,6 +128,12 @@ def _guides(by: ToolBodies) -> Iterator[GuideHole]:
         yield GuideHole(rod - finger, rod + finger, round=True)
     centre = 1j * (by.tied + grippers.height)
     yield GuideHole(centre - finger, centre + finger)
+
+
+def _of_the_knife(weaver: Weaver) -> Iterator[GuideHole]:
+    """Bores for the eye of the yarn and for the hub of the cutter's eccentric."""
+    for centre, radius in ((eye_at(weaver), eye_diameter(weaver) / 2), (shaft_at(weaver), HUB / 2 + PLAY)):
+        yield GuideHole(centre - complex(radius, radius), centre + complex(radius, radius), round=True)
 
 
 def apart(guides: Sequence[GuideHole]) -> tuple[GuideHole, ...]:

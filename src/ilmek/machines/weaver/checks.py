@@ -12,8 +12,8 @@ from ilmek.machines.weaver.cam_belt import PROFILE, PULL
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
 from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
-from ilmek.machines.weaver.forces import cutting_energy
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.knife import KNIFE, knife_checks
 from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_id, lever_stress
 from ilmek.machines.weaver.limits import HeadLimits
 from ilmek.machines.weaver.motions import (
@@ -33,7 +33,6 @@ from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stres
 from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_parts import (
     CENTRE_GRIPPER,
-    KNIFE_PART,
     OPENER_PLATE,
     PILE_HANDLER,
     SIDE_GRIPPER,
@@ -348,7 +347,6 @@ def _closure_check(weaver: Weaver) -> Check:
 
 def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
     """The cutter within its time, a motor and bearings for the shaft."""
-    params = weaver.params
     return (
         at_most(
             "cutter",
@@ -357,12 +355,13 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             "s",
             "draw to presenting",
             cure=LONGER,
-            parts=(KNIFE_PART,),
+            parts=(KNIFE,),
         ),
+        *knife_checks(weaver),
         must(
             "motor of the cam shaft",
             weaver.drive.servo is not None,
-            f"motors of the table; {weaver.drive.torque_max:.3g} Nm with a cut of {cutting_energy(params):.3g} J",
+            f"motors of the table; {weaver.drive.torque_max:.3g} Nm",
             cure="set lighter tools, a longer knot_cycle, or a lower tension",
             parts=(MOTOR, SHAFT),
         ),

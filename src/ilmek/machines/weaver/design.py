@@ -6,13 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
 from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
 from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
-from ilmek.machines.weaver.forces import HeadForces, cutter_torque
+from ilmek.machines.weaver.forces import HeadForces
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
 from ilmek.machines.weaver.head_shape import HeadShape, head_shape, head_tools
 from ilmek.machines.weaver.knot import on_the_pair, proof_text, tied_by
@@ -147,11 +146,7 @@ def design(params: WeaverParams) -> Weaver:
     tools = ToolBodies(params, grippers, opener, reaching, radius)
     window, cams = carriage_window(cycle), cams_for(HeadForces(params, cycle, opener, radius), tools)
 
-    def cutter(angle: FloatArray) -> FloatArray:
-        return cutter_torque(params, cycle, angle)
-
-    angle = cams[0].angle
-    most = float(np.abs(torque_at(cams, angle) + cutter(angle)).max())
+    most = float(np.abs(torque_at(cams, cams[0].angle)).max())
     belt = cam_belt(most, max(cam.radius for cam in cams))
     rest = {
         "cams": case_width(params),
@@ -175,7 +170,7 @@ def design(params: WeaverParams) -> Weaver:
         travel=travel_time(params.cloth.knot_pitch, window, params.carriage),
         colour_change=magazine.mean_time,
         cams=cams,
-        drive=drive_for(cams, cycle.speed, cutter, belt.ratio),
+        drive=drive_for(cams, cycle.speed, belt.ratio),
         belt=belt,
         opener=opener,
         magazine=magazine,
@@ -190,11 +185,6 @@ def head_relations(weaver: Weaver) -> tuple[Relation, ...]:
     """The order of the head's motions, the time of arms included."""
     time = weaver.params.arms.time
     return relations(weaver.params.relation_gap, arms=None if time is None else time / weaver.cycle * turn)
-
-
-def shaft_torque(weaver: Weaver, angle: FloatArray) -> FloatArray:
-    """Torque on the cam shaft, of cams and cutter [N m], at cam angles [rad], any shape."""
-    return np.asarray(torque_at(weaver.cams, angle) + cutter_torque(weaver.params, weaver.cyclogram, angle))
 
 
 def _opener(params: WeaverParams, grippers: Grippers) -> Opener:

@@ -1,4 +1,4 @@
-"""What the tools' work takes at the head's cams: grip, opener, tightening, drawing, sley; and the cutter.
+"""What the tools' work takes at the head's cams: grip, opener, tightening, drawing, sley.
 
 Each force is against the tool's motion forward [N], of the handler a torque [N m]; the follower, which moves 1/i as far
 as the tool, gets i times as much, by virtual work.
@@ -10,8 +10,6 @@ as the tool, gets i times as much, by virtual work.
                     then holds until the jaws open; it helps the motion forward, so the load is negative
     handler         draws the yarn at its radius
     sley            on its way down, over its last part, up to the force that packs the knot
-    cutter          a spring drives the blade; the shaft winds it evenly between two cuts, and gives it
-                    E = F d + m a h / 2 + m a h / 2: the cut through the yarn, the blade's start, and its stop
 
 [thesis 2.2.3: the tools; the forces are assumed by this project where the yarn does not give them]
 """
@@ -109,18 +107,3 @@ def load_on(head: HeadForces, name: str, ratio: float) -> Callable[[FloatArray],
         return ratio * tool_force(head, name, np.asarray(np.mod(angle, turn)))
 
     return load
-
-
-def cutting_energy(params: WeaverParams) -> float:
-    """Work of a cut [J]: through the yarn, and to start and to stop the blade."""
-    blade = params.forces.cutter_mass * params.cutter_acceleration * 2 * params.yarn
-    return params.strength * params.yarn + blade
-
-
-def cutter_torque(params: WeaverParams, cyclogram: Cyclogram, angle: FloatArray) -> FloatArray:
-    """Torque that winds the cutter's spring [N m], even between two cuts, at cam angles [rad]."""
-    handler = cyclogram.track(HANDLER)
-    first, last = handler.segment("draw").end, handler.segment("present").start
-    at = np.mod(angle, turn)
-    winding = (at < first) | (at > last)
-    return np.asarray(cutting_energy(params) / (turn - (last - first)) * winding)

@@ -20,8 +20,8 @@ from ilmek.units import mm
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
-BESIDE_MOTOR = 3 * mm
-"""From the motor of the colours to the axis of the rail before it [m]; assumed by this project."""
+BESIDE_MOTOR = 10 * mm
+"""Room about the motor of the colours, for the sensor of the tubes' index [m]; assumed by this project."""
 
 RAIL_AXIS = 40 * mm
 """Side of the section of the linear axis that carries the heads [m]; assumed by this project."""

@@ -1,9 +1,10 @@
 """The knotting head in a loom: its parameters for the carpet, the work of its acts."""
 
+from ilmek.cams.loaded_plate_cam import torque_at
 from ilmek.elements.drive_parts import positive_work
 from ilmek.machines.arrangement.spans import SPARE, expected_spans, shed_room, warp_length
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.weaver.design import Weaver, shaft_torque
+from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.tool_params import OpenerParams
 from ilmek.machines.weaver.tree import head_mass
@@ -43,7 +44,7 @@ def opener_for(task: LoomTask) -> OpenerParams:
 
 
 def work(weaver: Weaver) -> tuple[Work, ...]:
-    """Work of a turn of the cam shaft, of the carriage's step, and of a move over a third of a tier's tubes, the mean.
+    """Work of a turn of the cam shaft, a cut, the carriage's step, and a move over a third of a tier's tubes, the mean.
 
     A move takes the kinetic energy at its greatest speed, m v² / 2.
     """
@@ -51,7 +52,8 @@ def work(weaver: Weaver) -> tuple[Work, ...]:
     step = s_curve(params.cloth.knot_pitch, params.carriage)
     change = s_curve(weaver.magazine.per_tier * params.tube_pitch / 3, params.selector)
     return (
-        Work("knotting", positive_work(lambda angle: shaft_torque(weaver, angle)), "knot"),
+        Work("knotting", positive_work(lambda angle: torque_at(weaver.cams, angle)), "knot"),
+        Work("cutting", params.strength * params.yarn, "knot"),
         Work("carriages", 0.5 * head_mass(weaver) * step.speed**2, "knot"),
         Work("colours", 0.5 * weaver.magazine.moved(params.tube_mass) * change.speed**2, "colour change"),
     )

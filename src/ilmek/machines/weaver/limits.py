@@ -3,12 +3,11 @@
 Speeds of a cam shaft that turns once for a knot are as 1/T, accelerations, forces and torques at most as 1/T²: those of
 springs, warps and yarn do not grow with the speed. So from the cycle T of the design, at most
 
-    tools       T such that no track exceeds speed and acceleration      cutter   sqrt(4 h / a) over its share of a turn
+    tools       T such that no track exceeds speed and acceleration      cutter   its time over its share of a turn
     cams        T p / p_limit         since p² is as the force           carriage its step over the window's share
     motor       the least at which the motor still gives 1.25 times the torque of inertia and work
 
-The cutter's blade moves h = 2 d across the yarn from rest to rest. Cutting takes at most the force that breaks all the
-fibres of the pile yarn at once.
+Cutting takes at most the force that breaks all the fibres of the pile yarn at once [`cutter`].
 """
 
 import math
@@ -17,9 +16,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT
+from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, torque_at
 from ilmek.elements.duty import MARGIN
-from ilmek.machines.weaver.design import Weaver, shaft_torque
+from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.selector import Selector, selector_of
 from ilmek.machines.weaver.tree import mass_of
@@ -88,7 +87,7 @@ def _motor_limit(weaver: Weaver) -> float:
     if servo is None:
         return math.inf
     angle = weaver.cams[0].angle
-    total = shaft_torque(weaver, angle)
+    total = torque_at(weaver.cams, angle)
     inertial = sum(np.interp(angle, cam.angle, cam.inertial_torque, period=turn) for cam in weaver.cams)
     most = float(np.max(np.abs(total)))
 

@@ -58,16 +58,16 @@ class Magazine:
     def tubes_at(self) -> ComplexArray:
         """Axes of a tier's tubes in plan, about the drum's axis or the slide's middle [m]."""
         number = np.arange(self.per_tier)
-        if self.kind == DRUM:
-            return np.asarray(self.pitch * self.per_tier / turn * np.exp(1j * turn * number / self.per_tier))
+        if radius := tubes_radius(self):
+            return np.asarray(radius * np.exp(1j * turn * number / self.per_tier))
         return np.asarray((number - (self.per_tier - 1) / 2) * self.pitch + 0j)
 
     @property
     def carrier(self) -> Prism:
         """The plate under the lowest tier, open below each tube: of a drum round, of a slide straight."""
         holes = tuple(circle(complex(at), TUBE_BORE * self.pitch / 2) for at in self.tubes_at)
-        if self.kind == DRUM:
-            return Prism(disc(self.pitch * (self.per_tier / turn + 0.5), *holes), CARRIER)
+        if radius := tubes_radius(self):
+            return Prism(disc(radius + self.pitch / 2, *holes), CARRIER)
         return Prism(Profile(rectangle(self.per_tier * self.pitch, self.pitch), holes), CARRIER)
 
     def moved(self, tube: float) -> float:
@@ -83,6 +83,11 @@ class Magazine:
     def longest_time(self) -> float:
         """Longest time from one tube to another [s]."""
         return _times(self)[1]
+
+
+def tubes_radius(magazine: Magazine) -> float:
+    """Radius of the tubes' axes on a drum [m]; 0 on a slide."""
+    return magazine.pitch * magazine.per_tier / turn if magazine.kind == DRUM else 0.0
 
 
 def tier_width(kind: str, tubes: int, pitch: float) -> float:

@@ -1,21 +1,31 @@
-"""The magazine of a head: the yarn tubes on their carrier, a drum or a slide, on an axle over the colours' motor."""
+"""The magazine of a head: the yarn tubes on their carrier, a drum or a slide, on an axle over the colours' motor.
 
+A flag under the carrier passes over a sensor, from which the motor's steps count; of several tiers, at the lowest.
+"""
+
+import cmath
 from collections.abc import Iterator
 
 from ilmek.cams.loaded_plate_cam import STEEL
+from ilmek.elements.field_devices import INDUCTIVE
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import AXLE
+from ilmek.machines.weaver.head_shape import AXLE, BESIDE_MOTOR, RAIL_AXIS
 from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER
 from ilmek.machines.weaver.parts import TUBE
+from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import UPRIGHT, placement
-from ilmek.part.shapes import bar, tube
+from ilmek.part.shapes import bar, box, tube
 from ilmek.part.tree import Occurrence
 from ilmek.units import format_quantity, mm, turn
 
-TUBE_CARRIER, TUBE_AXLE = part_id("tube-carrier"), part_id("tube-axle")
+TUBE_CARRIER, TUBE_AXLE, TUBE_FLAG = part_id("tube-carrier"), part_id("tube-axle"), part_id("tube-flag")
+INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
 """Ids of the parts."""
+
+FLAG, SENSING = (4 * mm, 2 * mm), 1 * mm
+"""Width and thickness of the flag, and from it to the sensor [m]; assumed by this project."""
 
 AXLE_DIAMETER = 8 * mm
 """Of the axle between motor and carrier [m]; assumed by this project."""
@@ -55,3 +65,31 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
         TUBE_AXLE, f"axle of the {kind}", "pin or bush", size, bar(AXLE_DIAMETER, low - CARRIER - flange), STEEL
     )
     yield Occurrence(axle, (placement(0.0, flange, depth).after(UPRIGHT),))
+    begin, end = AXLE_DIAMETER / 2, _index_at(weaver)
+    strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
+    size = f"{format_quantity(FLAG[1], 'mm')} thick"
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL)
+    under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
+    yield Occurrence(flag, (under.after(placement(z=begin)),))
+
+
+def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
+    """The sensor under the magazine's flag, on a stand on the bracket beside the motor."""
+    shape, at, (side, _, long) = weaver.shape, _index_at(weaver), INDUCTIVE.size
+    depth, foot = (shape.magazine + shape.magazine_size / 2).real + at.imag, shape.rail + RAIL_AXIS / 2
+    begin = shape.magazine.imag - CARRIER - FLAG[1] - SENSING - long
+    bought = Bought(INDUCTIVE.name, INDUCTIVE.mass)
+    sensor = Part(
+        INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, shape=bar(side, long), purchase=bought, envelope=True
+    )
+    yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
+    stand = Part(INDEX_STAND, "stand of the tubes' index", "pin or bush", "", bar(side, begin - foot), STEEL)
+    yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))
+
+
+def _index_at(weaver: Weaver) -> complex:
+    """The sensor in plan about the magazine's axis, x + i z [m]: beside the motor, between two tubes of a drum."""
+    magazine = weaver.magazine
+    radius = (selector_of(weaver.params, magazine).face + BESIDE_MOTOR) / 2
+    number = magazine.per_tier
+    return cmath.rect(radius, turn * (number // 4 + 0.5) / number if magazine.kind == DRUM else turn / 4)

@@ -1,9 +1,13 @@
 """The checks of the opener and of what has room in a head: tools between its plates, tubes, arms."""
 
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.magazine import TUBE_BORE
+from ilmek.machines.weaver.magazine_parts import INDEX_SENSOR
 from ilmek.machines.weaver.opener import LEAST_ROOM
 from ilmek.machines.weaver.parts import TUBE
+from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import OPENER_PLATE, PILE_HANDLER, SLEY_BAR
 from ilmek.report import Check, at_least, at_most
 
@@ -121,6 +125,15 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
             "parameter magazine_room",
             cure="set a larger weaver.magazine_room, or fewer colours",
             parts=(TUBE,),
+        ),
+        at_most(
+            "place of a tube",
+            selector_of(params, magazine).error,
+            (TUBE_BORE * magazine.pitch - params.yarn) / 2,
+            "mm",
+            "the yarn within the tube's bore; full steps of the selector's motor, and its index sensor",
+            cure="set a larger weaver.tube_pitch",
+            parts=(TUBE, COLOUR_MOTOR, INDEX_SENSOR),
         ),
     )
     if not params.with_arms:

@@ -1,6 +1,5 @@
 """Parameters of a knotting head; phases, strokes and dimensions are assumed by this project: the thesis prints none."""
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -9,6 +8,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import ParameterError
+from ilmek.machines.weaver.cutter import CROSSED
 from ilmek.machines.weaver.magazine import DRUM, SLIDE
 from ilmek.machines.weaver.motions import (
     CENTRE_GRASP,
@@ -147,7 +147,9 @@ class WeaverParams(Params):
     carriage_speed: float = _speed(0.25, "speed of the head along the row")
     carriage_acceleration: float = _acceleration(2.0, "acceleration of the head along the row")
     carriage_jerk: float = _jerk(100.0, "jerk of the head along the row")
-    cutter_acceleration: float = _acceleration(50.0, "acceleration of the cutter's blade")
+    cutter_turn: float = kind.time(
+        40e-3, at_least=1e-3, at_most=1.0, doc="time of half a turn of the cutter's eccentric, which makes the cut"
+    )
     tubes: int = kind.count(16, at_least=1, at_most=255, doc="yarn tubes, one for each colour")
     magazine: str = kind.choice(DRUM, (DRUM, SLIDE), doc="tubes on a drum, or on slides")
     tube_tiers: int | None = kind.count(
@@ -159,7 +161,7 @@ class WeaverParams(Params):
     selector_acceleration: float = _acceleration(1.0, "acceleration of the colour selector")
     selector_jerk: float = _jerk(50.0, "jerk of the colour selector")
     tube_mass: float = kind.mass(0.02, at_least=0.0, at_most=10.0, doc="a yarn tube with its share of the slide")
-    selector_pulley: float = kind.length(10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of the tubes' pulley")
+    selector_pulley: float = kind.length(10 * mm, at_least=1e-3, at_most=0.2, doc="pitch radius of a slide's pulley")
 
     def check_together(self) -> None:
         """The steps of the turn and the motions of a tool follow each other; the opener makes room for a gripper."""
@@ -257,8 +259,8 @@ class WeaverParams(Params):
 
     @property
     def cutting_time(self) -> float:
-        """Time of the cutter's blade [s] across two diameters of the yarn, from rest to rest."""
-        return math.sqrt(4 * 2 * self.yarn / self.cutter_acceleration)
+        """Time in which the cutter's blade crosses the yarn [s]."""
+        return CROSSED * self.cutter_turn
 
     @property
     def centre_room(self) -> float:

@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam
+from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, torque_at
 from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.weaver.checks import head_checks
-from ilmek.machines.weaver.design import Weaver, shaft_torque
+from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE, Grippers
 from ilmek.machines.weaver.limits import HeadLimits, head_limits
 from ilmek.machines.weaver.magazine import Magazine
@@ -256,7 +256,7 @@ def torque_plot(weaver: Weaver) -> Plot:
     angle = np.linspace(0, turn, 721)
     each = [np.interp(angle, cam.angle, cam.torque) for cam in weaver.cams]
     series = tuple(Series(cam.name, angle, torque, dashed=True) for cam, torque in zip(weaver.cams, each, strict=True))
-    total = Series("all, and the cutter", angle, shaft_torque(weaver, angle))
+    total = Series("all", angle, torque_at(weaver.cams, angle))
     axes = Axis("cam angle", "deg"), Axis("torque", "Nm")
     note = "inertia, springs, the handler's brake, and the tools' work"
     return Plot("cam-torque", "Torque on the head's cam shaft", *axes, (total, *series), note=note)

@@ -53,7 +53,6 @@ class ToolForces(Params):
     )
     sley: float = kind.force(10.0, at_least=0.0, at_most=1e4, doc="force of the sley that pushes a knot down")
     sley_travel: float = kind.length(5 * mm, above=0.0, at_most=0.3, doc="last part of its stroke, against the knot")
-    cutter_mass: float = kind.mass(0.02, at_least=0.0, at_most=10.0, doc="mass of the cutter's blade and slide")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The head's tools as parts and bodies: grippers, opener, sley, pile handler and knife.
+"""The head's tools as parts and bodies: grippers, opener, sley and pile handler.
 
 Axes of the head as in the scene: x along the row to the weaver's right, 0 in the middle of the pair; y along the warps,
 up from the fell; z to the front, 0 at the axes of the warps.
@@ -21,7 +21,7 @@ from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_M
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.widths import stack_width
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle, tube
@@ -41,9 +41,6 @@ SLEY_FOOT, SLEY_ARM, BESIDE_SLEY = 6 * mm, 3 * mm, 3 * mm
 """Depth of the sley's foot over the pair, at most, width of its arm, and from the opener to it [m]; assumed by this
 project."""
 
-KNIFE = (10 * mm, 20 * mm, 20 * mm)
-"""Room of the cutter's blade with its slide, across, along the warps and to the front [m]; assumed by this project."""
-
 CARRIED = 0.1
 """Mass of carriage, lever and follower beside a tool for which a cam is designed [kg]; a check compares it."""
 
@@ -61,7 +58,7 @@ def part_id(name: str) -> str:
 
 SIDE_GRIPPER, CENTRE_GRIPPER = part_id("side-gripper"), part_id("centre-gripper")
 OPENER_PLATE, SLEY_BAR = part_id("opener-plate"), part_id("sley")
-PILE_HANDLER, KNIFE_PART = part_id("pile-handler"), part_id("knife")
+PILE_HANDLER = part_id("pile-handler")
 """Ids of the parts."""
 
 LEFT, RIGHT = part_id("left side gripper"), part_id("right side gripper")
@@ -230,18 +227,6 @@ class ToolBodies:
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
     return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{_mm(shape.length)} thick")
-
-
-def knife(params: WeaverParams) -> Part:
-    """The cutter's blade with its slide and its spring, as one room."""
-    return Part(
-        KNIFE_PART,
-        "knife with its slide",
-        "machined link",
-        shape=box(*KNIFE),
-        purchase=Bought("blade, slide and spring", params.forces.cutter_mass),
-        envelope=True,
-    )
 
 
 def wire_of(params: WeaverParams) -> float:

@@ -1,4 +1,5 @@
-"""The head as a tree of bodies: the case on its carriage, the cam shaft, the tools that the cams move, the magazine.
+"""The head as a tree of bodies: the case on its carriage, the cam shaft, the tools that the cams move, the
+knife, the magazine.
 
 Axes of the scene: x along the row, 0 in the middle of the head, y up from the fell, z to the front from the warps.
 """
@@ -17,8 +18,9 @@ from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR, TIER_MOTOR, cam_driv
 from ilmek.machines.weaver.followers import follower_bodies, guide
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import jaw_bodies
+from ilmek.machines.weaver.knife import KNIFE_CLOSURE, knife_bodies, knife_stands
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
-from ilmek.machines.weaver.magazine_parts import magazine_parts
+from ilmek.machines.weaver.magazine_parts import index_sensor, magazine_parts
 from ilmek.machines.weaver.parts import MOTOR, cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.transmissions import CAM_SHAFT, transmissions
@@ -79,7 +81,7 @@ def head_tree(weaver: Weaver) -> Tree:
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
         for stands in case_parts(weaver)
     )
-    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver))
+    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver), *knife_stands(weaver))
     upright, carried = placement(about=(0.0, 0.0, 1.0), angle=turn / 4), carried_parts(weaver)
     tools = (
         replace(body, occurrences=(*body.occurrences, *carried.get(body.id, ())))
@@ -89,7 +91,7 @@ def head_tree(weaver: Weaver) -> Tree:
         (
             RigidBody(
                 HEAD,
-                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver)),
+                (*case, *stands, *cam_drive(weaver), *colour_motors(weaver), *index_sensor(weaver)),
                 joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0), motor=CARRIAGE_MOTOR),
             ),
             RigidBody(
@@ -104,9 +106,10 @@ def head_tree(weaver: Weaver) -> Tree:
             *tools,
             *(() if weaver.params.with_arms else jaw_bodies(weaver)),
             *turning_bodies(weaver, HEAD),
+            *knife_bodies(weaver, HEAD),
             *_magazine(weaver),
         ),
-        tuple(transmissions(weaver)),
+        (*transmissions(weaver), KNIFE_CLOSURE),
     )
 
 

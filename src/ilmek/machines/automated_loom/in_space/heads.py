@@ -22,9 +22,11 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.weaver import Weaver
+from ilmek.machines.weaver.cutter import eccentricity, half_turn
 from ilmek.machines.weaver.followers import follower_id
 from ilmek.machines.weaver.head_shape import RAIL_AXIS, HeadTool
 from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
+from ilmek.machines.weaver.knife import BLADE_BODY, ECCENTRIC_BODY
 from ilmek.machines.weaver.knot import led_between
 from ilmek.machines.weaver.lever_parts import lever_id
 from ilmek.machines.weaver.motions import (
@@ -51,7 +53,7 @@ from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
-_YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS = 91, 48, 41, 121
+_YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS, _CUT = 91, 48, 41, 121, 25
 
 
 def heads(loom: LoomDesign) -> MachineTree:
@@ -101,6 +103,7 @@ def motions(loom: LoomDesign) -> Mapping[str, SceneMotion]:
         SLEY_BODY: along_track(knot, SLEY, (0.0, -1.0, 0.0)),
         **_of_cams(weaver, knot),
         **_of_handler(weaver, knot),
+        **_of_knife(weaver, knot),
     }
     if weaver.params.with_arms:
         return driven
@@ -138,6 +141,22 @@ def _of_handler(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
     return {
         HANDLER_BODY: motion(knot, own, rotation=sample(track, own).position),
         PINION_BODY: motion(knot, angle, rotation=(lift - lift[0]) / weaver.params.pinion),
+    }
+
+
+def _of_knife(weaver: Weaver, knot: Cyclogram) -> Mapping[str, SceneMotion]:
+    """The eccentric, half a turn about the middle of the time that the cut has, and half a turn back; its blade."""
+    handler, takes = knot.track(HANDLER), weaver.params.cutter_turn * knot.speed
+    middle = (handler.segment("draw").end + handler.segment("present").start) / 2
+    share = np.linspace(0.0, 1.0, _CUT)
+    angle = middle + takes * np.concatenate([share - 0.5, share[1:] + 0.5])
+    turned = np.concatenate([half_turn(share), turn / 2 + half_turn(share[1:])])
+    angle, turned = np.array([0.0, *angle, turn]), np.array([0.0, *turned, turn])
+    lift = eccentricity(weaver.params.yarn) * (1 - np.cos(turned))
+    still = 0 * lift
+    return {
+        ECCENTRIC_BODY: motion(knot, angle, rotation=turned),
+        BLADE_BODY: motion(knot, angle, shift=np.stack([still, lift, still], axis=1)),
     }
 
 
