@@ -152,7 +152,7 @@ def design(params: WeaverParams) -> Weaver:
 
     angle = cams[0].angle
     most = float(np.abs(torque_at(cams, angle) + cutter(angle)).max())
-    belt = cam_belt(most, max(cam.radius for cam in cams))
+    belt = cam_belt(most, max(cam.radius for cam in cams), params.cam_belt)
     rest = {
         "cams": case_width(params),
         "warps pushed aside": min(opener.crowd, params.opener.crowd_limit),
