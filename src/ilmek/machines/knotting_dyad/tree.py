@@ -163,7 +163,7 @@ def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, 
 
 
 def _axis(dyad: KnottingDyad, head: Head, middle: float) -> Iterator[Occurrence]:
-    """The axis of the centre gripper, behind its bar at rest, and at its far end its motor, which lifts bar and blade."""
+    """The axis of the centre gripper, behind its bar at rest, and the motor at its far end that lifts bar and blade."""
     stroke = head.centre_stroke
     axis = Part(
         f"{NAME}/centre-axis",
