@@ -117,7 +117,7 @@ def _place(loom: LoomDesign, name: str, x: float, angles: np.ndarray) -> np.ndar
     (head,) = [chain for chain in chains(tree) if chain[-1].body.id == HEAD][:1]
     posed, carried = poses(chain, "knot", angles), poses(head, "knot", angles)
     point = posed.origin + posed.rotation @ np.array([x, 0.0, amid]) - carried.origin
-    return np.einsum("nji,nj->ni", carried.rotation, point)
+    return np.asarray(np.einsum("nji,nj->ni", carried.rotation, point))
 
 
 def test_what_is_in_the_way_of_the_arms_is_a_failed_check_that_names_both() -> None:
