@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from types import MappingProxyType
 
-from ilmek.machines.automated_loom.assembly import assembly
+from ilmek.machines.automated_loom.assembly import assembly, standing_contacts
 from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
@@ -41,9 +41,9 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
     for its own parts, no beat helps: the loom stays.
     """
     refused: dict[str, tuple[Check, ...]] = {}
-    while params.beat == AUTO and loom.params.beat not in refused and not assembly(loom).holds:
-        if not _heads_have_room(loom):
-            break
+    if params.beat != AUTO or not _heads_have_room(loom):
+        return loom
+    while loom.params.beat not in refused and not assembly(loom).holds:
         refused[loom.params.beat] = assembly(loom).checks
         loom = _chosen(params, refused)
     return loom
@@ -52,7 +52,7 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
 def _heads_have_room(loom: LoomDesign) -> bool:
     """Whether no two parts of a head are through each other as they stand."""
     carried = set(loom_tree(loom).carried_by(HEAD))
-    return not any(carried.issuperset(pair.bodies) for pair in assembly(loom).contacts.through)
+    return not any(carried.issuperset(pair.bodies) for pair in standing_contacts(loom).through)
 
 
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
