@@ -26,21 +26,33 @@ GAP_STEP, MASS_STEP = 0.1 * mm, 10 * g
 """To which gaps [m] and masses [kg] are rounded up."""
 
 
+GREATEST = {
+    "cam_thickness": PLATES[-1],
+    "cam_gap": 6 * mm,
+    "cam_belt": PROFILE.widths[-1],
+    "tool_mass": 1000 * g,
+    "sley_stroke": 100 * mm,
+    "height": 60 * mm,
+}
+"""The greatest of each size [m, kg], where a check fails; assumed by this project."""
+
+
 def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
     """The parameters of a head that its loads need larger, by name; empty where all are enough."""
-    params = weaver.params
+    params, own = weaver.params, weaver.params.opener
+    height = min(max(own.height, tools_height(weaver)), max(own.height, GREATEST["height"]))
     needed = {
         "cam_thickness": _made(PLATES, params.cam_thickness * _cam_use(weaver)),
         "cam_gap": _up(max(params.cam_gap * _fork_use(weaver), _beside_opener(weaver)), GAP_STEP),
         "cam_belt": _made(PROFILE.widths, MARGIN * weaver.belt.pull / weaver.belt.allowed * params.cam_belt),
         "tool_mass": _up(max(_heavy(weaver), default=0.0), MASS_STEP),
-        "sley_stroke": params.opener.front_span + max(params.opener.height, tools_height(weaver)) + params.opener.plate,
+        "sley_stroke": own.front_span + height + own.plate,
     }
-    more: dict[str, Any] = {name: value for name, value in needed.items() if value > getattr(params, name)}
-    taller = tools_height(weaver) - params.opener.height
-    if taller > 0:
-        own = params.opener
-        more["opener"] = replace(own, height=own.height + taller, back_span=max(own.back_span - taller, own.front_span))
+    sizes = {name: min(size, GREATEST[name]) for name, size in needed.items()}
+    more: dict[str, Any] = {name: size for name, size in sizes.items() if size > getattr(params, name)}
+    if height > own.height:
+        back = max(own.back_span + own.height - height, own.front_span)
+        more["opener"] = replace(own, height=height, back_span=back)
     return more
 
 
