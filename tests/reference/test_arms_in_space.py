@@ -17,7 +17,7 @@ from ilmek.machines.knotting_dyad import KnottingDyad
 from ilmek.machines.weaver.motions import CENTRE_ARM, LEFT_ARM, RIGHT_ARM
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.contacts import contacts
-from ilmek.part.freedoms import freedoms
+from ilmek.part.drive_balance import drive_balance
 from ilmek.part.part import Part
 from ilmek.part.poses import chains, poses
 from ilmek.part.tree import Tree
@@ -65,7 +65,7 @@ def test_they_weigh_what_the_head_carries(number: int) -> None:
 def test_motors_drive_each_degree_of_freedom_and_none_is_in_excess(number: int) -> None:
     """Two arms of two joints and a slide for each head; without a motor its joint is free."""
     tree = loom_tree(_loom(number))
-    free = freedoms(tree)
+    free = drive_balance(tree)
     assert free.number == free.axes == free.driven
     assert not free.undriven + free.excess
     heads = _loom(number).heads
@@ -75,8 +75,8 @@ def test_motors_drive_each_degree_of_freedom_and_none_is_in_excess(number: int) 
             replace(body, joint=replace(body.joint, motor="" if body.joint.motor == servo else body.joint.motor))
             for body in tree.bodies
         )
-        assert freedoms(without).excess == (servo,)
-        assert all(body.startswith(DYAD) for body in freedoms(without).undriven)
+        assert drive_balance(without).excess == (servo,)
+        assert all(body.startswith(DYAD) for body in drive_balance(without).undriven)
 
 
 @every_loom
