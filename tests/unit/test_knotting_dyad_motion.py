@@ -220,7 +220,9 @@ def test_parts_and_work_of_the_arms_of_a_head() -> None:
     own = parts["link 2 of an arm"].mass + parts["blade of a needle"].mass + parts["gripper of an arm"].mass
     assert own == pytest.approx(two.mass)
     assert parts["gripper of an arm"].mass == made_.params.gripper_mass
-    assert sum(part.number for part in parts.values() if part.drives) == 4
+    assert (
+        sum(part.number for part in parts.values() if part.drives) == 5
+    )  # two servos an arm, and the motor of the centre gripper
     (work,) = MACHINE.work(made_)
     motion, energy = head_motion(made_.params, made_.head), 0.0
     for name, arm in motion.cycle.arms.items():

@@ -13,7 +13,6 @@ from ilmek.machines.weaver.cams import programme_of
 from ilmek.machines.weaver.limits import cut_share, cycle_limits
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.tool_params import ToolForces
-from ilmek.machines.weaver.widths import BELT
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
@@ -115,7 +114,7 @@ def test_the_inertia_of_a_cam_is_between_those_of_its_circles() -> None:
 def test_six_cams_stand_beside_each_other_on_the_shaft() -> None:
     results = MACHINE.report(usual()).as_json()["results"]
     params = usual().params
-    assert results["cam_stack_width"] == pytest.approx(6 * params.cam_thickness + BELT + 8 * params.cam_gap)
+    assert results["cam_stack_width"] == pytest.approx(6 * params.cam_thickness + params.cam_belt + 8 * params.cam_gap)
     assert [cam.actuator for cam in usual().cams if cam.name == SLEY] == ["cam 6"]
     failed = [check.name for check in MACHINE.report(design(WeaverParams(head_width=0.05, cam_room=0.15))).failed]
     assert failed == [

@@ -70,7 +70,7 @@ def welded_to(frame: "LoomFrame", depth: float) -> HollowSquare:
 class FrameTask:
     """What the frame bears.
 
-    width, height   between the columns, and of them [m]      depth   of the feet [m]
+    width           of the rail [m]     height  of the columns [m]     depth   of the feet [m]
     pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
     carried         mass on the columns [kg]
     heads           that ride on the rail                      head_mass, head_width  of one [kg, m]

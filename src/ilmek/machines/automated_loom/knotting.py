@@ -30,6 +30,7 @@ from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
+from ilmek.machines.weaver.sizes import larger_sizes
 from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, choose
@@ -41,6 +42,9 @@ KNOTTING = (CAMS, ARMS)
 """Kinds of knotting, the cheaper first."""
 
 AUTO = "auto"
+
+ROUNDS = 6
+"""Of sizes by loads: each is larger than the one before, or the last."""
 
 H = TypeVar("H", WeaverParams, KnottingDyadParams)
 
@@ -94,7 +98,7 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
     assert component.fit is not None
     params: WeaverParams = component.fit(task)
     if kind == CAMS:
-        params = _of_the_knot(WEAVER, task.parameters(WEAVER, params), task)
+        params = _sized(task, params)
         if params.with_arms:
             raise LoomError("weaver.arms.time, and knotting=cams", do="set knotting=arms, or leave weaver.arms out")
         return _on_cams(params)
@@ -116,19 +120,37 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
             mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         ),
     )
-    return _by_arms(_of_the_knot(WEAVER, task.parameters(WEAVER, params), task), arms)
+    return _by_arms(_sized(task, params), arms)
+
+
+def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
+    """The parameters of a head for the loom's knot: the user's, and of those left open as large as its loads need."""
+    for _ in range(ROUNDS):
+        params = _of_the_knot(WEAVER, task.parameters(WEAVER, derived), task)
+        larger = larger_sizes(_weaver(params))
+        if task.parameters(WEAVER, replace(derived, **larger)) == params:
+            break
+        derived = replace(derived, **larger)
+    return params
+
+
+@lru_cache(maxsize=8)
+def _weaver(params: WeaverParams) -> Weaver:
+    """A head, designed once for each set of parameters: a loom's choices ask for the same one."""
+    design: Weaver = MACHINES[WEAVER].design(params)
+    return design
 
 
 @lru_cache(maxsize=4)
 def _on_cams(params: WeaverParams) -> KnottingHead:
-    """A head on its cams, designed once for each set of parameters: a loom's choices ask for the same one."""
-    return _of(CAMS, MACHINES[WEAVER].design(params), {})
+    """A head on its cams, with its checks."""
+    return _of(CAMS, _weaver(params), {})
 
 
 @lru_cache(maxsize=4)
 def _by_arms(params: WeaverParams, arms: KnottingDyad) -> KnottingHead:
-    """A head with arms, designed once for each set of parameters."""
-    made: Weaver = MACHINES[WEAVER].design(params)
+    """A head with arms, with its checks."""
+    made = _weaver(params)
     return _of(ARMS, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
 
 

@@ -104,7 +104,7 @@ def rail_middle(loom: LoomDesign) -> complex:
 
 
 def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
-    axis, near, bottom = rail_middle(loom), loom.task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
+    axis, near, bottom = rail_middle(loom), frame.task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
     beside = frame.beside(brackets_of(loom).face)[0]
     load = rail_support_load(frame.task, frame.rail, spans=1)
 

@@ -11,22 +11,34 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.drive_parts import PULLEY
+from ilmek.elements.materials import GRAVITY
+from ilmek.elements.motors import smallest_motor
 from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.knotting_dyad.arms import NAME, SERVOS, arm_mechanism, arm_parts, blade_part, carried, edgewise
+from ilmek.machines.knotting_dyad.arms import (
+    NAME,
+    SERVOS,
+    arm_mechanism,
+    arm_parts,
+    blade_part,
+    carried,
+    edgewise,
+    levels_of,
+)
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
-from ilmek.machines.link_tree import FRAME, GAP, Levels, LinkageParts, link_part, linkage_tree
+from ilmek.machines.link_tree import FRAME, GAP, Levels, LinkageParts, body_id, link_part, linkage_tree
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import box
-from ilmek.part.tree import Occurrence, Tree, in_line
+from ilmek.part.tree import Occurrence, RigidBody, Tree, in_line
 from ilmek.units import deg, format_quantity, mm
 
 POSES = 181
@@ -37,7 +49,11 @@ CENTRE = "centre gripper"
 AXIS = 20 * mm
 """Side of the section of the centre gripper's axis [m]; assumed by this project."""
 
+CENTRE_MOTOR = f"{NAME}/centre-motor"
+"""Id of the motor of the centre gripper's axis."""
+
 UP = 90 * deg
+_TURNED = dict(zip(("link 1", "link 2"), SERVOS, strict=True))
 _ALONG = placement(about=(0.0, 0.0, 1.0), angle=UP)
 
 
@@ -50,17 +66,33 @@ def tree(dyad: KnottingDyad) -> Tree:
     motion = head_motion(params, head)
     arm = arm_parts(params, head, motion.hole)
     loads = carried(params, head, motion.hole)
-    bottom = arm.levels.bottoms["link 2"] + params.link_thickness / 2
+    bottom = needle_level(dyad)
     others = {
         **loads,
         **{other(body): occurrences for body, occurrences in loads.items()},
         CENTRE: _centre(dyad, head, bottom),
-        GROUND: (*_servos(dyad, head, motion), *_axis(head, bottom)),
+        GROUND: (*_servos(dyad, head, motion), *_axis(dyad, head, bottom)),
     }
     if params.elbow_drive == "direct":
         servo = (_elbow_servo(motion.joints[1], loads["link 1"], abs(head.arm.first)),)
         others |= {"link 1": servo, other("link 1"): servo}
-    return linkage_tree(_both(arm, _mechanism(head)), _moving(head, motion), others)
+    return _with_motors(linkage_tree(_both(arm, _mechanism(head)), _moving(head, motion), others))
+
+
+def _with_motors(linkage: Tree) -> Tree:
+    """The linkage with the motor of each of its joints."""
+    driven = {
+        **{body_id(NAME, named(body)): motor for named in (str, other) for body, motor in _TURNED.items()},
+        body_id(NAME, CENTRE): CENTRE_MOTOR,
+    }
+    return linkage.replaced(
+        replace(body, joint=replace(body.joint, motor=driven.get(body.id, ""))) for body in linkage.bodies
+    )
+
+
+def needle_level(dyad: KnottingDyad) -> float:
+    """Height of the middles of all blades above the plate's back [m]."""
+    return levels_of(dyad.params, 0.0).bottoms["link 2"] + dyad.params.link_thickness / 2
 
 
 def _mechanism(head: Head) -> Mechanism:
@@ -130,8 +162,8 @@ def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, 
     return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade_part(params, head), (blade,))
 
 
-def _axis(head: Head, middle: float) -> Iterator[Occurrence]:
-    """The axis of the centre gripper, behind its bar at rest."""
+def _axis(dyad: KnottingDyad, head: Head, middle: float) -> Iterator[Occurrence]:
+    """The axis of the centre gripper, behind its bar at rest, and the motor at its far end that lifts bar and blade."""
     stroke = head.centre_stroke
     axis = Part(
         f"{NAME}/centre-axis",
@@ -144,6 +176,13 @@ def _axis(head: Head, middle: float) -> Iterator[Occurrence]:
     )
     at = placement(head.section.middle, head.section.front + head.section.needle_length + stroke / 2, middle + AXIS / 2)
     yield Occurrence(axis, (at.after(_ALONG),))
+    params, moved = dyad.params, RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth
+    torque, turning = moved * (params.centre_acceleration + GRAVITY) * PULLEY, params.centre_speed / PULLEY
+    chosen = smallest_motor(torque, turning)
+    motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
+    flange = placement(x=stroke / 2, about=(0.0, 1.0, 0.0), angle=-UP)
+    aside = placement(z=((chosen.face if chosen else catalogue.SPECIAL_FACE) - AXIS) / 2)
+    yield Occurrence(motor, (at.after(_ALONG).after(aside).after(flange),))
 
 
 def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Iterator[Occurrence]:

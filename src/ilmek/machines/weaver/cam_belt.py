@@ -11,22 +11,22 @@ import math
 
 from ilmek.elements.belts import BELTS, MESHING
 from ilmek.elements.duty import MARGIN
-from ilmek.machines.weaver.widths import BELT
 from ilmek.records import record
 from ilmek.units import turn
 
 PROFILE, SMALL = BELTS["AT5"], 30
 """The belt, and the teeth of its small pulley, of which as many mesh as may share the pull."""
 
-PULL = (PROFILE.pull or 0.0) * BELT * MESHING
-"""Allowed pull of the belt [N]."""
+PULL = (PROFILE.pull or 0.0) * MESHING
+"""Allowed pull of the belt over its width [N/m]."""
 
 
 @record
 class CamBelt:
-    """A belt on two pulleys: teeth of the one on the cam shaft, and the torque that it has to give [N m]."""
+    """A belt on two pulleys: teeth of the one on the cam shaft, its width [m], and the torque that it gives [N m]."""
 
     large: int
+    width: float
     torque: float
 
     @property
@@ -44,9 +44,14 @@ class CamBelt:
         """Greatest pull by the torque [N]."""
         return self.torque / self.radii[0]
 
+    @property
+    def allowed(self) -> float:
+        """The greatest pull that it bears [N]."""
+        return PULL * self.width
 
-def cam_belt(torque: float, room: float) -> CamBelt:
-    """The belt for a torque on the cam shaft [N m], its large pulley no larger than a room's radius [m]."""
-    needed = math.ceil(turn * MARGIN * torque / (PROFILE.pitch * PULL) - 1e-9)
+
+def cam_belt(torque: float, room: float, width: float) -> CamBelt:
+    """The belt of a width [m] for a torque on the cam shaft [N m], its large pulley no larger than a room's radius."""
+    needed = math.ceil(turn * MARGIN * torque / (PROFILE.pitch * PULL * width) - 1e-9)
     most = math.floor(turn * room / PROFILE.pitch)
-    return CamBelt(max(SMALL, min(needed, most)), torque)
+    return CamBelt(max(SMALL, min(needed, most)), width, torque)

@@ -8,7 +8,7 @@ from ilmek.elements.belts import MESHING
 from ilmek.elements.duty import MARGIN
 from ilmek.loom.production import HAND_KNOT
 from ilmek.machines.weaver.bracket_strength import bracket_checks
-from ilmek.machines.weaver.cam_belt import PROFILE, PULL
+from ilmek.machines.weaver.cam_belt import PROFILE
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
 from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
@@ -318,10 +318,12 @@ def _spring_check(weaver: Weaver) -> Check:
 
 def _belt_check(weaver: Weaver) -> Check:
     """The belt of the cam shaft bears the torque."""
-    cure = "set lighter tools, a longer knot_cycle, or a lower tension"
+    cure = "set a wider weaver.cam_belt, lighter tools, a longer knot_cycle, or a lower tension"
     pull = MARGIN * weaver.belt.pull
     source = f"{PROFILE.name}, {MESHING} teeth in mesh, margin {MARGIN:g}"
-    return at_most("pull of the cam shaft's belt", pull, PULL, "N", source, cure=cure, parts=(CAM_BELT_PART,))
+    return at_most(
+        "pull of the cam shaft's belt", pull, weaver.belt.allowed, "N", source, cure=cure, parts=(CAM_BELT_PART,)
+    )
 
 
 def _case_check(weaver: Weaver) -> Check:

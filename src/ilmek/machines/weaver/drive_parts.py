@@ -16,7 +16,7 @@ from ilmek.machines.weaver.parts import MOTOR
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.stations import belt_station
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.machines.weaver.widths import BELT, case_width
+from ilmek.machines.weaver.widths import case_width
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
@@ -59,9 +59,9 @@ def reducer_at(weaver: Weaver) -> complex:
 def shaft_pulley(weaver: Weaver) -> Occurrence:
     """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
     radius = weaver.belt.radii[0] - TEETH - ON_PULLEY
-    ring = tube(2 * radius, radius - weaver.params.shaft / 2, BELT)
+    ring = tube(2 * radius, radius - weaver.params.shaft / 2, weaver.belt.width)
     part = Part(CAM_PULLEY, "pulley of the cam shaft", "machined link", _teeth(weaver.belt.large), ring, ALUMINIUM)
-    return Occurrence(part, (placement(z=-belt_station(weaver) - BELT),))
+    return Occurrence(part, (placement(z=-belt_station(weaver) - weaver.belt.width),))
 
 
 def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
@@ -76,10 +76,17 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
     part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
-    stub = Part(STUB, "output of the angle reducer", "pin or bush", _mm(OUTPUT), bar(OUTPUT, BELT + 0.5 * mm), STEEL)
+    stub = Part(
+        STUB,
+        "output of the angle reducer",
+        "pin or bush",
+        _mm(OUTPUT),
+        bar(OUTPUT, weaver.belt.width + 0.5 * mm),
+        STEEL,
+    )
     yield Occurrence(stub, (placement(begin - 0.5 * mm, at.imag, at.real).after(ALONG_WIDTH),))
     radius = weaver.belt.radii[1] - TEETH - ON_PULLEY
-    ring = tube(2 * radius, radius - OUTPUT / 2, BELT)
+    ring = tube(2 * radius, radius - OUTPUT / 2, weaver.belt.width)
     pulley = Part(SMALL_PULLEY, "small pulley of the cam belt", "machined link", _teeth(SMALL), ring, ALUMINIUM)
     yield Occurrence(pulley, (placement(begin, at.imag, at.real).after(ALONG_WIDTH),))
     yield _belt(weaver, at, begin)
@@ -100,15 +107,15 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
         CAM_BELT,
         "belt of the cam shaft",
         "belt and pulleys",
-        f"{PROFILE.name}, {_mm(BELT)} wide",
-        Prism(Profile(outer, (inner,)), BELT),
-        purchase=Bought(PROFILE.name, BELT_MASS * length, length=length),
+        f"{PROFILE.name}, {_mm(weaver.belt.width)} wide",
+        Prism(Profile(outer, (inner,)), weaver.belt.width),
+        purchase=Bought(PROFILE.name, BELT_MASS * weaver.belt.width * length, length=length),
     )
-    return Occurrence(part, (placement(begin + BELT, axis.imag, axis.real).after(IN_SIDE_VIEW),))
+    return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
 
 
-BELT_MASS = 0.034
-"""Of the belt for each metre, 10 mm wide [kg/m]: makers' data for AT5 of polyurethane."""
+BELT_MASS = 3.4
+"""Of the belt for each metre and metre of width [kg/m²]: makers' data for AT5 of polyurethane."""
 
 
 def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:

@@ -76,7 +76,7 @@ def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
         at_least(
             "opener: room of the tools between its plates",
             own.height,
-            _tools_height(weaver),
+            tools_height(weaver),
             "mm",
             "height of the grippers, or of a needle, with their clearances",
             cure="set a larger weaver.opener.height",
@@ -103,7 +103,7 @@ def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
     )
 
 
-def _tools_height(weaver: Weaver) -> float:
+def tools_height(weaver: Weaver) -> float:
     """Height along the warps that the tools take between the opener's plates [m]."""
     params, by = weaver.params, weaver.grippers
     if params.with_arms:

@@ -135,6 +135,9 @@ class WeaverParams(Params):
     roller_radius: float = kind.length(0.0065, at_least=1e-3, at_most=0.05, doc="radius of the cams' rollers")
     cam_thickness: float = kind.length(8 * mm, at_least=5e-4, at_most=0.05, doc="thickness of a cam")
     cam_gap: float = kind.length(1.7 * mm, at_least=0.0, at_most=0.05, doc="gap between cams, and beside them")
+    cam_belt: float = kind.length(
+        10 * mm, at_least=5e-3, at_most=0.05, doc="width of the belt that drives the cam shaft"
+    )
     shaft: float = kind.length(15 * mm, at_least=0.007, at_most=0.1, doc="diameter of the cam shaft")
     side_plate: float = kind.length(8 * mm, at_least=0.0, at_most=0.1, doc="side plates with the shaft's bearings")
     head_width: float | None = kind.length(

@@ -17,7 +17,7 @@ from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.machines.weaver.widths import BELT, case_width
+from ilmek.machines.weaver.widths import case_width
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -102,10 +102,10 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
     end = wide / 2 - params.side_plate - _into_gap(weaver)
-    pulley = -belt_station(weaver) - BELT
+    pulley = -belt_station(weaver) - weaver.belt.width
     places = [
         (-end, -end),
-        (pulley, pulley + BELT),
+        (pulley, pulley + weaver.belt.width),
         *((z, z + params.cam_thickness) for z in sorted(begins)),
         (end, end),
     ]

@@ -15,7 +15,7 @@ from ilmek.machines.weaver.motions import (
     SIDE_MOTION,
     SLEY,
 )
-from ilmek.machines.weaver.widths import BELT, stack_width
+from ilmek.machines.weaver.widths import stack_width
 from ilmek.units import mm
 
 ORDER = ((SLEY,), (SIDE_GRASP,), (SIDE_MOTION, OPENER), (CENTRE_MOTION,), (CENTRE_GRASP,), (HANDLER,))
@@ -36,7 +36,7 @@ def station(weaver: Weaver, track: str) -> float:
 
 def belt_station(weaver: Weaver) -> float:
     """Where the belt begins along the row [m], at the right of the last cam."""
-    return stack_width(weaver.params) / 2 - weaver.params.cam_gap - BELT
+    return stack_width(weaver.params) / 2 - weaver.params.cam_gap - weaver.belt.width
 
 
 def lever_thickness(weaver: Weaver) -> float:

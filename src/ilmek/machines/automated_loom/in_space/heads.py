@@ -1,6 +1,7 @@
-"""The knotting heads in space: the bodies of their tree on the rail, arms, and the yarn that they tie."""
+"""The knotting heads in space: the bodies of their tree on the rail, the arms on them, and the yarn that they tie."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,15 +17,19 @@ from ilmek.machines.automated_loom.in_space.maker import (
     along_track,
     half_width,
     motion,
-    room_part,
     track_angles,
 )
+from ilmek.machines.automated_loom.knotting import DYAD
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.knotting_dyad import KnottingDyad
+from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.knotting_dyad.tree import needle_level
+from ilmek.machines.knotting_dyad.tree import tree as arms_tree
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cutter import eccentricity, half_turn
 from ilmek.machines.weaver.followers import follower_id
-from ilmek.machines.weaver.head_shape import RAIL_AXIS, HeadTool
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
 from ilmek.machines.weaver.knife import BLADE_BODY, ECCENTRIC_BODY
 from ilmek.machines.weaver.knot import led_between
@@ -45,14 +50,14 @@ from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_B
 from ilmek.machines.weaver.transmissions import CAM_SHAFT
 from ilmek.machines.weaver.tree import HEAD, head_tree, on_the_axis, placed
 from ilmek.machines.weaver.turning import HANDLER_BODY, PINION_BODY
-from ilmek.part.placement import ALONG_WIDTH, placement
-from ilmek.part.shapes import box
-from ilmek.part.tree import Tree
-from ilmek.report.scene import SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.part.placement import Placement, placement
+from ilmek.part.tree import Joint, JointKind, Tree
+from ilmek.report.scene import SceneMotion, SceneYarn
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
+_ARMS, _HANDS = (LEFT_ARM, RIGHT_ARM, CENTRE_ARM), ((LEFT, -1), (RIGHT, 1))
 _YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS, _CUT = 91, 48, 41, 121, 25
 
 
@@ -61,12 +66,41 @@ def heads(loom: LoomDesign) -> MachineTree:
     return MachineTree("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST))
 
 
-def arms(loom: LoomDesign) -> tuple[tuple[SceneFrame, ...], tuple[ScenePart, ...]]:
-    """The frames and the rooms of a head's arms."""
-    if not loom.weaver.params.with_arms:
-        return (), ()
-    tools = [tool for tool in loom.side.head.tools if tool.name in {LEFT_ARM, RIGHT_ARM, CENTRE_ARM}]
-    return tuple(_arm_frame(loom, tool) for tool in tools), tuple(_arm(loom, tool) for tool in tools)
+def arms(loom: LoomDesign) -> tuple[MachineTree, ...]:
+    """The arms that tie the knots, on the heads; none where their cams do."""
+    if DYAD not in loom.machines:
+        return ()
+    dyad = loom.machines[DYAD].design_as(KnottingDyad)
+    return (MachineTree(DYAD, _arms_tree(loom, dyad), _section(loom, dyad), HEAD),)
+
+
+def _section(loom: LoomDesign, dyad: KnottingDyad) -> Placement:
+    """The axes of the arms' section in a head's: x and y become x and z, the needles amid the opener."""
+    assert dyad.head is not None
+    opener, x = loom.weaver.params.opener, -dyad.head.section.middle
+    level = opener.front_span + opener.height / 2 + needle_level(dyad)
+    return placement(x, level, about=(1.0, 0.0, 0.0), angle=turn / 4)
+
+
+def _arms_tree(loom: LoomDesign, dyad: KnottingDyad) -> Tree:
+    """The bodies of the arms, fixed to their head, with their motions over a knot: at rest until the warps are open."""
+    assert dyad.head is not None
+    knot, cycle = loom.knot_cyclogram, head_motion(dyad.params, dyad.head).cycle
+    opened = min(segment.start for name in _ARMS for segment in knot.track(name).segments)
+    first = next(part.start for part in cycle.parts if not part.grippers)
+
+    def over_the_knot(own: SceneMotion) -> SceneMotion:
+        angle = opened + (own.angle / turn * cycle.period - first) * knot.speed
+        every = np.unique(np.concatenate([[0.0, turn], angle[(angle > 0) & (angle < turn)]]))
+        shift = np.stack([np.interp(every, angle, along) for along in own.shift.T], axis=1)
+        return motion(knot, every, shift=shift, rotation=np.interp(every, angle, own.rotation))
+
+    tree = arms_tree(dyad)
+    moved = {body.id: over_the_knot(body.joint.motion) for body in tree.bodies if body.joint.motion is not None}
+    return tree.replaced(
+        replace(body, joint=Joint()) if body.joint.kind is JointKind.MISSING else body
+        for body in tree.moving(moved).bodies
+    )
 
 
 def heads_tree(loom: LoomDesign) -> Tree:
@@ -88,6 +122,8 @@ def heads_tree(loom: LoomDesign) -> Tree:
 def head_alone(loom: LoomDesign) -> Tree:
     """A head in its own axes, over a knot."""
     bodies = head_tree(loom.weaver).moving(motions(loom))
+    for branch in arms(loom):
+        bodies = bodies.carrying(branch.parent, branch.tree, branch.position)
     # The carriage steps on at the end of a knot: the head by itself stands.
     return bodies.moving({HEAD: motion(loom.knot_cyclogram, np.array([0.0, turn]))})
 
@@ -180,24 +216,6 @@ def _lift(knot: Cyclogram, track: str, weaver: Weaver) -> tuple[FloatArray, Floa
     cam, own = weaver.cam(track), knot.track(track)
     angle = np.unique(np.concatenate([track_angles(own), np.linspace(0.0, turn, _LIFTS)]))
     return angle, np.interp(angle, cam.angle, cam.motion.s, period=turn)
-
-
-_HANDS = ((LEFT, -1), (RIGHT, 1))
-
-
-def _arm_frame(loom: LoomDesign, tool: HeadTool) -> SceneFrame:
-    direction = (0.0, tool.direction.imag, tool.direction.real)
-    moves = along_track(loom.knot_cyclogram, tool.track, direction)
-    return SceneFrame(tool.name, np.zeros((1, 3)), HEAD, moves)
-
-
-def _arm(loom: LoomDesign, tool: HeadTool) -> ScenePart:
-    """An arm as the box of the side view, as wide as the pair that it works on."""
-    half, far = loom.weaver.grippers.axis, tool.corner + tool.size
-    middle = placement(-half, (tool.corner + far).imag / 2, (tool.corner + far).real / 2).after(ALONG_WIDTH)
-    room = box(tool.size.imag, tool.size.real, 2 * half).mesh()
-    solid = Solid(middle.points(room.points), room.triangles)
-    return room_part(tool.name, tool.name, solid, "knotting-dyad")
 
 
 def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:

@@ -5,7 +5,7 @@ from functools import lru_cache
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams
-from ilmek.machines.automated_loom.in_space.heads import heads
+from ilmek.machines.automated_loom.in_space.heads import arms, heads
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.in_space.standing import standing
 from ilmek.machines.automated_loom.in_space.weft import weft
@@ -15,7 +15,7 @@ from ilmek.part.tree import Tree
 @lru_cache(maxsize=2)
 def machine_branches(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees, each after what carries it."""
-    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom))
+    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom), *arms(loom))
 
 
 def joined(branches: tuple[MachineTree, ...]) -> Tree:

@@ -11,7 +11,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.equipment.tree import equipment
 from ilmek.machines.automated_loom.in_space.cams import warp_positions
-from ilmek.machines.automated_loom.in_space.heads import arms, knot_yarn
+from ilmek.machines.automated_loom.in_space.heads import knot_yarn
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
 from ilmek.machines.automated_loom.in_space.standing import carpet_roll
@@ -40,7 +40,6 @@ _ARC = 7
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
     branches, checks = _in_the_scene(branches_of(loom)), report.all_checks
-    arm_frames, arm_parts = arms(loom)
     parts = (
         part
         for branch in branches
@@ -52,11 +51,10 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     drawn = {plate.name for plate in report.all_plates}
     return Scene(
         title=report.title,
-        frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames, *arm_frames),
+        frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames),
         parts=(
             *(part if part.plate in drawn else replace(part, plate="") for part in parts),
             carpet_roll(loom),
-            *arm_parts,
         ),
         warps=_warps(loom),
         yarns=(*wefts(loom), *knot_yarn(loom)),

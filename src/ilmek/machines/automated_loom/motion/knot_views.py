@@ -4,7 +4,7 @@ import numpy as np
 
 from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.heads import arms, head_alone
+from ilmek.machines.automated_loom.in_space.heads import head_alone
 from ilmek.machines.automated_loom.in_space.maker import KNOT
 from ilmek.machines.automated_loom.motion.row_views import named_strokes
 from ilmek.machines.weaver.design import Weaver
@@ -44,7 +44,7 @@ def knot_from_the_side(loom: LoomDesign) -> Animation:
         (Dot(0j, "fell", "point"),),
         note="to scale; the fell is at 0",
     )
-    strokes = (*_tools(loom, View.SIDE), *_arm_rooms(loom))
+    strokes = _tools(loom, View.SIDE)
     tracks = {tool.track: loom.knot_cyclogram.track(tool.track) for tool in side.head.tools}
     return Animation(
         still, DRIVE, _angles(), strokes, (), period=loom.times.knot, readings=_readings(tracks, _angles())
@@ -57,25 +57,10 @@ def _case(loom: LoomDesign, view: View) -> list[PieceOutline]:
 
 
 def _tools(loom: LoomDesign, view: View) -> tuple[MovingStroke, ...]:
-    """The parts that the cams move; the first of each body has the body's name."""
+    """The parts that cams and servos move; the first of each body has the body's name."""
     tree = head_alone(loom)
     moved = [body.id for body in tree.bodies if body.joint.motion is not None and body.id not in {HEAD, CAM_SHAFT}]
     return named_strokes(moving_outlines(tree, view, KNOT, _angles(), moved))
-
-
-def _arm_rooms(loom: LoomDesign) -> tuple[MovingStroke, ...]:
-    """The rooms of arms that tie, as boxes: their parts are not designed."""
-    strokes = []
-    for frame, part in zip(*arms(loom), strict=True):
-        assert frame.motion is not None
-        flat = part.solids[0].points
-        low, high = flat.min(0), flat.max(0)
-        corners = np.array(
-            [complex(z, y) for z, y in ((low[2], low[1]), (high[2], low[1]), (high[2], high[1]), (low[2], high[1]))]
-        )
-        shift = [np.interp(_angles(), frame.motion.angle, frame.motion.shift[:, axis]) for axis in (2, 1)]
-        strokes.append(MovingStroke(corners + (shift[0] + 1j * shift[1])[:, None], "path", part.title, closed=True))
-    return tuple(strokes)
 
 
 def ties_by_grippers(loom: LoomDesign) -> bool:
