@@ -42,10 +42,10 @@ def reported(**settings: Any) -> Report:
     [
         dict(width=0.25, length=0.4, heads=1),
         dict(width=3.0, length=4.0, heads=10),
+        dict(width=5.0, length=7.0, heads=20),
         dict(width=2.0, length=3.0, knots_across=100 / dm, heads=11),
         dict(width=2.2, length=2.8, knots_across=90 / dm, heads=10),
         dict(width=1.2, knots_across=10 / dm, knots_along=20 / dm, heads=2),
-        dict(width=5.0, length=7.0, heads=20),
     ],
 )
 def test_looms_for_other_carpets_keep_all_limits_but_those_in_space(settings: dict[str, Any]) -> None:

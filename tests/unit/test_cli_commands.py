@@ -137,7 +137,7 @@ def test_deadline_finds_the_heads(tmp_path: Path) -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_fine_pitch_weaves_a_fine_quality(tmp_path: Path) -> None:
     found = data("weave", MEDALLION, "--size", "30x20cm", "--quality", "40x40/dm", "--warp-pitch", "1.25mm",
-                 "--out", str(tmp_path / "out"))  # fmt: skip
+                 "--loom", "beat=comb", "--out", str(tmp_path / "out"))  # fmt: skip
     assert found["warp_pitch"] == 0.00125
     assert found["columns"] == 120
 
@@ -247,6 +247,7 @@ def test_damaged_programme_is_one_line(woven: tuple[Path, Any], tmp_path: Path) 
     assert "is truncated" in result.stderr
 
 
+@pytest.mark.usefixtures("plain_page")
 @pytest.mark.parametrize("failure", [OSError(28, "No space left on device"), sqlite3.OperationalError("disk is full")])
 def test_full_disk_leaves_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failure: Exception) -> None:
     def full(*_: object, **__: object) -> None:

@@ -38,7 +38,7 @@ LOOMS = (
     ("beat=comb", "comb_acceleration=4m/s^2"),
     ("beat=guide-cams",),
     ("width=2m", "length=3m", "knots_across=30/dm", "knots_along=25/dm", "deadline=200h"),
-    ("knots_across=12/dm", "shedding.law=modified-sine", "yarns.warp=wool", "prices=bearing each = 9"),
+    ("beat=comb", "knots_across=12/dm", "shedding.law=modified-sine", "yarns.warp=wool", "prices=bearing each = 9"),
 )
 
 
