@@ -33,7 +33,7 @@ class Endpoint:
     method    GET, DELETE: the request is made of the path and the query; POST, PUT: of the path and the JSON body
     path      below /api; a part in braces is a field of the request
     function  "module:name" below ilmek.jobs
-    limit     longest time of an answer [s]; a worker that takes longer is ended
+    limit     longest time of an answer by the clock [s], also on a busy computer; a worker that takes longer is ended
     affinity  requests of one name are answered by one worker where it is free: it keeps what the one before read
     work      True: the answer is the number of a work that goes on (202); its progress and end come by events
     upload    media types of a body that is no JSON; it becomes the field `content` (bytes) of the request, whose other
@@ -47,7 +47,7 @@ class Endpoint:
     path: str
     function: str
     summary: str
-    limit: float = 60 * SECOND
+    limit: float = 300 * SECOND
     affinity: str = ""
     work: bool = False
     upload: tuple[str, ...] = ()
@@ -152,7 +152,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "/loom/scene",
         "studio.loom.scene:scene",
         "A loom of the project in space: parts, motions, warps, yarns, carpet (packed).",
-        limit=300 * SECOND,
         affinity="loom",
         answer=PACKED,
     ),
@@ -161,7 +160,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "/loom/space",
         "studio.loom.scene:in_space",
         "What a scene leaves open: the parts of the loom against each other in space (packed).",
-        limit=300 * SECOND,
         affinity="loom",
         answer=PACKED,
     ),
@@ -170,7 +168,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "/loom/plate",
         "studio.loom.scene:plate",
         "The drawing of a plate of a loom of the project.",
-        limit=300 * SECOND,
         affinity="loom",
     ),
     Endpoint(
@@ -178,7 +175,6 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "/loom/glb",
         "studio.loom.scene:glb",
         "A loom of the project as GLB, in motion.",
-        limit=300 * SECOND,
         affinity="loom",
         answer="model/gltf-binary",
     ),
