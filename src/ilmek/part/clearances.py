@@ -64,8 +64,7 @@ def approaches(  # noqa: PLR0917
         swept_pieces(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
     )
     carried = [one for one in every if one.pieces]
-    both = ((carried[first], carried[other]) for first, other in _met(carried, horizon, some))
-    search = PairSearch([pair for first, other in both for pair in _near(first, other, horizon, required)])
+    search = PairSearch(tuple(_pairs(carried, horizon, required, some)))
     nearest = search.nearest()
     near = np.flatnonzero(nearest.distance < horizon)
     lies = zip(*search.relative(near, nearest.angle[near]), strict=True) if len(near) else ()
@@ -75,6 +74,17 @@ def approaches(  # noqa: PLR0917
         for number, own in zip(near.tolist(), lies, strict=True)
     )
     return tuple(sorted(approached, key=lambda pair: pair.distance))
+
+
+def _pairs(carried: Sequence[SweptPieces], horizon: float, required: Required, some: frozenset[str]) -> Iterator[Pair]:
+    """The pairs of pieces that come near; of bodies that move alike on each of several carriers those on the first."""
+    known: set[tuple[object, ...]] = set()
+    for first, other in ((carried[number], carried[beside]) for number, beside in _met(carried, horizon, some)):
+        shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
+        alike = shared, first.chain[shared - 1].name, first.chain[shared:], other.chain[shared:]
+        if not shared or alike not in known:
+            known.add(alike)
+            yield from _near(first, other, shared, horizon, required)
 
 
 def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -> Iterator[tuple[int, int]]:
@@ -90,9 +100,8 @@ def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -
         yield from ((first, int(other)) for other in first + 1 + np.flatnonzero(others))
 
 
-def _near(first: SweptPieces, other: SweptPieces, horizon: float, required: Required) -> Iterator[Pair]:
-    """The pairs of pieces of two bodies whose boxes come nearer than the horizon."""
-    shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
+def _near(first: SweptPieces, other: SweptPieces, shared: int, horizon: float, required: Required) -> Iterator[Pair]:
+    """The pairs of pieces of two bodies, of chains with shared links, whose boxes come nearer than the horizon."""
     if not any((*first.travel.moves[shared:], *other.travel.moves[shared:])):
         return
     enough = required(first.body, other.body)
