@@ -38,7 +38,7 @@ Relative: TypeAlias = tuple[Float[np.ndarray, "angles 3 3"], Float[np.ndarray, "
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class PiecePair:
     """Two pieces that move against each other, by their bodies and numbers.
 
     shared   number of the links that both chains begin with    gaps  distances of their boxes in the intervals [m]
@@ -81,7 +81,7 @@ class Pair:
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class PairDistances:
     """Where pairs are nearest: least distance of each [m], inf where it is the horizon or more, and its angle [rad]."""
 
     distance: FloatArray
@@ -105,16 +105,16 @@ class _Intervals:
 
 
 @dataclass(frozen=True, eq=False)
-class PairSearch:
+class ApproachSearch:
     """Pairs of one drive."""
 
-    pairs: Sequence[Pair]
+    pairs: Sequence[PiecePair]
 
-    def nearest(self) -> Nearest:
+    def nearest(self) -> PairDistances:
         """Where each pair is nearest."""
         pairs = self.pairs
         if not pairs:
-            return Nearest(np.zeros(0), np.zeros(0))
+            return PairDistances(np.zeros(0), np.zeros(0))
         owner = np.repeat(np.arange(len(pairs)), [int(pair.near.sum()) for pair in pairs])
         ends = np.concatenate([pair.ends[:, [0, -1]] for pair in pairs])
         hulls, intervals = self._halved(
@@ -129,7 +129,7 @@ class PairSearch:
         if rest:
             meshes, _ = self._halved(self._left_open(intervals, rest), exact=True)
             distance[rest], angle[rest] = meshes.distance[rest], meshes.angle[rest]
-        return Nearest(np.where(distance < self._horizon, distance, np.inf), angle)
+        return PairDistances(np.where(distance < self._horizon, distance, np.inf), angle)
 
     def relative(self, owner: IntArray, angle: FloatArray) -> Relative:
         """Position of the second piece in the axes of the first, of pairs by their numbers, at angles [rad]."""
@@ -259,7 +259,7 @@ class PairSearch:
         middle = np.where(begin == half, angles[before], slope * (half - begin) + angles[before])
         return np.where((low < middle) & (middle < high), middle, intervals.ends.mean(1))
 
-    def _halved(self, intervals: _Intervals, *, exact: bool) -> tuple[Nearest, _Intervals]:
+    def _halved(self, intervals: _Intervals, *, exact: bool) -> tuple[PairDistances, _Intervals]:
         """Where the pairs that have intervals are nearest, and these, halved until that is known."""
         samples, closed = _Samples(self, exact), list[_Intervals]()
         once, back = np.unique(np.repeat(intervals.owner, 2) + 1j * intervals.ends.ravel(), return_inverse=True)
@@ -280,7 +280,7 @@ class PairSearch:
             number = _both_halves(number, samples.added(known.owner, middle))
             intervals = _Intervals(np.tile(known.owner, 2), _both_halves(known.ends, middle), np.tile(known.bound, 2))
         every = zip(*((own.owner, own.ends, own.bound) for own in closed), strict=True)
-        return Nearest(samples.least, samples.nearest), _Intervals(*map(np.concatenate, every))
+        return PairDistances(samples.least, samples.nearest), _Intervals(*map(np.concatenate, every))
 
 
 class _Samples:
@@ -292,7 +292,7 @@ class _Samples:
     exact  of the meshes, not of their hulls      least, nearest  least distance of each pair [m], and its angle
     """
 
-    def __init__(self, search: PairSearch, exact: bool) -> None:
+    def __init__(self, search: ApproachSearch, exact: bool) -> None:
         self.search, self.exact = search, exact
         self.least, self.nearest = np.full(len(search.pairs), np.inf), np.zeros(len(search.pairs))
         self.owner, self.apart, self.measured = np.zeros(0, dtype=int), np.zeros(0), np.zeros(0, dtype=bool)
