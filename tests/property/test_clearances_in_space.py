@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from ilmek.elements.materials import MATERIALS
+from ilmek.part.approach_search import TOLERANCE
 from ilmek.part.clearances import approaches
 from ilmek.part.contacts import contacts, groups
-from ilmek.part.pair_search import TOLERANCE
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile

@@ -1,17 +1,17 @@
 """Least distances in space of the parts of a tree that move against each other, over the turn of a drive.
 
-Boxes come first, then convex hulls, and meshes only where the hulls leave it open [`pair_search`]: a result above the
-required distance proves it for the whole turn, one below it is exact. Parts at distance 0 may touch, or be through each
-other: the volume that they have in common tells which (`colliders`), at `POSES` angles. Of a part that is in its body
-`MANY` times the first, the middle and the last stand for all beside another of these.
+Boxes come first, then convex hulls, and meshes only where the hulls leave it open [`approach_search`]: a result above
+the required distance proves it for the whole turn, one below it is exact. Parts at distance 0 may touch, or be through
+each other: the volume that they have in common tells which (`colliders`), at `POSES` angles. Of a part that is in its
+body `MANY` times the first, the middle and the last stand for all beside another of these.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from ilmek.part.approach_search import ApproachSearch, PiecePair
 from ilmek.part.colliders import Common, Rotation, Vector, inside, pose_key
-from ilmek.part.pair_search import Pair, PairSearch
 from ilmek.part.poses import chains, drive_angles
 from ilmek.part.swept import INTERVALS, SAMPLES, TURN, SweptPieces, Window, box_gaps, swept_pieces
 from ilmek.part.tree import Tree
@@ -64,8 +64,7 @@ def approaches(  # noqa: PLR0917
         swept_pieces(tuple((link.body, link.index) for link in chain), drive, angles, windows) for chain in chains(tree)
     )
     carried = [one for one in every if one.pieces]
-    both = ((carried[first], carried[other]) for first, other in _met(carried, horizon, some))
-    search = PairSearch([pair for first, other in both for pair in _near(first, other, horizon, required)])
+    search = ApproachSearch(tuple(_pairs(carried, horizon, required, some)))
     nearest = search.nearest()
     near = np.flatnonzero(nearest.distance < horizon)
     lies = zip(*search.relative(near, nearest.angle[near]), strict=True) if len(near) else ()
@@ -75,6 +74,19 @@ def approaches(  # noqa: PLR0917
         for number, own in zip(near.tolist(), lies, strict=True)
     )
     return tuple(sorted(approached, key=lambda pair: pair.distance))
+
+
+def _pairs(
+    carried: Sequence[SweptPieces], horizon: float, required: Required, some: frozenset[str]
+) -> Iterator[PiecePair]:
+    """The pairs of pieces that come near; of bodies that move alike on each of several carriers those on the first."""
+    known: set[tuple[object, ...]] = set()
+    for first, other in ((carried[number], carried[beside]) for number, beside in _met(carried, horizon, some)):
+        shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
+        alike = shared, first.chain[shared - 1].name, first.chain[shared:], other.chain[shared:]
+        if not shared or alike not in known:
+            known.add(alike)
+            yield from _near(first, other, shared, horizon, required)
 
 
 def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -> Iterator[tuple[int, int]]:
@@ -90,9 +102,10 @@ def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -
         yield from ((first, int(other)) for other in first + 1 + np.flatnonzero(others))
 
 
-def _near(first: SweptPieces, other: SweptPieces, horizon: float, required: Required) -> Iterator[Pair]:
-    """The pairs of pieces of two bodies whose boxes come nearer than the horizon."""
-    shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
+def _near(
+    first: SweptPieces, other: SweptPieces, shared: int, horizon: float, required: Required
+) -> Iterator[PiecePair]:
+    """The pairs of pieces of two bodies, of chains with shared links, whose boxes come nearer than the horizon."""
     if not any((*first.travel.moves[shared:], *other.travel.moves[shared:])):
         return
     enough = required(first.body, other.body)
@@ -102,11 +115,11 @@ def _near(first: SweptPieces, other: SweptPieces, horizon: float, required: Requ
     if (gaps < horizon).any() and any(first.travel.moves[:shared]):
         gaps = np.maximum(gaps, box_gaps(first.boxes(shared), other.boxes(shared)))
     for number, its in np.argwhere((gaps < horizon).any(2)).tolist():
-        yield Pair((first, other), (number, its), shared, gaps[number, its], horizon, enough)
+        yield PiecePair((first, other), (number, its), shared, gaps[number, its], horizon, enough)
 
 
 def _approach(
-    search: PairSearch, number: int, where: tuple[float, float], lies: tuple[Rotation, Vector], common: Common
+    search: ApproachSearch, number: int, where: tuple[float, float], lies: tuple[Rotation, Vector], common: Common
 ) -> Approach:
     """The least distance of a pair by its number; where it is 0, by what both have in common at several angles.
 
@@ -121,7 +134,7 @@ def _approach(
 
 
 def _deepest(
-    search: PairSearch, number: int, where: tuple[float, float], lies: tuple[Rotation, Vector], common: Common
+    search: ApproachSearch, number: int, where: tuple[float, float], lies: tuple[Rotation, Vector], common: Common
 ) -> tuple[float, float, float]:
     """Largest mean depth [m] of what they have in common, its volume [m³] and angle; 0 where they touch only."""
     pair, (distance, angle) = search.pairs[number], where

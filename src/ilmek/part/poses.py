@@ -14,7 +14,7 @@ summed over the samples of the motion between them: the `travel`.
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 
 import numpy as np
 
@@ -48,12 +48,18 @@ class ChainLink:
     def moves(self) -> bool:
         """Whether it moves with any drive."""
         motion = self.body.joint.motion
-        return motion is not None and bool(np.ptp(motion.shift, axis=0).any() or np.ptp(motion.rotation))
+        return motion is not None and any(_changes(motion))
 
     def turns(self, drive: str) -> bool:
         """Whether it turns with a drive."""
         motion = self.body.joint.motion
-        return motion is not None and motion.drive == drive and bool(np.ptp(motion.rotation))
+        return motion is not None and motion.drive == drive and _changes(motion)[1]
+
+
+@lru_cache(maxsize=1024)
+def _changes(motion: SceneMotion) -> tuple[bool, bool]:
+    """Whether it shifts, and whether it turns."""
+    return bool(np.ptp(motion.shift, axis=0).any()), bool(np.ptp(motion.rotation))
 
 
 Chain = tuple[ChainLink, ...]
@@ -178,45 +184,48 @@ class ChainTravel:
     @cached_property
     def moves(self) -> tuple[bool, ...]:
         """Whether each link moves with the drive."""
-        return tuple(bool(shift[-1] + turned[-1]) for shift, turned in zip(self.shifts, self.turns, strict=True))
+        motions = (link.body.joint.motion for link in self.chain)
+        return tuple(motion is not None and motion.drive == self.drive and any(_changes(motion)) for motion in motions)
 
     @cached_property
     def shifts(self) -> Float[np.ndarray, "links angles"]:
         """Lengths of the shifts of each link from angle 0 on [m]."""
-        return self._summed(lambda motion: np.linalg.norm(np.diff(motion.shift, axis=0), axis=1))
+        return np.stack([self._along(link, _lengths, self.angles) for link in self.chain])
 
     @cached_property
     def turns(self) -> Float[np.ndarray, "links angles"]:
         """Sums of the rotations of each link from angle 0 on, whatever their sense [rad]."""
-        return self._summed(lambda motion: np.abs(np.diff(motion.rotation)))
+        return np.stack([self._along(link, _rotated, self.angles) for link in self.chain])
 
-    def _summed(self, steps: Callable[[SceneMotion], FloatArray]) -> Float[np.ndarray, "links angles"]:
-        return np.stack([self._along(link, steps) for link in self.chain])
-
-    def _along(self, link: ChainLink, steps: Callable[[SceneMotion], FloatArray]) -> FloatArray:
+    def _along(self, link: ChainLink, steps: "_Steps", angles: FloatArray) -> FloatArray:
         motion = link.body.joint.motion
         if motion is None or motion.drive != self.drive:
-            return np.zeros(len(self.angles))
-        return np.asarray(np.interp(self.angles, motion.angle, np.concatenate([[0.0], np.cumsum(steps(motion))])))
+            return np.zeros(angles.shape)
+        return np.asarray(np.interp(angles, motion.angle, np.concatenate([[0.0], np.cumsum(steps(motion))])))
 
-    def along_axes(self, reaches: Float[np.ndarray, "n links"]) -> Float[np.ndarray, "n 3 angles"]:
-        """Travel of points by all links along x, y and z of the frame in which the chain begins [m].
+    def along_axes(
+        self, reaches: Float[np.ndarray, "n links"], angles: Float[np.ndarray, "*any"]
+    ) -> Float[np.ndarray, "n 3 *any"]:
+        """Travel of points by all links along x, y and z of the frame in which the chain begins [m], at angles [rad].
 
         No point moves along an axis by turning about it. Behind a rotation about p a shift s moves along the axis i by
         |s.p| |p_i| + |s x p| sqrt(1 - p_i²) at most; behind rotations about several axes, by |s|.
         """
-        whole, turned, pivot = np.zeros((len(reaches), 3, len(self.angles))), np.eye(3), _Pivot()
+        whole, turned, pivot = np.zeros((len(reaches), 3, angles.size)), np.eye(3), _Pivot()
         for number, link in enumerate(self.chain):
             turned = turned @ link.position.rotation
             about = turned @ _unit(link.body.joint.axis)
             own = pivot.joined(about)
             if self.moves[number]:
                 across = np.ones(3) if own.several else np.sqrt(np.maximum(1 - about**2, 0.0))
-                shifted = np.stack([self._along(link, partial(_shifted, pivot, axis, turned)) for axis in range(3)])
-                whole += shifted + across[:, None] * self.turns[number] * reaches[:, number, None, None]
+                whole += [
+                    self._along(link, partial(_shifted, pivot, axis, turned), angles.ravel()) for axis in range(3)
+                ]
+                rotated = self._along(link, _rotated, angles.ravel())
+                whole += across[:, None] * rotated * reaches[:, number, None, None]
             if link.turns(self.drive):
                 pivot = own
-        return whole
+        return whole.reshape(len(reaches), 3, *angles.shape)
 
     def reaches(self, extents: Sequence[BodyPoints]) -> Float[np.ndarray, "n links"]:
         """Largest distances of points of the last body from the axis of each link's joint [m]; a row for each."""
@@ -233,6 +242,17 @@ class ChainTravel:
             farthest, axis = farthest + float(np.linalg.norm(offset)) + moved, own
             reaches.append(across)
         return np.stack(reaches[::-1], axis=1)
+
+
+_Steps = Callable[[SceneMotion], FloatArray]
+
+
+def _lengths(motion: SceneMotion) -> FloatArray:
+    return np.asarray(np.linalg.norm(np.diff(motion.shift, axis=0), axis=1))
+
+
+def _rotated(motion: SceneMotion) -> FloatArray:
+    return np.asarray(np.abs(np.diff(motion.rotation)))
 
 
 def _shifted(pivot: "_Pivot", axis: int, turned: Float[np.ndarray, "3 3"], motion: SceneMotion) -> FloatArray:

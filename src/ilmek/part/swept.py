@@ -91,22 +91,17 @@ class SweptPieces:
         if not any(self.travel.moves[shared:]):
             resting = _at_rest(self.chain[-1].body.occurrences, tuple((link.body, link.index) for link in chain))
             return np.broadcast_to(resting[:, None], size)
-        corners = np.concatenate([piece.corners for piece in self.pieces])
-        at = poses(chain, drive, self.ends.ravel()).points(corners)
-        at = at.reshape(*self.ends.shape, len(self.pieces), 8, 3)
-        low, high = at.min((1, 3)).swapaxes(0, 1), at.max((1, 3)).swapaxes(0, 1)
-        along = ChainTravel(chain, drive, self.travel.angles).along_axes(self.reaches[:, shared:])
+        corners, at = np.stack([piece.corners for piece in self.pieces]), poses(chain, drive, self.ends.ravel())
+        if any(link.turns(drive) for link in chain):
+            points = at.points(corners.reshape(-1, 3)).reshape(*self.ends.shape, len(self.pieces), 8, 3)
+            low, high = points.min((1, 3)).swapaxes(0, 1), points.max((1, 3)).swapaxes(0, 1)
+        else:
+            points, origins = corners @ at.rotation[0].T, at.origin.reshape(*self.ends.shape, 3)
+            low, high = points.min(1)[:, None] + origins.min(1), points.max(1)[:, None] + origins.max(1)
+        along = ChainTravel(chain, drive, self.travel.angles).along_axes(self.reaches[:, shared:], self.ends)
         # Between two samples a point leaves the box of its ends by half of its travel at most.
-        steps = np.diff(_interpolated(self.ends, self.travel.angles, along), axis=-1).max(-1) / 2
-        margin = steps.swapaxes(1, 2)
+        margin = (np.diff(along, axis=-1).max(-1) / 2).swapaxes(1, 2)
         return np.stack([low - margin, high + margin], axis=2)
-
-
-def _interpolated(at: FloatArray, angles: FloatArray, values: Float[np.ndarray, "*n angles"]) -> FloatArray:
-    """Values along the last axis at angles of any shape [*n, *at]."""
-    after = np.clip(np.searchsorted(angles, at), 1, len(angles) - 1)
-    share = (at - angles[after - 1]) / (angles[after] - angles[after - 1])
-    return np.asarray(values[..., after - 1] * (1 - share) + values[..., after] * share)
 
 
 def _box_corners(points: Float[np.ndarray, "points 3"]) -> Float[np.ndarray, "8 3"]:

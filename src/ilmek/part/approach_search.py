@@ -12,7 +12,7 @@ than `TOLERANCE`. Distances of convex hulls come first; meshes are compared in t
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import TypeAlias, TypeVar
 
 import numpy as np
 
@@ -25,15 +25,20 @@ from ilmek.units import mm
 TOLERANCE = 0.5 * mm
 """How far the least distance that is reported may be above that of the meshes [m]."""
 
+_ROUNDING = 1e-9
+"""Difference of lengths that counts as rounding [m]."""
+
 _SHORTEST = 1e-6
 """Interval that is not halved further [rad]."""
+
+_Numbers = TypeVar("_Numbers", IntArray, FloatArray)
 
 Relative: TypeAlias = tuple[Float[np.ndarray, "angles 3 3"], Float[np.ndarray, "angles 3"]]
 """Rotation and origin [m] of a part in the axes of another."""
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class PiecePair:
     """Two pieces that move against each other, by their bodies and numbers.
 
     shared   number of the links that both chains begin with    gaps  distances of their boxes in the intervals [m]
@@ -76,7 +81,7 @@ class Pair:
 
 
 @dataclass(frozen=True, eq=False)
-class Nearest:
+class PairDistances:
     """Where pairs are nearest: least distance of each [m], inf where it is the horizon or more, and its angle [rad]."""
 
     distance: FloatArray
@@ -100,16 +105,16 @@ class _Intervals:
 
 
 @dataclass(frozen=True, eq=False)
-class PairSearch:
+class ApproachSearch:
     """Pairs of one drive."""
 
-    pairs: Sequence[Pair]
+    pairs: Sequence[PiecePair]
 
-    def nearest(self) -> Nearest:
+    def nearest(self) -> PairDistances:
         """Where each pair is nearest."""
         pairs = self.pairs
         if not pairs:
-            return Nearest(np.zeros(0), np.zeros(0))
+            return PairDistances(np.zeros(0), np.zeros(0))
         owner = np.repeat(np.arange(len(pairs)), [int(pair.near.sum()) for pair in pairs])
         ends = np.concatenate([pair.ends[:, [0, -1]] for pair in pairs])
         hulls, intervals = self._halved(
@@ -118,12 +123,13 @@ class PairSearch:
         distance, angle = hulls.distance, hulls.angle
         proven = (distance >= self._enough) & (distance > 0)
         rest = [k for k in np.flatnonzero(distance < self._horizon).tolist() if self._needs_meshes(k, proven[k])]
-        distance[rest] = self._distances(np.array(rest, dtype=int), angle[rest], exact=True)
+        numbers = np.array(rest, dtype=int)
+        distance[rest] = self._distances(numbers, self.relative(numbers, angle[rest]), exact=True)
         rest = [k for k in rest if not proven[k] and distance[k] > 0]
         if rest:
             meshes, _ = self._halved(self._left_open(intervals, rest), exact=True)
             distance[rest], angle[rest] = meshes.distance[rest], meshes.angle[rest]
-        return Nearest(np.where(distance < self._horizon, distance, np.inf), angle)
+        return PairDistances(np.where(distance < self._horizon, distance, np.inf), angle)
 
     def relative(self, owner: IntArray, angle: FloatArray) -> Relative:
         """Position of the second piece in the axes of the first, of pairs by their numbers, at angles [rad]."""
@@ -183,10 +189,26 @@ class PairSearch:
         turned, away = (own[owner] for own in self._positions[side])
         return rotation @ turned, origin + (rotation @ away[:, :, None])[:, :, 0]
 
-    def _distances(self, owner: IntArray, angle: FloatArray, *, exact: bool) -> FloatArray:
-        """Distances of pairs by their numbers at angles [m]; exact: of the meshes, not of their hulls."""
-        colliders = (self.pairs[number].colliders for number in owner.tolist())
-        return distances(colliders, *self.relative(owner, angle), exact=exact)
+    def _distances(self, owner: IntArray, lies: Relative, *, exact: bool) -> FloatArray:
+        """Distances of pairs by their numbers at positions [m]; exact: of the meshes, not of their hulls."""
+        return distances((self.pairs[number].colliders for number in owner.tolist()), *lies, exact=exact)
+
+    @cached_property
+    def _boxes(self) -> tuple[Float[np.ndarray, "2 pairs 3"], Float[np.ndarray, "2 pairs 3"]]:
+        """Middles and half sides of the boxes of both pieces of each pair, in their own axes [m]."""
+        bounds = np.array([[own.bounds for own in pair.colliders] for pair in self.pairs])
+        low, high = bounds[:, :, 0].swapaxes(0, 1), bounds[:, :, 1].swapaxes(0, 1)
+        return (low + high) / 2, (high - low) / 2
+
+    def _box_gaps(self, owner: IntArray, lies: Relative) -> FloatArray:
+        """Least distances of what is in the boxes of both pieces at positions, along the axes of either [m]."""
+        (turned, moved), (middles, halves) = lies, self._boxes
+        apart = (turned @ middles[1, owner, :, None])[:, :, 0] + moved - middles[0, owner]
+        wide, (own, its) = np.abs(turned), halves[:, owner, :, None]
+        back = (turned.swapaxes(1, 2) @ apart[:, :, None])[:, :, 0]
+        first = np.abs(apart) - (own + wide @ its)[:, :, 0]
+        other = np.abs(back) - (its + wide.swapaxes(1, 2) @ own)[:, :, 0]
+        return np.linalg.norm(np.maximum([first, other], 0.0), axis=2).max(0)
 
     @cached_property
     def _angles(self) -> FloatArray:
@@ -237,33 +259,71 @@ class PairSearch:
         middle = np.where(begin == half, angles[before], slope * (half - begin) + angles[before])
         return np.where((low < middle) & (middle < high), middle, intervals.ends.mean(1))
 
-    def _halved(self, intervals: _Intervals, *, exact: bool) -> tuple[Nearest, _Intervals]:
+    def _halved(self, intervals: _Intervals, *, exact: bool) -> tuple[PairDistances, _Intervals]:
         """Where the pairs that have intervals are nearest, and these, halved until that is known."""
-        angle_once, back = np.unique(np.repeat(intervals.owner, 2) + 1j * intervals.ends.ravel(), return_inverse=True)
-        apart = self._distances(angle_once.real.astype(int), angle_once.imag, exact=exact)[back].reshape(-1, 2)
-        least, first = _least_of(np.repeat(intervals.owner, 2), apart.ravel(), len(self.pairs))
-        angle, closed = intervals.ends.ravel()[first], list[_Intervals]()
+        samples, closed = _Samples(self, exact), list[_Intervals]()
+        once, back = np.unique(np.repeat(intervals.owner, 2) + 1j * intervals.ends.ravel(), return_inverse=True)
+        number = samples.added(once.real.astype(int), once.imag)[back].reshape(-1, 2)
         while True:
             owner, ends = intervals.owner, intervals.ends
             travel = self._travel(owner, ends[:, 1]) - self._travel(owner, ends[:, 0])
-            known = _Intervals(owner, ends, np.maximum((apart.sum(1) - travel) / 2, intervals.bound))
-            is_open = known.bound < np.minimum(least, self._enough)[owner] - TOLERANCE
-            is_open &= (least > 0)[owner] & (ends[:, 1] - ends[:, 0] > _SHORTEST)
+            undecided = samples.apart[number].sum(1) - travel < 2 * self._enough[owner]
+            samples.measure(np.unique(number[undecided & (intervals.bound < self._enough[owner])]))
+            known = _Intervals(owner, ends, np.maximum((samples.apart[number].sum(1) - travel) / 2, intervals.bound))
+            is_open = known.bound < np.minimum(samples.least, self._enough)[owner] - TOLERANCE
+            is_open &= (samples.least > 0)[owner] & (ends[:, 1] - ends[:, 0] > _SHORTEST)
             closed.append(known.chosen(~is_open))
             if not is_open.any():
                 break
-            known, apart = known.chosen(is_open), apart[is_open]
+            known, number = known.chosen(is_open), number[is_open]
             middle = self._middles(known)
-            between = self._distances(known.owner, middle, exact=exact)
-            lowest, first = _least_of(known.owner, between, len(self.pairs))
-            least, angle = np.minimum(lowest, least), np.where(lowest < least, middle[first], angle)
+            number = _both_halves(number, samples.added(known.owner, middle))
             intervals = _Intervals(np.tile(known.owner, 2), _both_halves(known.ends, middle), np.tile(known.bound, 2))
-            apart = _both_halves(apart, between)
         every = zip(*((own.owner, own.ends, own.bound) for own in closed), strict=True)
-        return Nearest(least, angle), _Intervals(*map(np.concatenate, every))
+        return PairDistances(samples.least, samples.nearest), _Intervals(*map(np.concatenate, every))
 
 
-def _both_halves(ends: Float[np.ndarray, "n 2"], middle: FloatArray) -> Float[np.ndarray, "m 2"]:
+class _Samples:
+    """Angles at which pairs of a search are looked at [rad]: apart, the distances there [m], or lower bounds of them.
+
+    A distance is measured where it may be the least of its pair, or where that is asked for; else the gap of the boxes,
+    which is quickly computed, is the bound.
+
+    exact  of the meshes, not of their hulls      least, nearest  least distance of each pair [m], and its angle
+    """
+
+    def __init__(self, search: ApproachSearch, exact: bool) -> None:
+        self.search, self.exact = search, exact
+        self.least, self.nearest = np.full(len(search.pairs), np.inf), np.zeros(len(search.pairs))
+        self.owner, self.apart, self.measured = np.zeros(0, dtype=int), np.zeros(0), np.zeros(0, dtype=bool)
+        self.lies: Relative = np.zeros((0, 3, 3)), np.zeros((0, 3))
+
+    def added(self, owner: IntArray, angle: FloatArray) -> IntArray:
+        """Numbers of new samples of pairs by their numbers, at angles [rad]."""
+        search, begin = self.search, len(self.owner)
+        turned, moved = search.relative(owner, angle)
+        gaps, number = search._box_gaps(owner, (turned, moved)), begin + np.arange(len(owner))
+        self.owner, self.apart = np.append(self.owner, owner), np.append(self.apart, gaps)
+        self.lies = np.concatenate([self.lies[0], turned]), np.concatenate([self.lies[1], moved])
+        self.measured = np.append(self.measured, np.zeros(len(owner), dtype=bool))
+        _, first = _least_of(owner, gaps, len(self.least))
+        for some in (np.unique(first[owner]), np.arange(len(owner))):
+            within = gaps[some] <= np.minimum(self.least, search._horizon)[owner[some]] + _ROUNDING
+            self.measure(number[some[within]])
+            distance = np.where(self.measured[begin:], self.apart[begin:], np.inf)
+            lowest, place = _least_of(owner, distance, len(self.least))
+            lower = lowest < self.least
+            self.least, self.nearest = np.minimum(lowest, self.least), np.where(lower, angle[place], self.nearest)
+        return number
+
+    def measure(self, number: IntArray) -> None:
+        """Measure the distances at samples by their numbers that are bounds."""
+        left = number[~self.measured[number]]
+        lies = self.lies[0][left], self.lies[1][left]
+        self.apart[left], self.measured[left] = self.search._distances(self.owner[left], lies, exact=self.exact), True
+
+
+def _both_halves(ends: _Numbers, middle: _Numbers) -> _Numbers:
     """Values at the ends of the first halves of intervals, then of the second."""
     return np.concatenate([np.column_stack([ends[:, 0], middle]), np.column_stack([middle, ends[:, 1]])])
 
