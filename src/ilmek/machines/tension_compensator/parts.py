@@ -108,6 +108,11 @@ class BarSupports:
         return np.array([one for k, one in enumerate(corners) if abs(one - corners[k - 1]) > 1e-9])
 
     @property
+    def low(self) -> float:
+        """The most that the cross-pieces reach inside of the sheet, x [m]."""
+        return float(self.cross.real.min())
+
+    @property
     def strip(self) -> float:
         """Half of the width of a saddle [m]."""
         return 0.8 * self.members.roller.bore
@@ -116,7 +121,7 @@ class BarSupports:
     def beams(self) -> tuple[tuple[complex, complex], ...]:
         """Axes of the beams of levers, rods and springs [m], and the directions of their sides."""
         lever, half = self.sprung.lever, self.members.beam.side / 2
-        rods = complex(float(self.cross.real.min()) - half, lever.path.half - BEHIND)
+        rods = complex(self.low - half, lever.path.half - BEHIND)
         springs = complex(lever.anchor) - (self.apart + half) * self.along
         return (lever.pivot - 1j * (self.clear + half), 1 + 0j), (rods, 1 + 0j), (springs, self.along)
 
