@@ -14,6 +14,7 @@ from ilmek.machines.automated_loom import MACHINE, LoomDesign
 from ilmek.machines.automated_loom.brackets import Bracket, bracket_checks, brackets_of, least_height
 from ilmek.machines.automated_loom.parts import own_tree, parts_of_loom
 from ilmek.machines.bearing_seats import BRACKET
+from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.warp_tension.cylinders import cylinders as cylinders_of
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
@@ -21,7 +22,13 @@ from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import along
 
-LOOMS = ({}, {"width": "0.4m", "length": "0.5m"}, {"beat": "guide-cams"})
+LOOMS: tuple[dict[str, str], ...] = (
+    {},
+    {"width": "0.4m", "length": "0.5m"},
+    {"beat": "guide-cams"},
+    {"width": "2.6m", "knots_across": "40/dm", "tension": "15N", "lift": "70mm", "beat": "comb"},
+    {"width": "1.7m", "tension": "30N", "lift": "70mm"},
+)
 
 
 @cache
@@ -82,6 +89,29 @@ def test_brackets_of_a_side_surround_their_seats_and_do_not_meet(number: int) ->
     for one, other in combinations(plates, 2):
         assert not inside(outline(one), outline(other)).any()
         assert not inside(outline(other), outline(one)).any()
+
+
+@pytest.mark.parametrize("number", range(len(LOOMS)))
+def test_a_bracket_is_at_the_column_as_high_as_its_stress_assumes(number: int) -> None:
+    """By points on the column's axis that lie in the outline."""
+    design = loom(number)
+    for one in brackets_of(design).plates:
+        heights = np.linspace(one.nodes.imag.min() - one.radius, one.nodes.imag.max() + one.radius, 4001)
+        within = heights[inside(design.side.column + 1j * heights, outline(one))]
+        assert np.ptp(within) >= one.depth - 2e-3
+        assert within.min() <= min(one.ends)
+        assert within.max() >= max(one.ends)
+
+
+@pytest.mark.parametrize("number", range(len(LOOMS)))
+def test_the_upper_bracket_leaves_the_reducers_of_the_cam_shafts_their_room(number: int) -> None:
+    design = loom(number)
+    edge = outline(brackets_of(design).upper)
+    for index, cam in enumerate(design.side.cams):
+        shape = reducer(design.shedding, index).shape
+        assert shape is not None
+        farthest = np.hypot(*shape.mesh(1e-3).points[:, :2].T).max()
+        assert np.abs(edge - cam.at).min() >= farthest
 
 
 @given(st.floats(1.0, 1e5), st.floats(0.0, 1e3), st.floats(20e6, 300e6))

@@ -19,6 +19,9 @@ from ilmek.machines.tension_compensator.design import equilibrium_tension, stiff
 from ilmek.machines.tension_compensator.geometry import WarpPath
 from ilmek.machines.tension_compensator.linkage import spring_forces
 from ilmek.machines.tension_compensator.members import STEEL, bar_checks
+from ilmek.machines.tension_compensator.tree import lever_motion, tree
+from ilmek.part.clearances import approaches
+from ilmek.part.contacts import contacts
 from ilmek.units import deg, mm
 from ilmek.weaving.shed import shed_lengthening
 
@@ -198,3 +201,40 @@ def test_where_no_spring_is_enough_the_check_fails() -> None:
 def test_a_compensator_for_every_width(width: str) -> None:
     warps = str(round(float(width[:-1]) / 0.002))
     assert failed(**{"cloth.warps": warps}) == set()
+
+
+HEAVY = {
+    "12 springs of a lever": {"cloth.warps": "1050", "cloth.warp_pitch": "2mm", "cloth.tension": "30N", "lift": "70mm"},
+    "narrow": {"cloth.warps": "400", "cloth.warp_pitch": "1.25mm", "cloth.tension": "20N"},
+    "one bar": {"bars": "1", "lift": "50mm"},
+    "light": {"cloth.warps": "300", "cloth.tension": "10N"},
+}
+
+
+@pytest.mark.parametrize("name", HEAVY)
+def test_no_part_of_a_compensator_is_through_another_at_rest_and_in_the_open_shed(name: str) -> None:
+    """By the common volume of meshes: bars and rods, their saddles and rollers, the springs of neighbours."""
+    made = design(TensionCompensatorParams.read(HEAVY[name]))
+    angle = np.array([0.0, math.pi, math.tau])
+    motion = lever_motion("turn", angle, np.array([0.0, made.one.angle, 0.0]))
+    whole = tree(replace(made, bars=1), {"even": motion})
+    assert not contacts(whole).through
+    moving = approaches(whole, "turn", 1 * mm, ((0.0, math.tau),), lambda _first, _other: 0.0)
+    assert [near.parts for near in moving if near.distance < 0] == []
+
+
+@pytest.mark.parametrize("name", HEAVY)
+def test_the_springs_of_a_lever_stand_in_its_share_of_the_width(name: str) -> None:
+    made = design(TensionCompensatorParams.read(HEAVY[name]))
+    spring, stations = made.one.spring, sorted(made.parts.supports.spring_stations)
+    assert spring is not None
+    outer = spring.diameter + spring.wire_diameter
+    assert np.diff(stations).min() >= outer
+    assert stations[-1] + outer / 2 <= made.params.cloth.width / 2
+
+
+def test_a_lever_passes_the_rod_before_it() -> None:
+    """High levers of a wide loom: the rods stand farther apart than the usual span."""
+    made = design(TensionCompensatorParams.read({"cloth.warps": "2100", "cloth.warp_pitch": "1.25mm", "lift": "70mm"}))
+    assert made.one.lever.path.half > 0.55 * made.params.bar_arm
+    assert "room between lever and rod" not in {check.name for check in MACHINE.report(made).failed}

@@ -36,6 +36,7 @@ from ilmek.machines.arrangement.spans import (
     warp_length,
 )
 from ilmek.machines.shedding.tree import front_of
+from ilmek.machines.warp_tension.cylinders import spacer_tube
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.machines.weaver.tree import head_mass
@@ -285,12 +286,13 @@ def below(path: "BeatPath | None") -> float:
 
 
 def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:
-    """Spacer, lower cylinder, and the radius of this with the whole carpet wound on it [m].
+    """Spacer, lower cylinder of a radius, and the radius of this with the whole carpet wound on it [m].
 
     A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
     """
     thickness = head.params.pile_height + 3 * task.yarns.warp.diameter
     roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
-    spacer = complex(-radius, -SPACER_BELOW - radius)
-    lower = spacer - 1j * (radius + BETWEEN_CYLINDERS + roll)
-    return RoundPart(spacer, radius), RoundPart(lower, radius), roll
+    made = task.warp_tension
+    wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
+    under = SPACER_BELOW + 2 * wide + BETWEEN_CYLINDERS + roll
+    return RoundPart(complex(-wide, -SPACER_BELOW - wide), wide), RoundPart(complex(-radius, -under), radius), roll

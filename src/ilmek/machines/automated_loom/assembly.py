@@ -30,6 +30,9 @@ NEAREST = 10
 
 _STANDING = "at all angles"
 
+_ROUNDING = 1e-9
+"""Distance of parts that slide on each other [m]."""
+
 
 @record
 class LoomAssembly:
@@ -193,7 +196,7 @@ def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ..
     least: dict[frozenset[str], NearParts] = {}
     for near in whole.nearest:
         both = frozenset(machines[body] for body in near.approach.bodies)
-        if len(both) == 2 and near.approach.distance > 0:
+        if len(both) == 2 and near.approach.distance > _ROUNDING:
             least.setdefault(both, near)
     return tuple(
         at_least(

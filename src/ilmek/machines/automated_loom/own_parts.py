@@ -13,11 +13,13 @@ from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
-from ilmek.machines.automated_loom.rail_supports import rail_brackets, rail_middle, rail_supports
+from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
+from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
+from ilmek.part.extents import shape_box
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import box
@@ -49,10 +51,10 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning, together=2)
-    wider = (chosen.face if chosen else catalogue.SPECIAL_FACE) - RAIL_AXIS
+    wider = catalogue.face_of(motor) - RAIL_AXIS
     low = heads.stroke + room
-    if not loom.beat.crank_rockers and wider > held[0].reach - ROOM:  # The motors lie before the posts.
-        low = max(low, (RAIL_AXIS / 2 + ROOM - (wider + RAIL_AXIS) / 2 * RETREAT.imag) / RETREAT.real)
+    if not loom.beat.crank_rockers:
+        low = _before_posts(loom, frame, held[0], motor, low)
     axis = Part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
@@ -79,6 +81,22 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
             Occurrence(motor, tuple(end.after(aside).after(flange) for end, aside in ends)),
         ),
     )
+
+
+def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, motor: Part, low: float) -> float:
+    """Lower end of the axes of the retreat [m], at least `low`: the motors there lie before the posts beside them."""
+    assert motor.shape is not None
+    face, rear_end = catalogue.face_of(motor), float(shape_box(motor.shape)[0][2])
+    aside, beat = -face / 2 * RETREAT.imag, supports(loom, frame).post.side / 2
+    front = aside - rear_end * RETREAT.real
+    posts = [(post_depth(loom, frame) - held.axis.real, beat)]
+    if face - RAIL_AXIS > held.reach - ROOM:
+        posts.append((held.depth - held.axis.real, held.post.side / 2))
+    for depth, half in sorted(posts):
+        begin = low * RETREAT.real
+        if begin - aside < depth + half + ROOM and depth - half - ROOM < begin + front:
+            low = (depth + half + ROOM + aside) / RETREAT.real
+    return low
 
 
 def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMotion | None = None) -> Tree:

@@ -29,7 +29,7 @@ from ilmek.machines.automated_loom.frame import (
     rail_ahead,
     rail_support_load,
 )
-from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth
+from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, rail_middle
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.tree import Occurrence
@@ -97,12 +97,6 @@ def rail_supports(loom: LoomDesign, frame: LoomFrame) -> tuple[RailSupport, ...]
     return (_at_ends(loom, frame), *(() if frame.task.rail_spans == 1 else (_between(loom, frame),)))
 
 
-def rail_middle(loom: LoomDesign) -> complex:
-    """Back of the heads' rail, where its axes of the retreat begin, in the side view [m]."""
-    rail = loom.side.rail
-    return rail.corner + rail.size / 2
-
-
 def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
     axis, near, bottom = rail_middle(loom), frame.task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
     beside = frame.beside(brackets_of(loom).face)[0]
@@ -158,7 +152,7 @@ def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
     """
     least = rail_ahead(frame.rail, frame.task.rail_drop)
     depth, beam = (rail_middle(loom) + least + loom.side.retreat * RETREAT).real, base_section(loom, frame).side
-    apart = post_depth(loom) - depth
+    apart = post_depth(loom, frame) - depth
     if abs(apart) >= beam:
         return least
     return least + (apart if apart >= 0 else beam + apart)

@@ -19,6 +19,7 @@ from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.hammer.tree import beam_of
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weft import Shuttle
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.tree import Occurrence
@@ -136,10 +137,24 @@ def _tube_checks(section: HollowSquare, span: float, pull: float) -> tuple[Check
     )
 
 
-def post_depth(loom: LoomDesign) -> float:
-    """Axis of the posts of the beat in the side view [m]: under the middle of its beam."""
+def rail_middle(loom: LoomDesign) -> complex:
+    """Back of the heads' rail, where its axes of the retreat begin, in the side view [m]."""
+    rail = loom.side.rail
+    return rail.corner + rail.size / 2
+
+
+def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Axis of the posts of the beat in the side view [m]: under the middle of its beam, or as near to it as the arms of
+    the rail leave room.
+    """
     beam, corner = beat_beam(loom)
-    return corner.real + beam.section.side / 2
+    middle, half = corner.real + beam.section.side / 2, supports(loom, frame).post.side / 2
+    arm, apart = rail_middle(loom), RAIL_AXIS / 2 + ROOM + half
+    if corner.imag <= arm.imag - RAIL_AXIS / 2 or abs(middle - arm.real) >= apart:
+        return middle
+    under = corner.real + half, corner.real + beam.section.side - half
+    free = [depth for depth in (arm.real - apart, arm.real + apart) if under[0] <= depth <= under[1]]
+    return min(free, key=lambda depth: abs(depth - middle), default=middle)
 
 
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
@@ -167,11 +182,11 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    aside = loom.task.width / 2 + POST - held.post.side / 2
+    aside = loom.task.width / 2 + max(POST - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),
-        tuple(placement(x, floor_top(loom, frame), post_depth(loom)).after(UPRIGHT) for x in ends),
+        tuple(placement(x, floor_top(loom, frame), post_depth(loom, frame)).after(UPRIGHT) for x in ends),
     )
     if held.tube is not None:
         yield from _tube(loom, frame, held.tube, face)

@@ -6,7 +6,7 @@ retreat, down and to the front at the angle r. A corner x + i y of a head or of 
 
     (P - x) sin d - y cos d >= e + c,   (P - e - x) sin r - (e + y) cos r >= c                      [plane geometry]
 
-The coupler keeps c before the front of the cams' reed, by samples of a turn.
+The coupler keeps c before guide cams and reeds, by samples of a turn.
 
 All lengths of the linkage grow with its ground, so that the least P gives the least ground.
 """
@@ -46,7 +46,7 @@ def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     )
     grown = 1 + max(longer, 0.0) / linkage.lengths["beater"]
     scales = grown * np.arange(1.0, _LARGEST, _STEP)
-    return ground * next((one for one in scales.tolist() if _before_reeds(linkage, side, one) >= clearance), grown)
+    return ground * next((one for one in scales.tolist() if _before_cams(linkage, side, one) >= clearance), grown)
 
 
 def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> tuple[Check, ...]:
@@ -55,11 +55,9 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
         return ()
     cure = "leave the ground of the crank-rocker open, or set fewer heads"
     source = "parameter clearance; the rail no larger than its room in the arrangement"
-    gap, open_ground = _before_reeds(linkage, side), "leave the ground of the crank-rocker open"
-    named, coupler = ("clearance: coupler and reed", gap, clearance, "mm", "parameter clearance"), PART_IDS["coupler"]
-    before = (at_least(*named, cure=open_ground, parts=(coupler,)),) if math.isfinite(gap) else ()
+    named = "clearance: coupler and cams", _before_cams(linkage, side), clearance, "mm", "parameter clearance"
     return (
-        *before,
+        at_least(*named, cure="leave the ground of the crank-rocker open", parts=(PART_IDS["coupler"],)),
         at_least(
             "clearance: rocker at rest and heads that knot",
             min(_over(linkage, side)),
@@ -96,15 +94,14 @@ def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:
     )
 
 
-def _before_reeds(linkage: BeatUp, side: SideView, scale: float = 1.0) -> float:
-    """Least gap before the reeds over a turn of a linkage of a scale [m]: of its coupler, at their heights."""
-    gaps = [math.inf]
+def _before_cams(linkage: BeatUp, side: SideView, scale: float = 1.0) -> float:
+    """Least gap between the coupler of a linkage of a scale and guide cams and reeds over a turn [m]."""
+    points, half, gaps = scale * _coupler(linkage), linkage.params.width / 2, []
     for cam in side.cams:
-        if cam.reeded:
-            points, high = scale * _coupler(linkage), 2 * (cam.front - cam.guide_radius)
-            near = points.real[np.abs(points.imag - cam.at.imag) < high]
-            gaps.append(float(near.min(initial=math.inf)) - linkage.params.width / 2 - cam.at.real - cam.front)
-    return min(gaps)
+        gaps.append(float(np.abs(points - cam.at).min()) - cam.guide_radius)
+        beside = np.abs(points.imag - cam.at.imag) < 2 * (cam.front - cam.guide_radius)  # the baulks of a reed
+        gaps.append(float(points.real.min(where=beside, initial=math.inf)) - cam.at.real - cam.front)
+    return min(gaps) - half
 
 
 @lru_cache(maxsize=4)

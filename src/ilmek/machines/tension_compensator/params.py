@@ -59,7 +59,9 @@ class TensionCompensatorParams(Params):
     spring_arm: float = kind.length(250 * mm, at_least=10 * mm, at_most=2.0, doc="pivot of the lever to the springs")
     strut: float = kind.length(200 * mm, at_least=20 * mm, at_most=2.0, doc="springs at rest, from pin to pin")
     springs: int | None = kind.count(None, at_least=1, at_most=100, doc="springs on a lever; default: the fewest")
-    wire: str = kind.choice("music wire", tuple(WIRES), doc="wire of the springs")
+    wire: str | None = kind.choice(
+        None, tuple(WIRES), doc="wire of the springs; default: music wire, chrome-silicon wire where that is not enough"
+    )
     spring_fatigue: float = kind.ratio(1.2, at_least=0.0, at_most=20.0, doc="required safety of the springs' fatigue")
     support_span: float = kind.length(0.65 * m, unit="m", at_least=50 * mm, at_most=20.0, doc="largest span of levers")
     bar_tube: str | None = kind.text(None, doc="tube of bars and rods; default: the lightest that keeps the limits")

@@ -108,6 +108,11 @@ class BarSupports:
         return np.array([one for k, one in enumerate(corners) if abs(one - corners[k - 1]) > 1e-9])
 
     @property
+    def low(self) -> float:
+        """The most that the cross-pieces reach inside of the sheet, x [m]."""
+        return float(self.cross.real.min())
+
+    @property
     def strip(self) -> float:
         """Half of the width of a saddle [m]."""
         return 0.8 * self.members.roller.bore
@@ -116,9 +121,11 @@ class BarSupports:
     def beams(self) -> tuple[tuple[complex, complex], ...]:
         """Axes of the beams of levers, rods and springs [m], and the directions of their sides."""
         lever, half = self.sprung.lever, self.members.beam.side / 2
-        rods = complex(float(self.cross.real.min()) - half, lever.path.half - BEHIND)
+        rods = complex(self.low - half, lever.path.half - BEHIND)
         springs = complex(lever.anchor) - (self.apart + half) * self.along
-        return (lever.pivot - 1j * (self.clear + half), 1 + 0j), (rods, 1 + 0j), (springs, self.along)
+        beside = max(lever.pivot.real, half + 3 * PLAY)  # a wide beam reaches to the sheet of the warps
+        levers = complex(beside, lever.pivot.imag - self.clear - half)
+        return (levers, 1 + 0j), (rods, 1 + 0j), (springs, self.along)
 
     def saddle(self, axis: complex, towards: complex) -> ComplexArray:
         """Centres of a roller, of the saddle's corner and of the other roller, behind a bar in a direction [m]."""
@@ -374,11 +381,11 @@ def _eye(at: BarSupports) -> Sum:
 
 def _spring(at: BarSupports) -> Part:
     """The spring: its room is that of the coil in the open shed, on the eye at its anchor, about z."""
-    params, sprung = at.params, at.sprung
-    wound, title = sprung.spring, "spring of the compensator"
+    sprung, title = at.sprung, "spring of the compensator"
+    wound = sprung.spring
     if wound is None:
         return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
-    size = f"{params.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
+    size = f"{wound.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
     seat = _spring_seat(at)
     dips = PLAY + max(_eye_wide(sprung), 2 * at.members.pin) / 2 * math.sin(abs(sprung.angle))
     length = max(float(sprung.lever.spring_length(sprung.angle)) - 2 * seat - dips, wound.wire_diameter)

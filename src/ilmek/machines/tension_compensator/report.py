@@ -12,7 +12,7 @@ from ilmek.machines.tension_compensator.members import (
     pin_checks,
 )
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared, spring_room
+from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared, spring_room, wires
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
 from ilmek.units import deg, turn
 
@@ -44,7 +44,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
 
 def spring_check(design: TensionCompensator) -> Check:
     """Whether there is a spring that is strong enough, lasts, and fits."""
-    cure = "set a longer spring_arm or strut, more springs, or a shorter support_span"
+    cure = "set a lower tension or a coarser quality, a longer spring_arm or strut, or more springs"
     return must(
         "springs of the table", design.one.spring is not None, SPRING_SOURCE, cure=cure, parts=(part_id("spring"),)
     )
@@ -83,18 +83,19 @@ def choices(design: TensionCompensator) -> tuple[Choice, ...]:
 
 def _spring_choice(design: TensionCompensator) -> Choice:
     """The springs on a lever, and why fewer are not enough."""
-    tried = [number for number in SPRINGS if number <= design.springs]
-    levers = [design.one if number == design.springs else shared(design.params, design.one, number) for number in tried]
-    found = [Alternative(str(one.springs), fewer_checks(design.params, one)) for one in levers]
+    one, wound = design.one, design.one.spring
+    wire = wires(design.params)[-1] if wound is None else wound.wire
+    fewer = [shared(design.params, one, number, wire) for number in SPRINGS if number < one.springs]
+    found = [Alternative(str(tried.springs), fewer_checks(design.params, tried, wire)) for tried in (*fewer, one)]
     return choose("springs", found)[1]
 
 
-def fewer_checks(params: TensionCompensatorParams, one: SprungLever) -> tuple[Check, ...]:
-    """What a lever's springs fail: strength, or the lightest of those strong enough its fatigue or its length."""
+def fewer_checks(params: TensionCompensatorParams, one: SprungLever, wire: str) -> tuple[Check, ...]:
+    """What a lever's springs of a wire fail: strength, or the lightest of those strong enough its fatigue or size."""
     if one.spring is not None:
         return (must("springs of the table", True, SPRING_SOURCE),)
-    used = least_stress_share(one.rate, one.force / one.rate, params.wire)
-    strong = choose_spring(one.rate, one.preload, (one.force - one.preload) / one.rate, wire=params.wire)
+    used = least_stress_share(one.rate, one.force / one.rate, wire)
+    strong = choose_spring(one.rate, one.preload, (one.force - one.preload) / one.rate, wire=wire)
     if strong is None:
         named = at_most("stress of a spring over that allowed", used, 1.0, "1", SPRING_SOURCE)
         return (

@@ -20,6 +20,7 @@ one k l / 2 slacker than the mean.
 
 import math
 from dataclasses import dataclass, replace
+from itertools import product
 
 import numpy as np
 
@@ -33,8 +34,11 @@ from ilmek.units import deg, format_quantity, mm
 LEANS = np.arange(0.0, 46.0, 1.0) * deg
 """Leans of the springs that are tried [rad]; beyond 45 deg small errors of the pins change the arm too much."""
 
-SPRINGS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 20)
+SPRINGS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20)
 """Springs on a lever that are tried."""
+
+USUAL_WIRES = "music wire", "chrome-silicon wire"
+"""Wires that are tried one after the other: the second is stronger."""
 
 PLAY = 1 * mm
 """Play of rollers and springs to what is beside them along their axis [m]; assumed by this project."""
@@ -169,14 +173,20 @@ def spring_room(params: TensionCompensatorParams, number: int) -> float:
     return beside / math.ceil(number / 2) - PLAY
 
 
+def wires(params: TensionCompensatorParams) -> tuple[str, ...]:
+    """The wires offered for the springs."""
+    return USUAL_WIRES if params.wire is None else (params.wire,)
+
+
 def with_springs(params: TensionCompensatorParams, one: SprungLever) -> SprungLever:
     """The lever with the fewest springs of the table, or the number given; with the most where none is enough."""
-    made = [shared(params, one, number) for number in ((params.springs,) if params.springs else SPRINGS)]
+    numbers = (params.springs,) if params.springs else SPRINGS
+    made = [shared(params, one, number, wire) for wire, number in product(wires(params), numbers)]
     return next((one for one in made if one.spring is not None), made[-1])
 
 
-def shared(params: TensionCompensatorParams, one: SprungLever, number: int) -> SprungLever:
-    """The lever with its springs' force shared by a number of them."""
+def shared(params: TensionCompensatorParams, one: SprungLever, number: int, wire: str) -> SprungLever:
+    """The lever with its springs' force shared by a number of them, of a wire."""
     total = one.springs
     preload, force, rate = (total * value / number for value in (one.preload, one.force, one.rate))
     travel = (force - preload) / rate
@@ -184,7 +194,7 @@ def shared(params: TensionCompensatorParams, one: SprungLever, number: int) -> S
         rate,
         preload,
         travel,
-        wire=params.wire,
+        wire=wire,
         outer=spring_room(params, number),
         length=params.strut - SEATS,
         fatigue=params.spring_fatigue,
