@@ -90,6 +90,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"head_width": "40mm"},
         {"roller_radius": "12mm"},
         {"pressure_angle_limit": "22deg"},
+        {"cutter_turn": "15ms", "cloth.yarns.pile_density": "2g/m"},
     ),
     "weft": (
         {"carrier": "shuttle", "crossed": "no"},

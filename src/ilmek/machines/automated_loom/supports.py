@@ -4,12 +4,15 @@ holds a rapier's side [`rapier_support`].
 Axes of the scene, as in `own_parts`. The posts stand on a beam across between the front feet. Each bears half of what
 the beat's beam carries, across at its end: stress F h c / (2 I) and deflection F h³ / (6 E I) [cantilevers]. The tube
 lies before the columns, on arms, and stiffens the bar, which reaches beyond them: it bears the pull of the magnets,
-across, in its middle.
+across, in its middle. Each arm bears half of the weight W of the weft side and of the tube, and half of the inertia m a
+of what runs, at its end: stress sqrt(W² + (m a)²) l c / (2 I) and deflection sqrt(W² + (m a)²) l³ / (6 E I).
 """
 
+import math
 from collections.abc import Iterator
 
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
+from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
@@ -41,9 +44,62 @@ TUBE_SAG = 0.5 * mm
 
 
 @record
+class TubeLoads:
+    """What the tube behind the shuttle's bar and its arms bear.
+
+    span     between the middles of the columns [m]       pull      of the magnets [N]
+    front    of the columns, rear: of the guide's bar in the side view [m]
+    weight   of the weft side [N]                         inertia   of what runs along it [N]
+    """
+
+    span: float
+    pull: float
+    front: float
+    rear: float
+    weight: float
+    inertia: float
+
+    def checks(self, section: HollowSquare) -> tuple[Check, ...]:
+        """Deflection of the tube, stress and deflection of its arms, all of a section."""
+        reach = max(self.rear - section.side / 2 - self.front, 0.0)
+        force = math.hypot(self.weight + section.line_mass * GRAVITY * self.span, self.inertia) / 2
+        arm, rigidity = (part_id("weft-arm"),), STEEL.modulus * section.inertia
+        source, cure = "weight and inertia of the weft side", "set a lower weft.acceleration, or weft=rapier"
+        return (
+            at_most(
+                "deflection behind the shuttle's bar",
+                self.pull * self.span**3 / (48 * rigidity),
+                TUBE_SAG,
+                "mm",
+                "it widens the magnets' gap; assumed by this project",
+                cure="set a narrower carpet, or weft=rapier",
+                parts=(part_id("weft-tube"),),
+            ),
+            at_most(
+                "stress of an arm of the tube",
+                force * reach * section.side / 2 / section.inertia,
+                STEEL.strength / POST_SAFETY,
+                "MPa",
+                f"{source}; yield of S235 over 2, assumed by this project",
+                cure=cure,
+                parts=arm,
+            ),
+            at_most(
+                "deflection of an arm of the tube",
+                force * reach**3 / (3 * rigidity),
+                TUBE_SAG,
+                "mm",
+                f"{source}; assumed by this project",
+                cure=cure,
+                parts=arm,
+            ),
+        )
+
+
+@record
 class LoomSupports:
-    """Section, height [m] and force [N] of a post, whether it is across; section of the tube, None where there is none,
-    its span between the middles of the columns [m] and the pull on it [N]; what holds a rapier's side, or None.
+    """Section, height [m] and force [N] of a post, whether it is across; section of the tube with what it bears, None
+    where there is none; what holds a rapier's side, or None.
     """
 
     post: HollowSquare
@@ -51,15 +107,14 @@ class LoomSupports:
     force: float
     across: bool
     tube: HollowSquare | None
-    span: float
-    pull: float
+    loads: TubeLoads | None
     rapier: RapierSupport | None
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Strength and stiffness of all."""
         posts = _post_checks(self.post, self.height, self.force, across=self.across)
-        tube = () if self.tube is None else _tube_checks(self.tube, self.span, self.pull)
+        tube = () if self.tube is None or self.loads is None else self.loads.checks(self.tube)
         return (*posts, *tube, *(() if self.rapier is None else self.rapier.checks))
 
 
@@ -71,18 +126,19 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     force = beam.carried / 2 if across else beam.carried
     posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
     post = next(posts, ascending()[-1])
-    pull, span = (
-        made.coupling.pull if isinstance(made, Shuttle) else 0.0,
-        2 * brackets_of(loom).face + frame.column.side,
-    )
-    tube: HollowSquare | None = None
-    rapier: RapierSupport | None = None
     if not isinstance(made, Shuttle):
         rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
-    else:
-        sections = (one for one in ascending() if all(c.ok for c in _tube_checks(one, span, pull)))
-        tube = next(sections, ascending()[-1])
-    return LoomSupports(post, height, force, across, tube, span, pull, rapier)
+        return LoomSupports(post, height, force, across, None, None, rapier)
+    loads = TubeLoads(
+        span=2 * brackets_of(loom).face + frame.column.side,
+        pull=made.coupling.pull,
+        front=loom.side.column + frame.column.side / 2,
+        rear=(loom.side.carrier.corner + loom.side.carrier.size / 2).real + loom.weft.bodies.guide.rear,
+        weight=loom.weft.bodies.tree.mass * GRAVITY,
+        inertia=loom.weft.axis.mass * loom.weft.passage.acceleration,
+    )
+    tube = next((one for one in ascending() if all(c.ok for c in loads.checks(one))), ascending()[-1])
+    return LoomSupports(post, height, force, across, tube, loads, None)
 
 
 def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
@@ -119,20 +175,6 @@ def _post_checks(section: HollowSquare, height: float, force: float, *, across: 
             "height over 1000, assumed by this project",
             cure=cure,
             parts=parts,
-        ),
-    )
-
-
-def _tube_checks(section: HollowSquare, span: float, pull: float) -> tuple[Check]:
-    return (
-        at_most(
-            "deflection behind the shuttle's bar",
-            pull * span**3 / (48 * STEEL.modulus * section.inertia),
-            TUBE_SAG,
-            "mm",
-            "it widens the magnets' gap; assumed by this project",
-            cure="set a narrower carpet, or weft=rapier",
-            parts=(part_id("weft-tube"),),
         ),
     )
 

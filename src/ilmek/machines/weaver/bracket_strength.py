@@ -8,10 +8,11 @@ l is the bracket's length, a the acceleration of the step. Case, carriage and ra
 """
 
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.weaver.carriage_guide import guide_checks
 from ilmek.machines.weaver.case import ALUMINIUM, BRACKET, BRACKET_WALL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.tree import head_mass
+from ilmek.machines.weaver.tree import carriage_guide, head_mass
 from ilmek.machines.weaver.widths import case_width
 from ilmek.records import record
 from ilmek.report import Check, at_most
@@ -63,7 +64,7 @@ def _inertia(wide: float, high: float, wall: float) -> float:
 
 
 def bracket_checks(weaver: Weaver) -> tuple[Check, ...]:
-    """Stress of the bracket, and sag of the tools."""
+    """Stress of the bracket, sag of the tools, and the guide of the carriage."""
     shape, params, wide = weaver.shape, weaver.params, case_width(weaver.params)
     rear = shape.body + shape.size
     reach = BracketReach(shape.front - rear.real, shape.front - rear.real + shape.size.real / 2, rear.real)
@@ -78,4 +79,5 @@ def bracket_checks(weaver: Weaver) -> tuple[Check, ...]:
     return (
         at_most("stress of the head's bracket", load.stress, STRESS, "MPa", source, cure=cure, parts=(BRACKET,)),
         at_most("sag of the head at its tools", load.sag, SAG * pitch, "mm", tenth, cure=cure, parts=(BRACKET,)),
+        *guide_checks(weaver, head_mass(weaver), carriage_guide(weaver)),
     )

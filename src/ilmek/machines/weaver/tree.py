@@ -10,7 +10,9 @@ from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.drive_parts import PULLEY
+from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import smallest_motor
+from ilmek.machines.weaver.carriage_guide import guide_carriages, guide_for
 from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
@@ -75,6 +77,20 @@ def on_the_axis(weaver: Weaver, x: float, top: float) -> Placement:
 @lru_cache(maxsize=8)
 def head_tree(weaver: Weaver) -> Tree:
     """All that a carriage moves: the case slides on the rail, the rest is in it, each body after what carries it."""
+    bare = _without_guide(weaver)
+    first, *others = bare.bodies
+    guided = (*first.occurrences, guide_carriages(weaver, carriage_guide(weaver)))
+    return bare.replaced((replace(first, occurrences=guided), *others))
+
+
+def carriage_guide(weaver: Weaver) -> LinearGuide:
+    """The guide of the head's carriage, by the mass on it."""
+    return guide_for(weaver, weaver.params.head_mass or _without_guide(weaver).mass)
+
+
+@lru_cache(maxsize=8)
+def _without_guide(weaver: Weaver) -> Tree:
+    """The head beside what guides it."""
     axis = weaver.shape.axis
     about = placement(0.0, axis.imag, axis.real).after(IN_SIDE_VIEW)
     case = (
