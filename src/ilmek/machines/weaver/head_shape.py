@@ -184,7 +184,7 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
 def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     """With arms, which swing in a plane across the warps: the side view shows its edge."""
     arms, radius, standoff = params.arms, params.warp / 2, params.standoff
-    face = max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff
+    face = max(max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff, arms.back)
     rest, out = arms.rest - radius, params.opening - radius - standoff
     carriage, above = face + SHEET + APART + params.opening, params.opener.front_span + params.opener.height
     size = complex(face - rest + arms.stroke, arms.breadth)

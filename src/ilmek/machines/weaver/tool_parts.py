@@ -198,6 +198,8 @@ class ToolBodies:
         """A foot over the pair that passes before the opener's points; its arm goes beside the opener into the face."""
         tool, rest = self.tools.tool(SLEY_TOOL), self.tools.tool(LOWER_PLATE).corner.real
         half, outer, deep = self.grippers.axis, self.sley_arm, tool.size.real
+        if self.params.with_arms:
+            rest = min(rest, self.params.arms.rest - self.params.arms.grip)
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
         inner = outer - SLEY_ARM
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
@@ -211,7 +213,9 @@ class ToolBodies:
         """From the middle of the pair to the outer side of the sley's arm, on the weaver's left [m]."""
         params = self.params
         cam = stack_width(params) / 2 - 2 * params.cam_gap - params.cam_thickness  # the next one beside its own
-        return max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY, cam + params.clearance) + SLEY_ARM
+        arms = params.arms.beside if params.with_arms else 0.0
+        tools = max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY)
+        return max(tools, max(cam, arms) + params.clearance) + SLEY_ARM
 
     @property
     def opener_half(self) -> float:
