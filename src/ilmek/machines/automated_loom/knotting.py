@@ -22,7 +22,16 @@ from ilmek.errors import LoomError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
-from ilmek.machines.knotting_dyad.arm_drives import ROOM, SERVO_SHAFT, behind, beside, servo_axis, servo_face
+from ilmek.machines.knotting_dyad.arm_drives import (
+    BELTS_OVER,
+    OUTSIDE,
+    ROOM,
+    SERVO_SHAFT,
+    behind,
+    beside,
+    servo_axis,
+    servo_face,
+)
 from ilmek.machines.knotting_dyad.arms import gripper_side
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.head import Head
@@ -140,6 +149,8 @@ def _in_head(arms: KnottingDyad) -> ArmsInHead:
         servo_aside=inside.middle - first.real,
         servo_depth=first.imag,
         servo_pitch=second.imag - first.imag,
+        belts_end=second.imag + OUTSIDE,
+        belts_over=BELTS_OVER,
         servo_shaft=SERVO_SHAFT,
     )
 

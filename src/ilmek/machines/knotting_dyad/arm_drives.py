@@ -69,6 +69,9 @@ ELBOW_BELT, SERVO_BELTS = f"{NAME}/elbow-belt", (f"{NAME}/first-belt", f"{NAME}/
 OUTSIDE = RADIUS + BACK
 """From the axis of a pulley to the back of its belt [m]."""
 
+BELTS_OVER = 3 * ROOM + 2 * BELT
+"""From the plate of the arms up to the top of the belts over it [m]."""
+
 
 def behind(head: Head) -> float:
     """From the warps' axes to the face behind the arms: clear of elbows with their belts at rest, and of pivots [m]."""

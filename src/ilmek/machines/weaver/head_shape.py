@@ -88,6 +88,7 @@ class HeadShape:
     levers    between followers and tools, by track
     carriage  front of the side grippers' carriage at rest, partition: of the plate behind it [m from the warps]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
+    belts  upper front corner of the belts of arms over the body; that of the body where there are none [m]
     rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
@@ -101,6 +102,7 @@ class HeadShape:
     partition: float
     tools: tuple[HeadTool, ...]
     reach: float
+    belts: complex
     rail: float
     magazine: complex
     magazine_size: complex
@@ -111,9 +113,14 @@ class HeadShape:
         return self.magazine.real + self.magazine_size.real
 
     @property
+    def corners(self) -> tuple[complex, ...]:
+        """Upper corners in front of body, magazine and belts [m]."""
+        return self.body + self.size, self.magazine + self.magazine_size, self.belts
+
+    @property
     def top(self) -> float:
         """Height of its highest point above the fell [m]."""
-        return max(self.body.imag + self.size.imag, *((tool.corner + tool.size).imag for tool in self.tools))
+        return max(self.belts.imag, *((tool.corner + tool.size).imag for tool in self.tools))
 
 
 @record
@@ -121,7 +128,7 @@ class HeadTools:
     """The tools that reach to the warps.
 
     face  front of the case behind them      carriage  front of their carriage at rest, back: the most that it is
-    pulled back [m]      stroke  of the centre gripper [m]
+    pulled back [m]      stroke  of the centre gripper [m]      belts  end of those of arms, and height over the case [m]
     """
 
     tools: tuple[HeadTool, ...]
@@ -129,6 +136,7 @@ class HeadTools:
     carriage: float
     back: float = 0.0
     stroke: float = 0.0
+    belts: complex = 0j
 
     @property
     def partition(self) -> float:
@@ -194,7 +202,7 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
         *_opener(params, OPENER, complex(out, carriage), above),
         _sley(params, complex(radius + standoff, face + SLEY_TAIL), above),
     )
-    return HeadTools(tools, face, carriage)
+    return HeadTools(tools, face, carriage, belts=complex(arms.belts_end, arms.belts_over))
 
 
 def _opener(params: WeaverParams, track: str, span: complex, above: float) -> Iterator[HeadTool]:
@@ -249,6 +257,7 @@ def head_shape(
         partition=reaching.partition,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
+        belts=reaching.belts + 1j * top if reaching.belts else complex(face + deep, top),
         rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,
         magazine=complex(face + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),

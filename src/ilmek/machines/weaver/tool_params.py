@@ -86,4 +86,6 @@ class ArmsInHead(Params):
         0.0, at_least=0.0, at_most=2.0, doc="from the warps to the first of these; 0: none"
     )
     servo_pitch: float = kind.length(26 * mm, at_least=0.0, at_most=1.0, doc="from the first to the second ones")
+    belts_end: float = kind.length(0.0, at_least=0.0, at_most=2.0, doc="from the warps to the end of their belts")
+    belts_over: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="height of their belts over the case")
     servo_shaft: float = kind.length(5 * mm, at_least=0.0, at_most=0.1, doc="diameter of these shafts")
