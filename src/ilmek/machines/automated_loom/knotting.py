@@ -120,12 +120,12 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
     arms = _arms(task)
     if arms.head is None:
         raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
-    weaver = _weaver(_sized(task, replace(params, arms=_in_head(arms))))
+    weaver = _weaver(_sized(task, replace(params, arms=_in_head(task, arms))))
     placed = replace(arms, params=task.parameters(DYAD, replace(arms.params, room=_room(weaver, arms))))
-    return _by_arms(_sized(task, replace(params, arms=_in_head(placed))), placed)
+    return _by_arms(_sized(task, replace(params, arms=_in_head(task, placed))), placed)
 
 
-def _in_head(arms: KnottingDyad) -> ArmsInHead:
+def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
     """What a head has to know of its arms."""
     assert arms.head is not None
     head, params, inside = arms.head, arms.params, arms.head.section
@@ -141,9 +141,10 @@ def _in_head(arms: KnottingDyad) -> ArmsInHead:
         stroke=max(_travel(spans) for spans in _arm_positions(head).values()),
         breadth=params.needle_breadth,
         mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
-        back=behind(head),
-        beside=beside(head),
-        grip=gripper_side(params) / 2,
+        back=behind(head) + task.params.clearance,
+        beside=beside(head) + task.params.clearance,
+        grip=gripper_side(params) / 2 + task.params.clearance,
+        aside=inside.middle - float(head.arm.tip(np.array([0.0])).real[0]),
         bar_width=params.link_width,
         bar_height=params.link_thickness,
         servo_aside=inside.middle - first.real,

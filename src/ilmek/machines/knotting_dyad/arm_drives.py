@@ -69,7 +69,7 @@ ELBOW_BELT, SERVO_BELTS = f"{NAME}/elbow-belt", (f"{NAME}/first-belt", f"{NAME}/
 OUTSIDE = RADIUS + BACK
 """From the axis of a pulley to the back of its belt [m]."""
 
-BELTS_OVER = 3 * ROOM + 2 * BELT
+BELTS_OVER = 2 * (ROOM + BELT)
 """From the plate of the arms up to the top of the belts over it [m]."""
 
 
@@ -109,7 +109,7 @@ class DriveLevels:
     @property
     def second(self) -> float:
         """Over the belts of the second links."""
-        return self.first - 2 * ROOM - BELT
+        return self.first - ROOM - BELT
 
 
 def drive_levels(params: KnottingDyadParams, bottoms: Mapping[str, float]) -> DriveLevels:

@@ -5,9 +5,11 @@ Tools reach out of the body to the warps. Their boxes contain the rods at every 
 machine states are assumed by this project.
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
+from ilmek.machines.weaver.cyclogram import DRAW_TURN
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, FollowerLever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
@@ -54,6 +56,10 @@ SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 14 * mm
 
 BELL_CRANKS = (SIDE_MOTION, OPENER, CENTRE_MOTION)
 """Tracks whose levers are bell cranks, on one axle."""
+
+HANDLER_ARM, RACK_BELOW = (5 * mm, 4 * mm), 6.6
+"""Radius of the pile handler's arm and its thickness [m], and how far its rack reaches below its axis, over the radius
+of the pinion [1]: teeth for a turn and three more, one over the pinion; assumed by this project."""
 
 RACK = 5.6 * mm
 """Room for the rack and its pinion between the followers and that axle [m]; assumed by this project."""
@@ -128,7 +134,9 @@ class HeadTools:
     """The tools that reach to the warps.
 
     face  front of the case behind them      carriage  front of their carriage at rest, back: the most that it is
-    pulled back [m]      stroke  of the centre gripper [m]      belts  end of those of arms, and height over the case [m]
+    pulled back [m]      stroke  of the centre gripper [m]
+    belts  of arms: their end, and i times their height over the case [m]
+    handler, rack  height of the pile handler's axis under the grippers of arms, and of the lower end of its rack [m]
     """
 
     tools: tuple[HeadTool, ...]
@@ -137,6 +145,8 @@ class HeadTools:
     back: float = 0.0
     stroke: float = 0.0
     belts: complex = 0j
+    handler: float = math.nan
+    rack: float = math.inf
 
     @property
     def partition(self) -> float:
@@ -202,7 +212,16 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
         *_opener(params, OPENER, complex(out, carriage), above),
         _sley(params, complex(radius + standoff, face + SLEY_TAIL), above),
     )
-    return HeadTools(tools, face, carriage, belts=complex(arms.belts_end, arms.belts_over))
+    grippers = params.opener.front_span + params.opener.height / 2 - arms.grip
+    handler = grippers - HANDLER_ARM[0] - drawn / DRAW_TURN
+    return HeadTools(
+        tools,
+        face,
+        carriage,
+        belts=complex(arms.belts_end, arms.belts_over),
+        handler=handler,
+        rack=handler - RACK_BELOW * params.pinion,
+    )
 
 
 def _opener(params: WeaverParams, track: str, span: complex, above: float) -> Iterator[HeadTool]:
@@ -240,7 +259,7 @@ def head_shape(
     cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
     arm = max(RACK + LEVER_AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
     levers = {cam.name: lever for cam in cams if (lever := _lever(reaching, cam, line, arm)) is not None}
-    lowest = min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID
+    lowest = min(reaching.rack, min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID)
     guide = largest + 2 * radius + PLAY + LAP
     axis = complex(line, lowest - GUIDE - guide)
     deep, low = line + largest + CASE - face, axis.imag - largest - CASE

@@ -16,7 +16,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.head_shape import BAR, COLLARS, LOWER_PLATE, SLEY_TOOL, UPPER_PLATE, HeadTool, HeadTools
+from ilmek.machines.weaver.head_shape import (
+    BAR,
+    COLLARS,
+    HANDLER_ARM,
+    LOWER_PLATE,
+    SLEY_TOOL,
+    UPPER_PLATE,
+    HeadTool,
+    HeadTools,
+)
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
@@ -31,8 +40,8 @@ from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import format_quantity, mm
 
-HANDLER_ARM, HANDLER_SHAFT = (5 * mm, 4 * mm), 4 * mm
-"""Radius of the pile handler's arm and its thickness, and diameter of its shaft [m]; assumed by this project."""
+HANDLER_SHAFT = 4 * mm
+"""Diameter of the pile handler's shaft [m]; assumed by this project."""
 
 JAW, WIRE = 8 * mm, 0.9 * mm
 """Length of a side gripper's jaws, and diameter of their wires, at most [m]; assumed by this project."""
