@@ -32,7 +32,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     servo_axis,
     servo_face,
 )
-from ilmek.machines.knotting_dyad.arms import gripper_side
+from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart
@@ -130,6 +130,7 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
     assert arms.head is not None
     head, params, inside = arms.head, arms.params, arms.head.section
     motion = head_motion(params, head)
+    rest = head.arm.tip(np.array([0.0]))[0]
     first, second = (servo_axis(params, head, motion, number) for number in (0, 1))
     return ArmsInHead(
         time=motion.cycle.period,
@@ -137,14 +138,14 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
         pair=inside.pair,
         outer=inside.outer,
         width=head.width,
-        rest=inside.front,
+        rest=float(rest.imag),
         stroke=max(_travel(spans) for spans in _arm_positions(head).values()),
         breadth=params.needle_breadth,
         mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
         back=behind(head) + task.params.clearance,
         beside=beside(head) + task.params.clearance,
-        grip=gripper_side(params) / 2 + task.params.clearance,
-        aside=inside.middle - float(head.arm.tip(np.array([0.0])).real[0]),
+        grip=gripper_half(params) + task.params.clearance,
+        aside=inside.middle - float(rest.real),
         bar_width=params.link_width,
         bar_height=params.link_thickness,
         servo_aside=inside.middle - first.real,

@@ -167,7 +167,7 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    aside = loom.task.width / 2 + POST - held.post.side / 2
+    aside = loom.task.rail_length / 2 + POST - held.post.side / 2
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),

@@ -129,9 +129,9 @@ def edgewise(params: KnottingDyadParams, x: float, z: float) -> Placement:
     return placement(x, params.needle_diameter / 2, z, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
 
-def gripper_side(params: KnottingDyadParams) -> float:
-    """Side of the room of a gripper [m]."""
-    return _cube(params.gripper_mass)
+def gripper_half(params: KnottingDyadParams) -> float:
+    """Half the room of a gripper across its needle, however this is tilted [m]."""
+    return _cube(params.gripper_mass) / math.sqrt(2)
 
 
 def _cube(mass: float) -> float:

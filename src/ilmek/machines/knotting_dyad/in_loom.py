@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.machines.arrangement.spans import SPARE
-from ilmek.machines.knotting_dyad.arms import gripper_side
+from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.motion import drive_angles
@@ -28,7 +28,7 @@ def params_for(task: LoomTask) -> KnottingDyadParams:
     """The parameters of the arms of a loom: at rest their grippers leave the sley's foot its way before the warps."""
     usual = KnottingDyadParams(knot=task.params.knot, cloth=task.cloth)
     foot = usual.warp / 2 + SPARE * task.params.clearance + WeaverParams().finger
-    leg = (foot + task.params.clearance + gripper_side(usual) / 2) / math.cos(LEAN)
+    leg = (foot + task.params.clearance + gripper_half(usual)) / math.cos(LEAN)
     return replace(usual, leg=max(usual.leg, leg))
 
 
