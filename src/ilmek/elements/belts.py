@@ -39,6 +39,7 @@ def _belt(name: str, pitch: float, widths: tuple[float, ...], least: int, pull: 
 BELTS: dict[str, BeltType] = {
     belt.name: belt
     for belt in (
+        _belt("T2.5", 2.5, (6, 10), 15, 9.0),
         _belt("T5", 5, (6, 10, 16, 25), 10, 24.0),
         _belt("T10", 10, (16, 25, 32, 50), 12, 50.0),
         _belt("AT5", 5, (10, 16, 25, 32), 15, 35.0),

@@ -84,7 +84,14 @@ BULK = 4500.0
 _NEMA = {"NEMA 17": 42.3 * mm, "NEMA 23": 57.2 * mm, "NEMA 34": 86.4 * mm, "NEMA 42": 107.9 * mm}
 """Sides of steppers' flanges [NEMA ICS 16]."""
 
-_FLANGES = ((100.0, 40 * mm), (400.0, 60 * mm), (750.0, 80 * mm), (2000.0, 130 * mm), (7500.0, 180 * mm))
+_FLANGES = (
+    (30.0, 25 * mm),
+    (100.0, 40 * mm),
+    (400.0, 60 * mm),
+    (750.0, 80 * mm),
+    (2000.0, 130 * mm),
+    (7500.0, 180 * mm),
+)
 """Largest power [W] of servos with a flange of a side [m]; above: 220 mm. Usual sizes, makers differ."""
 
 _ROUNDING = 1e-9
@@ -120,6 +127,9 @@ MOTORS = (
     _stepper("NEMA 34", 4.0, 2.0, 2.8),
     _stepper("NEMA 34", 7.0, 4.0, 5.0),
     _stepper("NEMA 42", 12.0, 11.0, 9.0),
+    _servo(10.0, 3000.0, 3.0, 0.003, 0.12),
+    _servo(20.0, 3000.0, 3.0, 0.006, 0.14),
+    _servo(30.0, 3000.0, 3.0, 0.008, 0.16),
     _servo(100.0, 3000.0, 3.0, 0.05, 0.5),
     _servo(200.0, 3000.0, 3.0, 0.16, 0.9),
     _servo(400.0, 3000.0, 3.0, 0.28, 1.3),

@@ -92,6 +92,12 @@ class LoomTask:
         """Distance of the bearings of cylinders and cam shaft [m]."""
         return self.cloth.width + 2 * self.params.margin
 
+    @property
+    def rail_length(self) -> float:
+        """Length of the heads' rail [m]: beyond its ends the axes of its retreat are clear of a head and its step."""
+        room = self.weaver.width / 2 + self.params.clearance
+        return max(self.width, self.cloth.width + self.cloth.knot_pitch + 2 * room)
+
     def parameters(self, name: str, derived: P) -> P:
         """The parameters of one of its machines: those derived for it, with those that the user set in their place.
 

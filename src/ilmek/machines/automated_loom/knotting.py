@@ -22,16 +22,31 @@ from ilmek.errors import LoomError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
+from ilmek.machines.knotting_dyad.arm_drives import (
+    BELTS_OVER,
+    OUTSIDE,
+    ROOM,
+    SERVO_SHAFT,
+    behind,
+    beside,
+    servo_axis,
+    servo_face,
+)
+from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart
+from ilmek.machines.knotting_dyad.params import ArmRoom
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
+from ilmek.machines.weaver.levers import HALF
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
 from ilmek.machines.weaver.sizes import larger_sizes
+from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_params import ArmsInHead
+from ilmek.machines.weaver.widths import stack_width
 from ilmek.records import record
 from ilmek.report import Alternative, Check, Choice, choose
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
@@ -105,22 +120,54 @@ def _head(kind: str, task: LoomTask) -> KnottingHead:
     arms = _arms(task)
     if arms.head is None:
         raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
-    inside = arms.head.section
-    params = replace(
-        params,
-        arms=ArmsInHead(
-            time=head_motion(arms.params, arms.head).cycle.period,
-            yarn=arms.head.yarn_needed,
-            pair=inside.pair,
-            outer=inside.outer,
-            width=arms.head.width,
-            rest=inside.front,
-            stroke=max(_travel(spans) for spans in _arm_positions(arms.head).values()),
-            breadth=arms.params.needle_breadth,
-            mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
-        ),
+    weaver = _weaver(_sized(task, replace(params, arms=_in_head(task, arms))))
+    placed = replace(arms, params=task.parameters(DYAD, replace(arms.params, room=_room(weaver, arms))))
+    return _by_arms(_sized(task, replace(params, arms=_in_head(task, placed))), placed)
+
+
+def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
+    """What a head has to know of its arms."""
+    assert arms.head is not None
+    head, params, inside = arms.head, arms.params, arms.head.section
+    motion = head_motion(params, head)
+    rest = head.arm.tip(np.array([0.0]))[0]
+    first, second = (servo_axis(params, head, motion, number) for number in (0, 1))
+    return ArmsInHead(
+        time=motion.cycle.period,
+        yarn=head.yarn_needed,
+        pair=inside.pair,
+        outer=inside.outer,
+        width=head.width,
+        rest=float(rest.imag),
+        stroke=max(_travel(spans) for spans in _arm_positions(head).values()),
+        breadth=params.needle_breadth,
+        mass=sum(part.mass_all for part in MACHINES[DYAD].parts(arms)),
+        back=behind(head) + task.params.clearance,
+        beside=beside(head) + task.params.clearance,
+        grip=gripper_half(params) + task.params.clearance,
+        aside=inside.middle - float(rest.real),
+        bar_width=params.link_width,
+        bar_height=params.link_thickness,
+        servo_aside=inside.middle - first.real,
+        servo_depth=first.imag,
+        servo_pitch=second.imag - first.imag,
+        belts_end=second.imag + OUTSIDE,
+        belts_over=BELTS_OVER,
+        servo_shaft=SERVO_SHAFT,
     )
-    return _by_arms(_sized(task, params), arms)
+
+
+def _room(weaver: Weaver, arms: KnottingDyad) -> ArmRoom:
+    """Where a head has room for its arms' drives: under the plate over its case, behind the followers of its cams."""
+    assert arms.head is not None
+    shape, opener = weaver.shape, weaver.params.opener
+    top, face = (shape.body + shape.size).imag - sheet(weaver), servo_face(head_motion(arms.params, arms.head))
+    return ArmRoom(
+        level=top - opener.front_span - opener.height / 2,
+        face=shape.body.real,
+        depth=shape.axis.real + 2 * HALF + face / 2,
+        aside=(stack_width(weaver.params) - face) / 2 - ROOM / 2,
+    )
 
 
 def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:

@@ -106,7 +106,7 @@ def built_side(loom: LoomDesign) -> SideView:
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
     params, cylinder = loom.params, loom.warp_tension
-    wide, (behind, before) = _rail_length(loom), loom.side.column_room
+    wide, (behind, before) = loom.task.rail_length, loom.side.column_room
     return FrameTask(
         width=wide,
         height=loom.side.loom_height,
@@ -126,12 +126,6 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         rail_drop=_rail_drop(loom),
         frequency=least_frequency(loom),
     )
-
-
-def _rail_length(loom: LoomDesign) -> float:
-    """Length of the heads' rail [m]: beyond both ends the axes of its retreat are clear of a head, and of its step."""
-    task, room = loom.task, loom.head_width / 2 + loom.params.clearance
-    return max(task.width, task.cloth.width + loom.knot_pitch + 2 * room)
 
 
 def _rail_drop(loom: LoomDesign) -> float:

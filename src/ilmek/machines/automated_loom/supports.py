@@ -224,7 +224,7 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    aside = loom.task.width / 2 + max(POST - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
+    aside = loom.task.rail_length / 2 + max(POST - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),

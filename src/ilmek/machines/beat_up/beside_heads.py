@@ -120,7 +120,5 @@ def _in_side_view(linkage: BeatUp, pin: ComplexArray) -> ComplexArray:
 
 def _corners(side: SideView) -> Iterator[complex]:
     """Upper corners in front of a head that knots, and of its rail, in the side view [m]."""
-    head = side.head
-    yield head.body + head.size
-    yield head.magazine + head.magazine_size
+    yield from side.head.corners
     yield side.rail.corner + side.rail.size / 2 + side.rail_side * (1 + 0.5j)

@@ -38,7 +38,9 @@ def fit(task: LoomTask) -> BeatUpParams:
         beat_force=needed,
         interval=every if every > 0 else None,
         cloth=task.cloth,
-        travel=TravelParams(warp_force=needed, bar_distance=_bar_distance(task), beam_length=task.width + 2 * POST),
+        travel=TravelParams(
+            warp_force=needed, bar_distance=_bar_distance(task), beam_length=task.rail_length + 2 * POST
+        ),
     )
 
 

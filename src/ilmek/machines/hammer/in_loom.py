@@ -67,7 +67,7 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         stroke=stroke,
         shed_speed=params.shed_speed,
         ground=beat_up.ground_for(stroke + SPARE * params.clearance),
-        beam_length=task.width + 2 * POST,
+        beam_length=task.rail_length + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
         leaf_reach=_before_reeds(task, kind),
     )

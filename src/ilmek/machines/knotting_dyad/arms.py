@@ -12,6 +12,7 @@ from functools import lru_cache
 from ilmek.dynamics.inertia import Inertia
 from ilmek.elements.materials import MATERIALS
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
+from ilmek.machines.knotting_dyad.arm_drives import NAME, drive_levels, elbow_belt, elbow_pulley, sleeve
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.link_tree import Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
@@ -24,8 +25,6 @@ from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import format_quantity
-
-NAME = "knotting-dyad"
 
 LEVELS = ((GROUND,), ("link 1",), ("link 2",))
 
@@ -71,7 +70,7 @@ def arm_parts(params: KnottingDyadParams, head: Head, hole: float) -> LinkagePar
     """Plates and pins of an arm; hole: diameter of the holes [m]."""
     levels = levels_of(params, hole)
     formed = {"link 2": _second_link(head, levels.sizes["link 2"])}
-    return linkage_parts(NAME, arm_mechanism(head), levels, formed, of=OF)
+    return linkage_parts(NAME, arm_mechanism(head), levels, formed, shafts={"O"}, of=OF)
 
 
 def levels_of(params: KnottingDyadParams, hole: float) -> Levels:
@@ -101,11 +100,19 @@ def _second_link(head: Head, size: LinkSize) -> Part:
 def carried(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, tuple[Occurrence, ...]]:
     """What the links carry beside their pins: blade and gripper of the second, the load of the elbow on the first."""
     tip = head.arm.second
-    middle = levels_of(params, hole).bottoms["link 2"] + params.link_thickness / 2
+    bottoms, length = levels_of(params, hole).bottoms, abs(head.arm.first)
+    levels, middle = drive_levels(params, bottoms), bottoms["link 2"] + params.link_thickness / 2
+    belt, pulley = (elbow_belt(levels, length),), (elbow_pulley(levels, hole),)
+    if params.elbow_drive != "belt":
+        belt, pulley = (), ()
     blade = Occurrence(blade_part(params, head), (edgewise(params, tip - head.section.needle_length / 2, middle),))
     return {
-        "link 1": tuple(_loads("elbow-load", "load of an elbow", params.elbow_mass, abs(head.arm.first), middle)),
-        "link 2": (blade, *_loads("gripper", "gripper of an arm", params.gripper_mass, tip, middle)),
+        "link 1": (
+            sleeve(levels, hole),
+            *belt,
+            *_loads("elbow-load", "load of an elbow", params.elbow_mass, length, middle),
+        ),
+        "link 2": (blade, *pulley, *_loads("gripper", "gripper of an arm", params.gripper_mass, tip, middle)),
     }
 
 
@@ -122,10 +129,20 @@ def edgewise(params: KnottingDyadParams, x: float, z: float) -> Placement:
     return placement(x, params.needle_diameter / 2, z, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
 
+def gripper_half(params: KnottingDyadParams) -> float:
+    """Half the room of a gripper across its needle, however this is tilted [m]."""
+    return _cube(params.gripper_mass) / math.sqrt(2)
+
+
+def _cube(mass: float) -> float:
+    """Side of a cube of steel of a mass [kg]."""
+    return float((mass / BLADE.density) ** (1 / 3))
+
+
 def _loads(name: str, title: str, mass: float, x: float, z: float) -> Iterator[Occurrence]:
     """A bought part of a given mass [kg] on the line of its link: room of a cube of steel; none without mass."""
     if mass > 0:
-        side = (mass / BLADE.density) ** (1 / 3)
+        side = _cube(mass)
         purchase = Bought(format_quantity(mass, "g"), mass)
         part = Part(
             f"{NAME}/{name}", title, "turned part", shape=box(side, side, side), purchase=purchase, envelope=True

@@ -5,6 +5,8 @@ import math
 import numpy as np
 
 from ilmek.arrays import FloatArray
+from ilmek.elements.duty import MARGIN
+from ilmek.machines.knotting_dyad.arm_drives import BELT, PROFILE, RADIUS, SERVO_BELTS, SLEEVE, TEETH
 from ilmek.machines.knotting_dyad.arms import SERVOS, arm_parts
 from ilmek.machines.knotting_dyad.design import KnottingDyad, longest_link
 from ilmek.machines.knotting_dyad.drives import HeadMotion
@@ -171,7 +173,16 @@ def _motion_checks(params: KnottingDyadParams, head: Head, motion: HeadMotion) -
             cure="set a lower joint_acceleration, or a gear_ratio",
             parts=SERVOS,
         ),
-        *arm_strength_checks(motion.strength, arm_parts(params, head, motion.hole).ids),
+        at_most(
+            "pull of a belt of the arms",
+            MARGIN * motion.torque_max / RADIUS,
+            (PROFILE.pull or 0.0) * BELT * (TEETH // 2),
+            "N",
+            f"{PROFILE.name}, {TEETH // 2} teeth in mesh, margin {MARGIN:g}",
+            cure="set a lower joint_acceleration",
+            parts=SERVO_BELTS,
+        ),
+        *arm_strength_checks(motion.strength, {**arm_parts(params, head, motion.hole).ids, "O": SLEEVE}),
     )
 
 

@@ -4,19 +4,32 @@ An opener gives the needles their room at every pitch. So a needle keeps its usu
 opener, which enters between two warps and crowds their neighbours.
 """
 
+import math
+from dataclasses import replace
+
 import numpy as np
 
+from ilmek.machines.arrangement.spans import SPARE
+from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.loom_task import LoomTask
+from ilmek.machines.weaver.params import WeaverParams
 from ilmek.report import Work
+from ilmek.units import deg
+
+LEAN = 20 * deg
+"""Greatest tilt of a needle at rest for which the grippers have room; assumed by this project."""
 
 
 def params_for(task: LoomTask) -> KnottingDyadParams:
-    """The parameters of the arms of a loom."""
-    return KnottingDyadParams(knot=task.params.knot, cloth=task.cloth)
+    """The parameters of the arms of a loom: at rest their grippers leave the sley's foot its way before the warps."""
+    usual = KnottingDyadParams(knot=task.params.knot, cloth=task.cloth)
+    foot = usual.warp / 2 + SPARE * task.params.clearance + WeaverParams().finger
+    leg = (foot + task.params.clearance + gripper_half(usual)) / math.cos(LEAN)
+    return replace(usual, leg=max(usual.leg, leg))
 
 
 def work(dyad: KnottingDyad) -> tuple[Work, ...]:

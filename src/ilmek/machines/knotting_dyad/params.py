@@ -17,6 +17,20 @@ def _size(default: float | None, doc: str, symbol: str = "", at_most: float = 50
 
 
 @dataclass(frozen=True, slots=True)
+class ArmRoom(Params):
+    """Where a head has room for what drives its arms."""
+
+    level: float = _size(
+        32 * mm, "from the needles' middle to the plate that bears the arms, along the warps", at_most=0.5
+    )
+    face: float | None = _size(
+        None, "from the warps' axes to the face that carries this plate; default: behind the links", at_most=0.5
+    )
+    depth: float = _size(160 * mm, "from the warps' axes to the servos of the first links", at_most=1.0)
+    aside: float = _size(23 * mm, "from the middle of the pair to the servos", at_most=0.5)
+
+
+@dataclass(frozen=True, slots=True)
 class KnottingDyadParams(Params):
     """The knot, or four timed points; the section, the links, the drives and their limits."""
 
@@ -87,6 +101,7 @@ class KnottingDyadParams(Params):
     gravity: float = kind.acceleration(
         9.81, at_least=0.0, at_most=1e3, doc="gravity, in the section's plane and away from the pile; 0: horizontal"
     )
+    room: ArmRoom = nested(ArmRoom, doc="room for the drives of the arms")
     gear_ratio: float | None = kind.ratio(
         None,
         above=0.0,

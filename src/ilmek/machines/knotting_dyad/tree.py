@@ -1,8 +1,7 @@
-"""The head as a tree of bodies: both arms on a plate, their servos behind it, the centre gripper between them.
+"""The head as a tree of bodies: both arms under a plate, their drives, the centre gripper between them.
 
-Axes are those of the section: x from the pair's left warp, y from the warps' axes, the pile upwards. The servos of the
-first links stand in line with the pivots. Those of the second links stand above them, or are in the elbows; belts and
-pulleys are not designed.
+Axes are those of the section: x from the pair's left warp, y from the warps' axes, the pile upwards. Servos, belts and
+shafts: `arm_drives`; the servos of the second links may be in the elbows instead.
 """
 
 from collections.abc import Iterator
@@ -19,8 +18,18 @@ from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rota
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.machines.knotting_dyad.arms import (
+from ilmek.machines.knotting_dyad.arm_drives import (
+    ALUMINIUM,
+    ELBOW_BELT,
     NAME,
+    SHAFT,
+    both,
+    drive_levels,
+    servo_axis,
+    shaft,
+    standing_drives,
+)
+from ilmek.machines.knotting_dyad.arms import (
     SERVOS,
     arm_mechanism,
     arm_parts,
@@ -33,21 +42,22 @@ from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
-from ilmek.machines.link_tree import FRAME, GAP, Levels, LinkageParts, body_id, link_part, linkage_tree
+from ilmek.machines.link_tree import TURN, Levels, LinkageParts, body_id, linkage_tree
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import box
-from ilmek.part.tree import Occurrence, RigidBody, Tree, in_line
-from ilmek.units import deg, format_quantity, mm
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.report.scene import SceneMotion
+from ilmek.units import deg, format_quantity, mm, turn
 
 POSES = 181
 """Poses of the head over its cycle."""
 
 CENTRE = "centre gripper"
 
-AXIS = 20 * mm
-"""Side of the section of the centre gripper's axis [m]; assumed by this project."""
+AXIS, HANGER = 20 * mm, 6 * mm
+"""Side of the section of the centre gripper's axis, and thickness of its hanger [m]; assumed by this project."""
 
 CENTRE_MOTOR = f"{NAME}/centre-motor"
 """Id of the motor of the centre gripper's axis."""
@@ -67,22 +77,49 @@ def tree(dyad: KnottingDyad) -> Tree:
     arm = arm_parts(params, head, motion.hole)
     loads = carried(params, head, motion.hole)
     bottom = needle_level(dyad)
+    levels = drive_levels(params, arm.levels.bottoms)
     others = {
         **loads,
         **{other(body): occurrences for body, occurrences in loads.items()},
         CENTRE: _centre(dyad, head, bottom),
-        GROUND: (*_servos(dyad, head, motion), *_axis(dyad, head, bottom)),
+        GROUND: (
+            *standing_drives(params, head, levels, motion),
+            *_servos(dyad, head, motion, levels.plate),
+            *_axis(dyad, head, bottom, levels.plate),
+        ),
     }
     if params.elbow_drive == "direct":
         servo = (_elbow_servo(motion.joints[1], loads["link 1"], abs(head.arm.first)),)
-        others |= {"link 1": servo, other("link 1"): servo}
-    return _with_motors(linkage_tree(_both(arm, _mechanism(head)), _moving(head, motion), others))
+        others |= {name: (*others[name], *servo) for name in ("link 1", other("link 1"))}
+    moving = _moving(head, motion)
+    linkage = _with_motors(linkage_tree(_both(arm), moving, others), params.elbow_drive == "direct")
+    return linkage if params.elbow_drive == "direct" else _with_shafts(linkage, shaft(levels, motion.hole), moving)
 
 
-def _with_motors(linkage: Tree) -> Tree:
-    """The linkage with the motor of each of its joints."""
+def _with_shafts(linkage: Tree, made: Occurrence, moving: Motion) -> Tree:
+    """The linkage with the shafts in its pivots, which take their servos' motion to the second links."""
+    shafts, belts = [], []
+    for named in (str, other):
+        first, second = (linkage.body(body_id(NAME, named(body))) for body in ("link 1", "link 2"))
+        turned = SceneMotion(
+            TURN,
+            np.linspace(0.0, turn, len(moving)),
+            np.zeros((len(moving), 3)),
+            np.unwrap(moving.angle(named("link 2"))),
+        )
+        own = f"{SHAFT}{second.id.removeprefix(body_id(NAME, 'link 2'))}"
+        joint = Joint(JointKind.PIN, motion=turned, motor=SERVOS[1])
+        place = (placement(*first.positions[0].origin[:2]),)
+        shafts.append(RigidBody(own, (made,), first.parent, joint, place))
+        belts.append(Closure(JointKind.TRANSMISSION, (own, second.id), kept_by=(ELBOW_BELT,)))
+    return replace(linkage, bodies=(*linkage.bodies, *shafts), closures=(*linkage.closures, *belts))
+
+
+def _with_motors(linkage: Tree, direct: bool) -> Tree:
+    """The linkage with the motor of each joint that has one; direct: in the elbows too."""
+    turned = _TURNED if direct else {"link 1": SERVOS[0]}
     driven = {
-        **{body_id(NAME, named(body)): motor for named in (str, other) for body, motor in _TURNED.items()},
+        **{body_id(NAME, named(body)): motor for named in (str, other) for body, motor in turned.items()},
         body_id(NAME, CENTRE): CENTRE_MOTOR,
     }
     return linkage.replaced(
@@ -130,24 +167,21 @@ def _moving(head: Head, motion: HeadMotion) -> Motion:
     return solve(plan(_mechanism(head)), values).require()
 
 
-def _both(arm: LinkageParts, mechanism: Mechanism) -> LinkageParts:
-    """The parts of both arms, which are the same, and the plate that carries their pivots."""
+def _both(arm: LinkageParts) -> LinkageParts:
+    """The parts of both arms, which are the same."""
     sizes = {**arm.levels.sizes, **{other(body): arm.levels.sizes[body] for body in ("link 1", "link 2")}}
     bodies = tuple((*level, *(other(body) for body in level if body != GROUND)) for level in arm.levels.bodies)
-    pivots = {name: mechanism.body(GROUND).points[name] for name in ("O", other("O"))}
-    plates = {
-        **arm.plates,
-        **{other(body): arm.plates[body] for body in ("link 1", "link 2")},
-        GROUND: link_part(f"{NAME}/{FRAME}", "plate of the arms", pivots, sizes[GROUND]),
-    }
+    plates = {body: arm.plates[body] for body in ("link 1", "link 2")}
+    plates |= {other(body): plate for body, plate in plates.items()}
     pins = {**arm.pins, **{other(name): pin for name, pin in arm.pins.items()}}
     return LinkageParts(arm.machine, Levels(bodies, sizes), plates, pins)
 
 
 def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, ...]:
-    """Blade and bar of the centre gripper, from its tip upwards, about a height of the planes [m]."""
+    """Blade and bar of the centre gripper, from its tip back onto its axis, about a height of the planes [m]."""
     params, section = dyad.params, head.section
-    size, length = dyad.params.strength.of_links, head.centre_stroke
+    begin = section.front + section.needle_length
+    size, length = params.strength.of_links, params.room.depth + head.centre_stroke - begin
     text = f"{format_quantity(params.link_width, 'mm')} x {format_quantity(params.link_thickness, 'mm')}"
     bar = Part(
         f"{NAME}/centre-bar",
@@ -162,43 +196,56 @@ def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, 
     return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade_part(params, head), (blade,))
 
 
-def _axis(dyad: KnottingDyad, head: Head, middle: float) -> Iterator[Occurrence]:
-    """The axis of the centre gripper, behind its bar at rest, and the motor at its far end that lifts bar and blade."""
-    stroke = head.centre_stroke
+def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterator[Occurrence]:
+    """The axis of the centre gripper under its bar, its motor under that, and what holds it under a level [m]."""
+    params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
+    under, long = middle + params.link_thickness / 2, 2 * head.centre_stroke
     axis = Part(
         f"{NAME}/centre-axis",
         "axis of the centre gripper",
         "linear axis",
         "straight",
-        box(stroke, AXIS, AXIS),
+        box(AXIS, long, AXIS),
         purchase=Bought("linear axis", length=stroke),
         envelope=True,
     )
-    at = placement(head.section.middle, head.section.front + head.section.needle_length + stroke / 2, middle + AXIS / 2)
-    yield Occurrence(axis, (at.after(_ALONG),))
-    params, moved = dyad.params, RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth
+    begin = params.room.depth - stroke
+    yield Occurrence(axis, (placement(across, begin + long / 2, under),))
+    moved = RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth
     torque, turning = moved * (params.centre_acceleration + GRAVITY) * PULLEY, params.centre_speed / PULLEY
-    chosen = smallest_motor(torque, turning)
+    chosen = smallest_motor(torque, turning, "servo")
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
-    flange = placement(x=stroke / 2, about=(0.0, 1.0, 0.0), angle=-UP)
-    aside = placement(z=((chosen.face if chosen else catalogue.SPECIAL_FACE) - AXIS) / 2)
-    yield Occurrence(motor, (at.after(_ALONG).after(aside).after(flange),))
+    upright = placement(across, begin + long / 2, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
+    yield Occurrence(motor, (upright,))
+    hanger = Part(
+        f"{NAME}/centre-hanger",
+        "hanger of the centre gripper's axis",
+        "machined link",
+        f"{format_quantity(HANGER, 'mm')} thick",
+        box(AXIS, HANGER, under + AXIS - level),
+        ALUMINIUM,
+    )
+    yield Occurrence(hanger, (placement(across, begin + long + HANGER / 2, level),))
 
 
-def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Iterator[Occurrence]:
-    """Servos and reducers that stand, behind the plate at both pivots."""
-    below = -GAP * dyad.params.link_thickness
-    first, second = motion.joints
-    pivots = head.arm.pivot, complex(2 * head.section.middle - head.arm.pivot.conjugate())
-    rows = [(SERVOS[0], first, 0j)]
-    if dyad.params.elbow_drive == "belt":
-        face = first.motor.face if first.motor else catalogue.SPECIAL_FACE
-        rows.append((SERVOS[1], second, complex(0, 1.1 * face)))
-    for name, drive, beside in rows:
+def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion, level: float) -> Iterator[Occurrence]:
+    """Servos and reducers that stand under a level [m], one behind the other, their shafts upright."""
+    belts = dyad.params.elbow_drive == "belt"
+    for number, (name, drive) in enumerate(zip(SERVOS, motion.joints, strict=True)):
+        if number == 1 and not belts:
+            continue
         parts = tuple(_drive_parts(name, drive))
-        lines = [in_line(parts, below, pivot + beside) for pivot in pivots]
+        lines = [
+            _hanging(in_line(parts, -level), axis) for axis in both(head, servo_axis(dyad.params, head, motion, number))
+        ]
         for each in zip(*lines, strict=True):
             yield Occurrence(each[0].part, tuple(position for one in each for position in one.positions))
+
+
+def _hanging(line: tuple[Occurrence, ...], axis: complex) -> tuple[Occurrence, ...]:
+    """Parts in line upside down: their shaft towards -z, at an axis [m]."""
+    down = placement(axis.real, axis.imag, about=(1.0, 0.0, 0.0), angle=2 * UP)
+    return tuple(Occurrence(each.part, tuple(down.after(own) for own in each.positions)) for each in line)
 
 
 def _drive_parts(name: str, drive: JointDrive) -> Iterator[Part]:

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ilmek.machines.weaver.case import ALUMINIUM, GuideHole, apart
+from ilmek.machines.weaver.case import ALUMINIUM, GuideHole, apart, bar_hole
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import (
     ABOVE_CENTRE,
@@ -156,6 +156,8 @@ def _cross_bar(weaver: Weaver, track: str, holes: tuple[complex, ...]) -> Part:
         *(complex(half, top), complex(-half, top), complex(-half, bottom), complex(left, bottom)),
     ]
     bores = [circle(hole, weaver.params.finger / 2) for hole in holes]
+    if weaver.params.with_arms:
+        bores.append(bar_hole(weaver.tool_bodies).contour)
     if holes:  # the centre gripper passes
         bores.append(
             polygon(rectangle(2 * weaver.params.finger, 2 * weaver.params.finger).points + 1j * _centre_height(weaver))
@@ -248,7 +250,9 @@ def _partition(weaver: Weaver) -> Occurrence:
         *(_around(rod, ROD / 2, round_=True) for rod in _rods(weaver)),
         _around(at, HANDLER_SHAFT / 2, round_=True),
     ]
-    if not weaver.params.with_arms:
+    if weaver.params.with_arms:
+        guides.append(bar_hole(weaver.tool_bodies))
+    else:
         tied, height, room = weaver.tool_bodies.tied, _centre_height(weaver), SCREW / 2 * 1.5
         guides += [
             GuideHole(

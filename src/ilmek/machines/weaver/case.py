@@ -20,17 +20,22 @@ from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT, SLEY_ARM, ToolBodies
 from ilmek.machines.weaver.turning import pivot
 from ilmek.machines.weaver.widths import case_width, stack_width
 from ilmek.part.part import Part
-from ilmek.part.placement import placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, box, rectangle
+from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile, drilled
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
-from ilmek.report import Contour
+from ilmek.report import Contour, Hole
 from ilmek.units import format_quantity, mm
 
 ALUMINIUM = MATERIALS["aluminium alloy"]
 
-FACE, CROSS_PLATE, BRACKET = part_id("face"), part_id("cross-plate"), part_id("bracket")
+FACE, CROSS_PLATE, TOP_PLATE, BRACKET = (
+    part_id("face"),
+    part_id("cross-plate"),
+    part_id("top-plate"),
+    part_id("bracket"),
+)
 """Ids of the parts."""
 
 EDGE, WEB = 6 * mm, 0.3 * mm
@@ -52,6 +57,9 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
     heights = low.imag + thick / 2, high.imag - thick / 2
     across = _made(CROSS_PLATE, "plate across the head", flat, thick)
+    if weaver.params.with_arms and weaver.params.arms.servo_depth > 0:
+        yield Occurrence(_made(TOP_PLATE, "plate over the head", _bored(weaver, thick), thick), (_level(heights[1]),))
+        heights = heights[:1]
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
     wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
@@ -59,6 +67,24 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     tube = Prism(Profile(rectangle(wide, RAIL_AXIS), (inner,)), shape.front - high.real)
     bracket = _made(BRACKET, "bracket of the head on its carriage", tube, wall)
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
+
+
+def _level(height: float) -> Placement:
+    """A plate in plan, its x to the front from the warps, at the height of its middle [m]."""
+    return placement(0.0, height).after(UPRIGHT)
+
+
+def _bored(weaver: Weaver, thick: float) -> Sum:
+    """The plate over the case, in plan as the opener's, with bores for the shafts of the arms' servos."""
+    shape, arms = weaver.shape, weaver.params.arms
+    front, back = shape.body.real + thick, (shape.body + shape.size).real
+    outline = rectangle(back - front, stack_width(weaver.params)).points + (front + back) / 2
+    bores = [
+        Hole(complex(depth, side * arms.servo_aside), arms.servo_shaft / 2)
+        for depth in (arms.servo_depth, arms.servo_depth + arms.servo_pitch)
+        for side in (-1, 1)
+    ]
+    return Sum((Placed(Prism(drilled(polygon(outline), bores), thick), (placement(z=-thick / 2),)),))
 
 
 class GuideHole(NamedTuple):
@@ -119,8 +145,7 @@ def _guides(by: ToolBodies) -> Iterator[GuideHole]:
     low, high = sley - params.sley_stroke, sley + SLEY_HEIGHT
     yield GuideHole(complex(-by.sley_arm, low), complex(SLEY_ARM - by.sley_arm, high))
     if params.with_arms:
-        arm = by.tools.tool(CENTRE_ARM)
-        yield GuideHole(complex(-grippers.axis, arm.corner.imag), complex(grippers.axis, (arm.corner + arm.size).imag))
+        yield bar_hole(by)
         return
     finger = complex(1, 1) * grippers.finger / 2
     for hand in (-1, 1):
@@ -134,6 +159,14 @@ def _of_the_knife(weaver: Weaver) -> Iterator[GuideHole]:
     """Bores for the eye of the yarn and for the hub of the cutter's eccentric."""
     for centre, radius in ((eye_at(weaver), eye_diameter(weaver) / 2), (shaft_at(weaver), HUB / 2 + PLAY)):
         yield GuideHole(centre - complex(radius, radius), centre + complex(radius, radius), round=True)
+
+
+def bar_hole(by: ToolBodies) -> GuideHole:
+    """The guide of the bar of the arms' centre gripper."""
+    arm, arms = by.tools.tool(CENTRE_ARM), by.params.arms
+    half = complex(arms.bar_width, arms.bar_height) / 2
+    middle = 1j * (arm.corner + arm.size / 2).imag
+    return GuideHole(middle - half, middle + half)
 
 
 def apart(guides: Sequence[GuideHole]) -> tuple[GuideHole, ...]:

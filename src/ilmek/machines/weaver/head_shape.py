@@ -5,9 +5,11 @@ Tools reach out of the body to the warps. Their boxes contain the rods at every 
 machine states are assumed by this project.
 """
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.cams.loaded_plate_cam import LoadedPlateCam
+from ilmek.machines.weaver.cyclogram import DRAW_TURN
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.levers import LEVER_AXLE, SOLID, FollowerLever, least_arm
 from ilmek.machines.weaver.magazine import CARRIER, DRUM, Magazine
@@ -55,6 +57,10 @@ SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 14 * mm
 BELL_CRANKS = (SIDE_MOTION, OPENER, CENTRE_MOTION)
 """Tracks whose levers are bell cranks, on one axle."""
 
+HANDLER_ARM, RACK_BELOW = (5 * mm, 4 * mm), 6.6
+"""Radius of the pile handler's arm and its thickness [m], and how far its rack reaches below its axis, over the radius
+of the pinion [1]: teeth for a turn and three more, one over the pinion; assumed by this project."""
+
 RACK = 5.6 * mm
 """Room for the rack and its pinion between the followers and that axle [m]; assumed by this project."""
 
@@ -88,6 +94,7 @@ class HeadShape:
     levers    between followers and tools, by track
     carriage  front of the side grippers' carriage at rest, partition: of the plate behind it [m from the warps]
     tools  that reach to the warps                    reach  the least x of any tool at rest [m]
+    belts  upper front corner of the belts of arms over the body; that of the body where there are none [m]
     rail   height of the axis along the row that carries the head, in front of all [m]
     magazine, magazine_size   of the yarn tubes, in front of the body, with its motion from tier to tier [m]
     """
@@ -101,6 +108,7 @@ class HeadShape:
     partition: float
     tools: tuple[HeadTool, ...]
     reach: float
+    belts: complex
     rail: float
     magazine: complex
     magazine_size: complex
@@ -111,9 +119,14 @@ class HeadShape:
         return self.magazine.real + self.magazine_size.real
 
     @property
+    def corners(self) -> tuple[complex, ...]:
+        """Upper corners in front of body, magazine and belts [m]."""
+        return self.body + self.size, self.magazine + self.magazine_size, self.belts
+
+    @property
     def top(self) -> float:
         """Height of its highest point above the fell [m]."""
-        return max(self.body.imag + self.size.imag, *((tool.corner + tool.size).imag for tool in self.tools))
+        return max(self.belts.imag, *((tool.corner + tool.size).imag for tool in self.tools))
 
 
 @record
@@ -122,6 +135,8 @@ class HeadTools:
 
     face  front of the case behind them      carriage  front of their carriage at rest, back: the most that it is
     pulled back [m]      stroke  of the centre gripper [m]
+    belts  of arms: their end, and i times their height over the case [m]
+    handler, rack  height of the pile handler's axis under the grippers of arms, and of the lower end of its rack [m]
     """
 
     tools: tuple[HeadTool, ...]
@@ -129,6 +144,9 @@ class HeadTools:
     carriage: float
     back: float = 0.0
     stroke: float = 0.0
+    belts: complex = 0j
+    handler: float = math.nan
+    rack: float = math.inf
 
     @property
     def partition(self) -> float:
@@ -184,7 +202,7 @@ def _with_grippers(params: WeaverParams, grippers: Grippers, drawn: float) -> He
 def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     """With arms, which swing in a plane across the warps: the side view shows its edge."""
     arms, radius, standoff = params.arms, params.warp / 2, params.standoff
-    face = max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff
+    face = max(max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff, arms.back)
     rest, out = arms.rest - radius, params.opening - radius - standoff
     carriage, above = face + SHEET + APART + params.opening, params.opener.front_span + params.opener.height
     size = complex(face - rest + arms.stroke, arms.breadth)
@@ -194,7 +212,16 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
         *_opener(params, OPENER, complex(out, carriage), above),
         _sley(params, complex(radius + standoff, face + SLEY_TAIL), above),
     )
-    return HeadTools(tools, face, carriage)
+    grippers = params.opener.front_span + params.opener.height / 2 - arms.grip
+    handler = grippers - HANDLER_ARM[0] - drawn / DRAW_TURN
+    return HeadTools(
+        tools,
+        face,
+        carriage,
+        belts=complex(arms.belts_end, arms.belts_over),
+        handler=handler,
+        rack=handler - RACK_BELOW * params.pinion,
+    )
 
 
 def _opener(params: WeaverParams, track: str, span: complex, above: float) -> Iterator[HeadTool]:
@@ -232,7 +259,7 @@ def head_shape(
     cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
     arm = max(RACK + LEVER_AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
     levers = {cam.name: lever for cam in cams if (lever := _lever(reaching, cam, line, arm)) is not None}
-    lowest = min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID
+    lowest = min(reaching.rack, min(lever.pivot.imag - lever.lift / 2 for lever in levers.values()) - SOLID)
     guide = largest + 2 * radius + PLAY + LAP
     axis = complex(line, lowest - GUIDE - guide)
     deep, low = line + largest + CASE - face, axis.imag - largest - CASE
@@ -249,6 +276,7 @@ def head_shape(
         partition=reaching.partition,
         tools=tools,
         reach=min(tool.corner.real for tool in tools),
+        belts=reaching.belts + 1j * top if reaching.belts else complex(face + deep, top),
         rail=tied - tall / 2 - CARRIER - AXLE - selector.length - RAIL_AXIS / 2,
         magazine=complex(face + deep, tied - tall / 2),
         magazine_size=complex(wide, tall),

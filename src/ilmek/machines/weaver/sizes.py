@@ -17,6 +17,7 @@ from ilmek.machines.weaver.followers import FORK_STRESS, fork_stress
 from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_stress
 from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import tools_height
+from ilmek.machines.weaver.widths import STATIONS
 from ilmek.units import g, mm
 
 PLATES = (8 * mm, 10 * mm, 12 * mm, 15 * mm, 20 * mm)
@@ -43,7 +44,7 @@ def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
     height = min(max(own.height, tools_height(weaver)), max(own.height, GREATEST["height"]))
     needed = {
         "cam_thickness": _made(PLATES, params.cam_thickness * _cam_use(weaver)),
-        "cam_gap": _up(max(params.cam_gap * _fork_use(weaver), _beside_opener(weaver)), GAP_STEP),
+        "cam_gap": _up(max(params.cam_gap * _fork_use(weaver), _beside_opener(weaver), _about_sley(weaver)), GAP_STEP),
         "cam_belt": _made(PROFILE.widths, MARGIN * weaver.belt.pull / weaver.belt.allowed * params.cam_belt),
         "tool_mass": _up(max(_heavy(weaver), default=0.0), MASS_STEP),
         "sley_stroke": own.front_span + height + own.plate,
@@ -71,6 +72,13 @@ def _beside_opener(weaver: Weaver) -> float:
     """The gap with which the sley's cam at the left, and the block over it, stand beside the opener [m]."""
     params = weaver.params
     return (weaver.tool_bodies.opener_half + params.clearance - 2 * params.cam_thickness - params.cam_belt / 2) / 3
+
+
+def _about_sley(weaver: Weaver) -> float:
+    """The gap with which the sley's arm stands between the side plates [m]."""
+    params, tools = weaver.params, weaver.tool_bodies
+    cams = STATIONS * params.cam_thickness + params.cam_belt
+    return (2 * (tools.sley_arm + params.clearance) - cams) / (STATIONS + 2)
 
 
 def _heavy(weaver: Weaver) -> Iterator[float]:

@@ -75,3 +75,17 @@ class ArmsInHead(Params):
     rest: float = kind.length(10 * mm, at_least=0.0, at_most=0.5, doc="their tips above the warps at rest")
     stroke: float = kind.length(25 * mm, at_least=0.0, at_most=1.0, doc="longest travel of their tips past the warps")
     breadth: float = kind.length(2 * mm, at_least=0.0, at_most=0.5, doc="breadth of their needles, along the warps")
+    back: float = kind.length(36 * mm, at_least=0.0, at_most=1.0, doc="from the warps to the face behind them")
+    beside: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="from the pair to the outside of their pivots")
+    grip: float = kind.length(4 * mm, at_least=0.0, at_most=0.1, doc="half the size of the grippers with their room")
+    aside: float = kind.length(5 * mm, at_least=0.0, at_most=0.5, doc="their tips at rest from the middle of the pair")
+    bar_width: float = kind.length(4 * mm, at_least=0.0, at_most=0.1, doc="width of their centre gripper's bar")
+    bar_height: float = kind.length(3 * mm, at_least=0.0, at_most=0.1, doc="height of the same, along the warps")
+    servo_aside: float = kind.length(23 * mm, at_least=0.0, at_most=1.0, doc="from the pair to their servos' shafts")
+    servo_depth: float = kind.length(
+        0.0, at_least=0.0, at_most=2.0, doc="from the warps to the first of these; 0: none"
+    )
+    servo_pitch: float = kind.length(26 * mm, at_least=0.0, at_most=1.0, doc="from the first to the second ones")
+    belts_end: float = kind.length(0.0, at_least=0.0, at_most=2.0, doc="from the warps to the end of their belts")
+    belts_over: float = kind.length(0.0, at_least=0.0, at_most=0.5, doc="height of their belts over the case")
+    servo_shaft: float = kind.length(5 * mm, at_least=0.0, at_most=0.1, doc="diameter of these shafts")

@@ -16,7 +16,16 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.machines.weaver.grippers import Grippers
-from ilmek.machines.weaver.head_shape import BAR, COLLARS, LOWER_PLATE, SLEY_TOOL, UPPER_PLATE, HeadTool, HeadTools
+from ilmek.machines.weaver.head_shape import (
+    BAR,
+    COLLARS,
+    HANDLER_ARM,
+    LOWER_PLATE,
+    SLEY_TOOL,
+    UPPER_PLATE,
+    HeadTool,
+    HeadTools,
+)
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
@@ -31,8 +40,8 @@ from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import format_quantity, mm
 
-HANDLER_ARM, HANDLER_SHAFT = (5 * mm, 4 * mm), 4 * mm
-"""Radius of the pile handler's arm and its thickness, and diameter of its shaft [m]; assumed by this project."""
+HANDLER_SHAFT = 4 * mm
+"""Diameter of the pile handler's shaft [m]; assumed by this project."""
 
 JAW, WIRE = 8 * mm, 0.9 * mm
 """Length of a side gripper's jaws, and diameter of their wires, at most [m]; assumed by this project."""
@@ -195,6 +204,8 @@ class ToolBodies:
         """A foot over the pair that passes before the opener's points; its arm goes beside the opener into the face."""
         tool, rest = self.tools.tool(SLEY_TOOL), self.tools.tool(LOWER_PLATE).corner.real
         half, outer, deep = self.grippers.axis, self.sley_arm, tool.size.real
+        if self.params.with_arms:
+            rest = min(rest, self.params.arms.rest - self.params.arms.grip)
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
         inner = outer - SLEY_ARM
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
@@ -208,7 +219,9 @@ class ToolBodies:
         """From the middle of the pair to the outer side of the sley's arm, on the weaver's left [m]."""
         params = self.params
         cam = stack_width(params) / 2 - 2 * params.cam_gap - params.cam_thickness  # the next one beside its own
-        return max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY, cam + params.clearance) + SLEY_ARM
+        arms = params.arms.beside if params.with_arms else 0.0
+        tools = max(self.opener_half + BESIDE_SLEY, self.grippers.axis + BESIDE_SLEY)
+        return max(tools, max(cam, arms) + params.clearance) + SLEY_ARM
 
     @property
     def opener_half(self) -> float:

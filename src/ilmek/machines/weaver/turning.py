@@ -14,13 +14,13 @@ import numpy as np
 from ilmek.elements.involute import Gear, outline
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, PRESENT_TURN, TUBE_TURN
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import LOWER_PLATE
+from ilmek.machines.weaver.head_shape import HANDLER_ARM, LOWER_PLATE
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.opener import STEEL
 from ilmek.machines.weaver.return_springs import longest
 from ilmek.machines.weaver.stations import follower_half, sheet, station
-from ilmek.machines.weaver.tool_parts import HANDLER_ARM, part_id
 from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT as SHAFT
+from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part.part import Bought, Part, Seat
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
@@ -53,22 +53,32 @@ CLUTCH = (8 * mm, 6 * mm)
 
 
 def pivot(weaver: Weaver) -> complex:
-    """The axis of the handler, x + i y [m]: its pinion beside the rack, its tip at the right side gripper's yarn."""
-    tip, radius = _shown_at(weaver), weaver.handler_radius
-    x = station(weaver, HANDLER) + weaver.params.cam_thickness / 2 + BESIDE - BACK - weaver.params.pinion
-    across = min(max((tip.real - x) / radius, -1.0), 1.0)
-    return complex(x, tip.imag - radius * math.sqrt(1 - across**2))
+    """The axis of the handler, x + i y [m]: its pinion beside the rack, its tip at the right side gripper's yarn.
+
+    Where arms tie it passes under their grippers.
+    """
+    aside = _pivot_aside(weaver)
+    if weaver.params.with_arms:
+        return complex(aside, weaver.tool_bodies.tools.handler)
+    return complex(aside, weaver.tool_bodies.tied - _reach(weaver).imag)
 
 
-def _shown_at(weaver: Weaver) -> complex:
-    """Where the handler shows the pile, x + i y [m]."""
-    by = weaver.grippers
-    return complex(by.axis + by.arm, weaver.tool_bodies.tied)
+def _pivot_aside(weaver: Weaver) -> float:
+    """From the middle of the pair to the axis of the handler [m]."""
+    return station(weaver, HANDLER) + weaver.params.cam_thickness / 2 + BESIDE - BACK - weaver.params.pinion
+
+
+def _reach(weaver: Weaver) -> complex:
+    """From the axis of the handler to its tip where it shows the pile, x + i y [m]."""
+    by, radius = weaver.grippers, weaver.handler_radius
+    aside = weaver.params.arms.aside if weaver.params.with_arms else by.axis + by.arm
+    across = min(max((aside - _pivot_aside(weaver)) / radius, -1.0), 1.0)
+    return radius * complex(across, math.sqrt(1 - across**2))
 
 
 def home(weaver: Weaver) -> float:
     """Direction of its arm at angle 0 [rad], counter-clockwise from the right."""
-    shown = float(np.angle(_shown_at(weaver) - pivot(weaver)))
+    shown = float(np.angle(_reach(weaver)))
     return shown - TUBE_TURN - DRAW_TURN - PRESENT_TURN
 
 
