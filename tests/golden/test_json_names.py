@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from default_machines import default_results
+from default_machines import default_report
 
 from ilmek.machines.catalogue import MACHINES
 from ilmek.records import declared_results
@@ -20,5 +20,5 @@ def test_every_documented_name_is_declared(machine: str) -> None:
 @pytest.mark.parametrize("machine", MACHINES)
 def test_what_a_machine_reports_is_declared_and_documented(machine: str) -> None:
     component = MACHINES[machine]
-    reported = {result.name for result in default_results(machine).results}
+    reported = {result.name for result in default_report(machine).results}
     assert reported <= {one.name for one in declared_results(*component.reported)} <= set(NAMES[machine])

@@ -122,7 +122,7 @@ def carpet() -> Rgb:
     return rgb
 
 
-@pytest.mark.matrix(light=2)
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("name", QUADS)
 def test_the_outline_on_a_floor_is_found(name: str) -> None:
     """To half a pixel; two knots are four."""
@@ -141,7 +141,7 @@ def off(corners: np.ndarray, truth: np.ndarray) -> float:
     return min(float(np.hypot(*(np.roll(corners, k, axis=0) - truth).T).max()) for k in range(4))
 
 
-@pytest.mark.matrix(light=2)
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize(("seed", "wood", "fringe"), TAKEN)
 def test_the_outline_in_shadow_and_vignetting_is_found(seed: int, wood: str, fringe: str) -> None:
     taken = random_photograph(seed, (750, 1000), wood=wood, fringe=fringe)
@@ -186,7 +186,7 @@ def test_a_frame_of_few_pixels_beside_a_light_stripe_belongs_to_the_carpet(quad:
     assert off(corners, np.array(quad)) < 1.5
 
 
-@pytest.mark.matrix(light=2)
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize(("seed", "wood", "fringe"), [(1, "mid", "none"), (3, "dark", "none"), (9, "mid", "dense")])
 def test_the_stripes_at_the_ends_of_a_kilim_are_no_fringe(seed: int, wood: str, fringe: str) -> None:
     """A cream stripe is as light as threads; a fringe beside it is none of the kilim."""
@@ -195,6 +195,7 @@ def test_the_stripes_at_the_ends_of_a_kilim_are_no_fringe(seed: int, wood: str, 
     assert off(corners, taken.corners) < 1.0
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("seed", [102, 524])
 def test_a_dark_frame_on_a_black_floor_is_found_or_refused(seed: int) -> None:
     taken = random_photograph(seed, (600, 800), wood="black", fringe="none")
@@ -221,6 +222,7 @@ def framed_in_black(width: int) -> Rgb:
     return rgb
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize(
     ("carpet", "seed", "wood"),
     [

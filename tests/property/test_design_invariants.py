@@ -6,7 +6,7 @@
 import random
 
 import pytest
-from default_machines import default_results
+from default_machines import default_report
 from designs import random_settings
 from effort import seeds
 
@@ -45,5 +45,5 @@ def test_the_same_seed_gives_the_same_settings() -> None:
 
 @pytest.mark.parametrize("machine", MACHINES)
 def test_a_sound_design_has_no_check_of_an_invariant(machine: str) -> None:
-    report = default_results(machine)
+    report = default_report(machine)
     assert [check for check in report.all_checks if check.source == SOURCE] == []

@@ -23,12 +23,6 @@ def default_report(machine: str) -> Report:
     return MACHINES[machine].report(default_design(machine))
 
 
-@cache
-def default_results(machine: str) -> Report:
-    """The report of a machine without tables and figures, which take longer than all the rest."""
-    return MACHINES[machine].report(default_design(machine), illustrated=False)
-
-
 @lru_cache(maxsize=16)
 def loom_report(loom: LoomDesign) -> Report:
     """The report of a loom without tables and figures, and without its parts in space."""

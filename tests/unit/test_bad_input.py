@@ -334,7 +334,7 @@ WEAVE = {
     "deadline of nothing": ("--deadline 0h", "deadline"),
     "negative deadline": ("--deadline -5h", "deadline"),
     "deadline in metres": ("--deadline 5m", "wrong unit"),
-    "deadline too soon": ("--deadline 1min", "deadline of .* cannot be met"),
+    "deadline too soon": ("--deadline 1min --loom beat=comb", "deadline of .* cannot be met"),
     "no heads": ("--heads 0", "heads"),
     "more heads than fit": ("--heads 5000", "heads"),
     "heads and deadline": (

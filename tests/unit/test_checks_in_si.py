@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from default_machines import default_results
+from default_machines import default_report
 from sources import tree_of
 
 import ilmek
@@ -48,7 +48,7 @@ LEAST = {"MPa": 1e5, "GPa": 1e8, "h": 3600.0, "min": 30.0, "kN": 10.0}
 
 @cache
 def checks(machine: str) -> tuple[Check, ...]:
-    return tuple(default_results(machine).all_checks)
+    return tuple(default_report(machine).all_checks)
 
 
 @pytest.mark.parametrize("machine", SUMMARIES)

@@ -25,6 +25,8 @@ from ilmek.report import Report
 from ilmek.report.left_out import SWITCH
 
 MEDALLION = Path(__file__).parents[2] / "examples" / "medallion.png"
+COMB = {"beat": "comb"}
+"""Of looms in whose tests no choice of a beat is claimed."""
 
 
 def test_order_reads_texts() -> None:
@@ -48,7 +50,7 @@ def test_order_is_judged_before_the_picture_is_opened() -> None:
 def test_loom_follows_the_chart() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm", colours=6, pile_height="8mm")
     charted = make_charted(order)
-    loomed = make_loomed(read_loom_order(order), charted, illustrated=False)
+    loomed = make_loomed(read_loom_order(order, loom=COMB), charted, illustrated=False)
     params = loomed.design.params
     assert params.colours == charted.chart.colours <= 6
     assert params.cloth.warp_pitch == 0.0025
@@ -73,7 +75,7 @@ def test_a_loom_without_a_carpet_has_the_pile_of_the_default_one(quality: str, k
 @pytest.mark.usefixtures("not_in_space", "nothing_near")
 def test_heads_are_as_many_as_fit_where_few_fit() -> None:
     order = read_order(MEDALLION, size="20x30cm", quality="20x20/dm")
-    loomed = make_loomed(read_loom_order(order), make_charted(order), illustrated=False)
+    loomed = make_loomed(read_loom_order(order, loom=COMB), make_charted(order), illustrated=False)
     assert loomed.programme.heads == loomed.design.heads_max < 4
 
 
@@ -92,7 +94,7 @@ def test_progress_ascends_to_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyP
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
     told: list[tuple[str, float]] = []
     progress = Progress(lambda stage, share: told.append((stage, share)))
-    weave(order, read_loom_order(order), tmp_path / "out", progress=progress)
+    weave(order, read_loom_order(order, loom=COMB), tmp_path / "out", progress=progress)
     shares = [share for _, share in told]
     assert shares == sorted(shares)
     assert 0 <= shares[0] < shares[-1] <= 1
@@ -104,7 +106,7 @@ def test_a_cancelled_carpet_leaves_nothing(tmp_path: Path) -> None:
     cancel = threading.Event()
     progress = Progress(lambda stage, _: cancel.set() if stage == "programme" else None, cancel.is_set)
     with pytest.raises(Cancelled, match="programme"):
-        weave(order, read_loom_order(order), tmp_path / "out", progress=progress)
+        weave(order, read_loom_order(order, loom=COMB), tmp_path / "out", progress=progress)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -135,7 +137,7 @@ def test_papers_are_reproduced_one_by_one() -> None:
 def test_a_programme_is_inspected_by_its_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Report, "all_checks", property(lambda _: ()))  # a loom that weaves, whatever its size
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm", least_detail="0%")  # 20 × 30 knots keep 38 %
-    woven = weave(order, read_loom_order(order), tmp_path / "out")
+    woven = weave(order, read_loom_order(order, loom=COMB), tmp_path / "out")
     found = inspect_programme(woven.folder / "programme.ilmek", 3)
     assert found.as_json()["row"]["number"] == 3
     with pytest.raises(LoomError, match="no row 31"):
@@ -149,6 +151,7 @@ def test_machines_are_listed_and_described() -> None:
     assert {"name", "default", "unit", "doc"} <= form["parameters"][0].keys()
 
 
+@pytest.mark.usefixtures("plain_page")  # with pages and in space `make venv` does it
 def test_a_first_carpet_warms_everything() -> None:
     # 256 knots of 2 s by one head, and 16 rows of wefts.
     assert warm() > 512
@@ -163,7 +166,7 @@ def test_a_job_goes_on_without_what_cannot_be_drawn(tmp_path: Path, monkeypatch:
     monkeypatch.setattr("ilmek.jobs.weave.carpet_page", failing)
     monkeypatch.setitem(FORMATS, "pdf", replace(FORMATS["pdf"], write=failing))
     order = read_order(MEDALLION, size="20x30cm", quality="10x10/dm")
-    woven = weave(order, read_loom_order(order), tmp_path / "out")
+    woven = weave(order, read_loom_order(order, loom=COMB), tmp_path / "out")
     warnings = ("chart.pdf is left out: no picture", "report.html is left out: no picture")
     assert woven.left_out == warnings
     assert set(warnings) <= set(weave_json(woven)["warnings"])

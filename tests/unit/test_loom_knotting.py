@@ -69,7 +69,7 @@ def test_cams_for_the_asymmetric_knot_are_refused_by_name_at_the_head_of_the_rea
     assert "knotting=arms" in report.reasons[0].cure
 
 
-@pytest.mark.matrix(light=5)
+@pytest.mark.matrix(light=3)
 @pytest.mark.parametrize("kind", ["symmetric", "asymmetric"])
 @pytest.mark.parametrize("pitch", [0.25, 0.5, 0.7, 1, 2, 4])
 @pytest.mark.parametrize("knotting", ["cams", "arms"])

@@ -133,7 +133,7 @@ def test_a_head_with_arms_has_no_views_of_grippers() -> None:
 @pytest.mark.usefixtures("not_in_space")
 def test_a_motion_is_written_by_its_name(tmp_path: Path) -> None:
     target = tmp_path / "knot.gif"
-    call = ["design", "automated-loom", "--animation", str(target), "--motion", "loom-knot-front"]
+    call = ["design", "automated-loom", "beat=comb", "--animation", str(target), "--motion", "loom-knot-front"]
     done = CliRunner().invoke(main, call)
     assert (done.exit_code, target.read_bytes()[:6]) == (0, b"GIF89a")
     unknown = CliRunner().invoke(main, [*call[:-1], "dance", "--force"])

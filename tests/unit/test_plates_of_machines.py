@@ -1,7 +1,7 @@
 """Plates of machines: areas as designed; links as long as the design's, bored where there is room."""
 
 import pytest
-from default_machines import default_results
+from default_machines import default_report
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.io.plate_shape import plate_shape
@@ -61,7 +61,7 @@ def test_pins_without_room_are_not_bored() -> None:
 
 @pytest.mark.parametrize("machine", ["beat-up", "tufting"])
 def test_plates_are_bored_for_the_pins_that_were_checked(machine: str) -> None:
-    report = default_results(machine)
+    report = default_report(machine)
     largest = next(one.value for one in report.results if one.name == "pin_diameter")
     holes = [plate.holes[-1].radius for plate in report.plates if plate.holes and plate.name not in {"crank", "frame"}]
     assert max(holes) == pytest.approx(largest / 2)

@@ -59,6 +59,7 @@ def test_a_scan_is_read_cell_by_cell():
     assert all(check.ok for check in charted.checks)
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("seed", [101, 102, 104])
 def test_photographed_sheets_are_read_and_what_is_wrong_is_doubtful(seed: int) -> None:
     sheet = random_sheet(seed, small=True)
@@ -81,6 +82,7 @@ def test_neither_heavy_lines_nor_letters_are_taken_for_the_lines(pitch: int, opt
     assert same_partition(found.numbers.astype(int), design)
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("seed", [71004, 71002])
 def test_neither_the_table_nor_lines_at_every_second_place_are_taken_for_the_grid(seed: int) -> None:
     """The table beyond the last line; half the distance of heavy lines."""
@@ -104,6 +106,7 @@ def test_a_grid_that_lost_a_column_fails_a_check() -> None:
     assert failed(found) == {"lines off their places", "doubtful cells"}
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("seed", [303012, 304008])
 def test_a_border_in_which_no_lines_show_fails_a_check(seed: int) -> None:
     """Its colour is nearly that of the lines: the grid ends before it, and nothing else says so."""
@@ -131,6 +134,7 @@ def test_colours_beside_a_grid(beside: int) -> None:
     assert border_beside(around, palette, numbers) == (1.0 if beside else 0.0)
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("seed", [1, 2])
 def test_a_strip_of_other_pitch_and_a_drawing_of_double_cells_fail_a_check(seed: int) -> None:
     """Pillow makes a strip of nine columns as wide as ten, as a lattice does that counts one column too few."""
@@ -149,6 +153,7 @@ def test_a_strip_of_other_pitch_and_a_drawing_of_double_cells_fail_a_check(seed:
     assert failed(found) == {"changes of colour on every second line"}
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("border", [150, 140])
 def test_a_border_in_nearly_the_colour_of_its_lines_belongs_to_the_grid_or_a_check_fails(border: int) -> None:
     rng = np.random.default_rng(9)

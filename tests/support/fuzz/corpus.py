@@ -23,13 +23,14 @@ from fuzz.mutations import changed_bytes, changed_text, changed_tree, scalar
 from ilmek.io.cyclogram_file import cyclogram_toml
 from ilmek.io.programme_file import write_programme
 from ilmek.io.programme_text import programme_text_parts
+from ilmek.jobs.chart import make_charted
 from ilmek.jobs.cyclogram import find
-from ilmek.jobs.loom import knot_yarns, read_loom_order
+from ilmek.jobs.loom import knot_yarns, params_for, read_loom_order
 from ilmek.jobs.loom_setup import CarpetPile, loom_setup
 from ilmek.jobs.order import read_order
-from ilmek.jobs.weave import weave
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import make_programme
+from ilmek.machines.automated_loom import MACHINE, design
 
 ROOT = Path(__file__).parents[3]
 CYCLOGRAMS = ("weaver", "automated-loom:row", "automated-loom:knot")
@@ -119,27 +120,21 @@ def make_corpus() -> Corpus:
     """The same in every process."""
     pictures = dict(_pictures())
     with tempfile.TemporaryDirectory() as folder:
-        picture, out = Path(folder) / "rgb.png", Path(folder) / "out"
+        picture = Path(folder) / "rgb.png"
         picture.write_bytes(pictures["rgb.png"])
         order = read_order(picture, size=SIZE, quality=QUALITY, colours=5)
-        woven = weave(order, read_loom_order(order), out)
-        chart, made = woven.charted.chart, woven.loomed
-        assert made.design is not None
-        carpet = CarpetPile(chart, knot_yarns(woven.charted))
+        charted = make_charted(order)
+        chart, made = charted.chart, design(params_for(read_loom_order(order), charted))
+        carpet = CarpetPile(chart, knot_yarns(charted))
         by_two = make_programme(
-            chart.knots,
-            len(chart.yarns),
-            2,
-            made.design.times,
-            bobbins=made.design.bobbins,
-            supply=carpet.supply(made.design.params),
+            chart.knots, len(chart.yarns), 2, made.times, bobbins=made.bobbins, supply=carpet.supply(made.params)
         )
-        setup = loom_setup(made.design, carpet, by_two)
+        setup = loom_setup(made, carpet, by_two)
         compiled = CompiledProgramme(setup, by_two)
         write_programme(Path(folder) / "programme.ilmek", compiled)
         text = b"".join(programme_text_parts(compiled)).decode()
         programme = (Path(folder) / "programme.ilmek").read_bytes()
-        loom = json.loads((out / "machine.json").read_text(encoding="utf-8"))
+    loom = json.loads(json.dumps(MACHINE.report(made, illustrated=False, assembled=False).as_json()))
     examples = {path.name: path.read_bytes() for path in sorted((ROOT / "examples").glob("*.toml"))}
     examples |= {f"{name.replace(':', '-')}.toml": cyclogram_toml(find(name, {})).encode() for name in CYCLOGRAMS}
     trees = {name: tomllib.loads(text.decode()) for name, text in examples.items()}
