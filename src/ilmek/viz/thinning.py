@@ -1,10 +1,10 @@
 """Reduction of curves to the points that a figure can show."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from ilmek.arrays import Bool, ComplexArray, FloatArray
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 
 LIMIT = 720
 TOLERANCE = 0.04
@@ -57,26 +57,39 @@ def thinned_lines(
     return tuple(line[keep[stop - 1 - len(line) : stop - 1]] for line, stop in zip(few, stops.tolist(), strict=True))
 
 
-def _kept(points: ComplexArray, tolerance: float) -> Bool[np.ndarray, " n"]:
-    """Which points of lines between gaps are kept; all intervals are divided at once until none needs division.
+def _kept(points: ComplexArray, tolerance: float) -> BoolArray:
+    """Which points of lines between gaps are kept.
 
     The distance from a chord is that from the segment, because a line may turn back beyond its ends.
     """
-    gap = ~np.isfinite(points)
-    keep = gap | np.append(True, gap[:-1]) | np.append(gap[1:], True)
-    left = np.arange(len(points))  # of the intervals that may need division, each with both ends
-    while len(left) > 2:
-        line, ends = points[left], np.flatnonzero(keep[left])
-        interval = np.minimum(np.cumsum(keep[left]) - 1, len(ends) - 2)
-        starts = line[ends[interval]]
-        chord, off = line[ends[interval + 1]] - starts, line - starts
+
+    def away(number: IntArray, begin: IntArray, end: IntArray) -> FloatArray:
+        chord, off = points[end] - points[begin], points[number] - points[begin]
         squared = np.maximum(chord.real**2 + chord.imag**2, np.finfo(float).tiny)
         share = np.clip((off.real * chord.real + off.imag * chord.imag) / squared, 0.0, 1.0)
-        away = np.abs(off - share * chord)
-        farthest = np.maximum.reduceat(away, ends[:-1])[interval]
-        cuts = np.flatnonzero((away == farthest) & (farthest > tolerance))
-        divided, first = np.unique(interval[cuts], return_index=True)
-        keep[left[cuts[first]]] = True
-        sizes = ends[divided + 1] - ends[divided] + 1
-        left = left[np.repeat(ends[divided] - np.cumsum(sizes) + sizes, sizes) + np.arange(sizes.sum())]
-    return keep
+        return np.asarray(np.abs(off - share * chord))
+
+    gap = ~np.isfinite(points)
+    return divided(gap | np.append(True, gap[:-1]) | np.append(gap[1:], True), away, tolerance)
+
+
+def divided(kept: BoolArray, away: Callable[[IntArray, IntArray, IntArray], FloatArray], tolerance: float) -> BoolArray:
+    """The samples of a curve that are kept, and of each interval between two the farthest one from what joins its ends.
+
+    All intervals are divided at once, until in none a sample is farther than the tolerance.
+
+    kept  at first, both ends among them
+    away  numbers of samples, and of the begin and the end of the interval of each -> their distances
+    """
+    kept, left = kept.copy(), np.arange(len(kept))  # of the intervals that may need division, each with both ends
+    while len(left) > 2:
+        ends = np.flatnonzero(kept[left])
+        interval = np.minimum(np.cumsum(kept[left]) - 1, len(ends) - 2)
+        distance = away(left, left[ends[interval]], left[ends[interval + 1]])
+        farthest = np.maximum.reduceat(distance, ends[:-1])[interval]
+        cuts = np.flatnonzero((distance == farthest) & (farthest > tolerance))
+        cut, first = np.unique(interval[cuts], return_index=True)
+        kept[left[cuts[first]]] = True
+        sizes = ends[cut + 1] - ends[cut] + 1
+        left = left[np.repeat(ends[cut] - np.cumsum(sizes) + sizes, sizes) + np.arange(sizes.sum())]
+    return kept
