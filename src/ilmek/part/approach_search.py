@@ -72,7 +72,7 @@ class PiecePair:
     @property
     def near(self) -> BoolArray:
         """Whether their boxes are near, of each interval."""
-        return self.gaps < self.horizon
+        return np.asarray(self.gaps < self.horizon)
 
     @property
     def ends(self) -> Float[np.ndarray, "n samples"]:

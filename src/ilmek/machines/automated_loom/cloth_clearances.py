@@ -114,8 +114,8 @@ def cloth_clearances(loom: LoomDesign) -> tuple[ClothDistance, ...]:
             value, where = float(apart[nearest]), float(angle[near][nearest])
             if value < least.get((moved.body, cloth.body), (math.inf, 0.0))[0]:
                 least[moved.body, cloth.body] = value, where
-    near = (ClothDistance(*pair, *distance) for pair, distance in least.items() if distance[0] <= HORIZON)
-    return tuple(sorted(near, key=lambda distance: distance.value))
+    kept = (ClothDistance(*pair, *distance) for pair, distance in least.items() if distance[0] <= HORIZON)
+    return tuple(sorted(kept, key=lambda distance: distance.value))
 
 
 def cloth_checks(loom: LoomDesign) -> tuple[Check, ...]:
