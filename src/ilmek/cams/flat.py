@@ -17,7 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ilmek.arrays import ComplexField, FloatArray, RealField
+from ilmek.arrays import FloatArray, RealField
 from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace
 from ilmek.errors import ParameterError
@@ -25,14 +25,6 @@ from ilmek.num.piecewise import infimum, supremum
 from ilmek.plane.vectors import unit
 from ilmek.records import value_record
 from ilmek.units import format_quantity
-
-
-def contact_point(angle: RealField, s: RealField, ds: RealField, base_radius: float) -> ComplexField:
-    """Contact point of face and cam, in the cam's frame [m].
-
-    angle  cam angle [rad]      s, ds  displacement and derivative [m, m/rad]      base_radius  Rb [m]
-    """
-    return (base_radius + s - 1j * ds) * unit(-angle)
 
 
 def curvature_radius(s: RealField, dds: RealField, base_radius: float) -> RealField:

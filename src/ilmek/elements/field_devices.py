@@ -49,9 +49,6 @@ ROWS = (
     FieldDevice("terminal, two levels", "terminal", _size(5.2, 100, 48), 15 * g, "IEC 60947-7-1"),
 )  # fmt: skip
 
-FIELD_DEVICES = {row.name: row for row in ROWS}
-"""The rows by their names."""
-
 ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, \
     CONTROLLER, SUPPLY, TERMINAL = ROWS  # fmt: skip
 

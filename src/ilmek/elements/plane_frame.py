@@ -35,7 +35,7 @@ _DEPENDENT = 1e-12
 
 _BENT = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
 _SHAKEN = np.array([[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
-_ALONG, _ACROSS = ((slice(None), *np.ix_(ways, ways)) for ways in ([0, 3], [1, 2, 4, 5]))
+_ALONG, _ACROSS = np.array([0, 3]), np.array([1, 2, 4, 5])
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ def _assembled(
     inner = len(nodes) + np.arange((ELEMENTS - 1) * len(members)).reshape(len(members), -1)
     at = np.array(nodes)
     h = (at[ends[:, 1]] - at[ends[:, 0]]) / ELEMENTS
-    k, m = _elements(h, *own[:, 2:].T, modulus)
+    k, m = _elements(h, own[:, 2], own[:, 3], own[:, 4], modulus)
     stiffness, inertia = np.zeros((size, size)), np.zeros((size, size))
     chain = np.column_stack([ends[:, 0], inner, ends[:, 1]])
     for both in (chain[:, number : number + 2] for number in range(ELEMENTS)):
@@ -140,10 +140,10 @@ def _elements(
     scale = np.stack([one, h, one, h], axis=1)
     across = scale[:, :, None] * scale[:, None, :]
     k, m, turned = (np.zeros((len(line), 6, 6)) for _ in range(3))
-    k[_ALONG] = (modulus * area / h)[:, None, None] * np.array([[1.0, -1], [-1, 1]])
-    m[_ALONG] = (line_mass * h / 6)[:, None, None] * np.array([[2.0, 1], [1, 2]])
-    k[_ACROSS] = (modulus * inertia / h**3)[:, None, None] * _BENT * across
-    m[_ACROSS] = (line_mass * h / 420)[:, None, None] * _SHAKEN * across
+    k[:, _ALONG[:, None], _ALONG] = (modulus * area / h)[:, None, None] * np.array([[1.0, -1], [-1, 1]])
+    m[:, _ALONG[:, None], _ALONG] = (line_mass * h / 6)[:, None, None] * np.array([[2.0, 1], [1, 2]])
+    k[:, _ACROSS[:, None], _ACROSS] = (modulus * inertia / h**3)[:, None, None] * _BENT * across
+    m[:, _ACROSS[:, None], _ACROSS] = (line_mass * h / 420)[:, None, None] * _SHAKEN * across
     c, s = line.real / h, line.imag / h
     for first in (0, 3):
         turned[:, first, first] = turned[:, first + 1, first + 1] = c

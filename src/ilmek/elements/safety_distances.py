@@ -19,9 +19,6 @@ from ilmek.units import mm
 APPROACH = 1.6
 """Speed K of a body that approaches [m/s]: ISO 13855."""
 
-OVER_LOW_FENCES = 1000 * mm
-"""The lowest fence of the table [m]; lower ones hold nobody back."""
-
 FENCES = tuple(high * mm for high in (1000, 1200, 1400, 1600, 1800, 2000, 2200, 2400, 2500, 2700))
 """Heights b of fences [m]."""
 

@@ -105,28 +105,8 @@ def collar_torque(force: float, diameter: float, friction: float) -> float:
     return friction * force * diameter / 2
 
 
-BALL_SCREWS = tuple(diameter * mm for diameter in (12, 16, 20, 25, 32, 40, 50, 63, 80, 100))
-"""Nominal diameters of ball screws [m] [ISO 3408-2]."""
-
 CORE, BALL_FRICTION = 0.85, 0.005
 """Core diameter of a ball screw over the nominal one, and its friction."""
-
-
-def ball_screw_for(
-    force: float, length: float, lead: float, *, modulus: float, safety: float, offered: tuple[float, ...] = BALL_SCREWS
-) -> tuple[float, float]:
-    """Diameter [m] of the first ball screw offered that is safe against buckling, else of the last, and its safety.
-
-    force, length  largest thrust [N] and length between bearing and nut [m]       lead     [m]
-    modulus        E [Pa]                                                        safety   required
-    """
-
-    def of(diameter: float) -> float:
-        ball = Screw(diameter, lead, CORE * diameter, BALL_FRICTION)
-        return ball.buckling_force(length, modulus) / force if force > 0 else math.inf
-
-    taken = next((diameter for diameter in offered if of(diameter) >= safety), offered[-1])
-    return taken, of(taken)
 
 
 _TRAPEZOIDAL = {8: 1.5, 10: 2, 12: 3, 14: 3, 16: 4, 18: 4, 20: 4, 24: 5, 28: 5, 32: 6, 36: 6, 40: 7, 44: 7, 50: 8}

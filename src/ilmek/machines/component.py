@@ -143,9 +143,8 @@ class Component(Generic[P, D, A]):
     long_design: Callable[[P, Progress], D] | None = None
 
     def __post_init__(self) -> None:
-        tree = self.tree
-        if tree is not None:
-            tree = lru_cache(maxsize=8)(tree)
+        if self.tree is not None:
+            tree = lru_cache(maxsize=8)(self.tree)
             object.__setattr__(self, "tree", tree)
             object.__setattr__(self, "parts", lru_cache(maxsize=8)(lambda design: bill(tree(design))))
             object.__setattr__(self, "plates", lambda design: plates_of(tree(design)))

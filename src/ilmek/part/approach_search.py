@@ -72,7 +72,7 @@ class PiecePair:
     @property
     def near(self) -> BoolArray:
         """Whether their boxes are near, of each interval."""
-        return self.gaps < self.horizon
+        return np.asarray(self.gaps < self.horizon)
 
     @property
     def ends(self) -> Float[np.ndarray, "n samples"]:
@@ -208,7 +208,7 @@ class ApproachSearch:
         back = (turned.swapaxes(1, 2) @ apart[:, :, None])[:, :, 0]
         first = np.abs(apart) - (own + wide @ its)[:, :, 0]
         other = np.abs(back) - (its + wide.swapaxes(1, 2) @ own)[:, :, 0]
-        return np.linalg.norm(np.maximum([first, other], 0.0), axis=2).max(0)
+        return np.asarray(np.linalg.norm(np.maximum([first, other], 0.0), axis=2).max(0))
 
     @cached_property
     def _angles(self) -> FloatArray:
@@ -257,7 +257,7 @@ class ApproachSearch:
         begin, end = self._moved(owner, before), self._moved(owner, after)
         slope = (angles[after] - angles[before]) / (end - begin)
         middle = np.where(begin == half, angles[before], slope * (half - begin) + angles[before])
-        return np.where((low < middle) & (middle < high), middle, intervals.ends.mean(1))
+        return np.asarray(np.where((low < middle) & (middle < high), middle, intervals.ends.mean(1)))
 
     def _halved(self, intervals: _Intervals, *, exact: bool) -> tuple[PairDistances, _Intervals]:
         """Where the pairs that have intervals are nearest, and these, halved until that is known."""

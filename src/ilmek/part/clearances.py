@@ -13,7 +13,7 @@ import numpy as np
 from ilmek.part.approach_search import ApproachSearch, PiecePair
 from ilmek.part.colliders import Common, Rotation, Vector, inside, pose_key
 from ilmek.part.poses import chains, drive_angles
-from ilmek.part.swept import INTERVALS, SAMPLES, TURN, SweptPieces, Window, box_gaps, swept_pieces
+from ilmek.part.swept import INTERVALS, SAMPLES, TURN, SweptPieces, Window, box_gaps, gaps_of_two, swept_pieces
 from ilmek.part.tree import Tree
 from ilmek.records import record
 
@@ -111,11 +111,13 @@ def _near(
     enough = required(first.body, other.body)
     if enough is None:
         return
-    gaps = box_gaps(first.boxes(), other.boxes())
+    own, its = np.nonzero(box_gaps(first.around, other.around)[:, :, 0] < horizon)
+    gaps = gaps_of_two(first.boxes()[own], other.boxes()[its])
     if (gaps < horizon).any() and any(first.travel.moves[:shared]):
-        gaps = np.maximum(gaps, box_gaps(first.boxes(shared), other.boxes(shared)))
-    for number, its in np.argwhere((gaps < horizon).any(2)).tolist():
-        yield PiecePair((first, other), (number, its), shared, gaps[number, its], horizon, enough)
+        gaps = np.maximum(gaps, gaps_of_two(first.boxes(shared)[own], other.boxes(shared)[its]))
+    near = (gaps < horizon).any(1)
+    for *numbers, apart in zip(own[near].tolist(), its[near].tolist(), gaps[near], strict=True):
+        yield PiecePair((first, other), (numbers[0], numbers[1]), shared, apart, horizon, enough)
 
 
 def _approach(

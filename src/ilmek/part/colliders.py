@@ -277,13 +277,11 @@ def distances(
     """
     if exact:
         lies = np.column_stack([turned.reshape(-1, 9), moved]).round(_SAME) + 0.0
-        both = zip(colliders, lies, turned, moved, strict=True)
-        return np.array(
-            [
-                _APART.of((first.digest, other.digest, row.tobytes()), partial(_exact, first, other, *where))
-                for (first, other), row, *where in both
-            ]
+        known = (
+            _APART.of((first.digest, other.digest, row.tobytes()), partial(_exact, first, other, *where))
+            for (first, other), row, *where in zip(colliders, lies, turned, moved, strict=True)
         )
+        return np.array(list(known))
     both = zip(colliders, turned, moved, strict=True)
     return np.array([_apart(first.outer[0], other.outer[1], *where) for (first, other), *where in both])
 

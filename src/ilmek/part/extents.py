@@ -115,17 +115,26 @@ def _of_chain(chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.n
     if not pieces:
         return
     every = np.concatenate(pieces)
-    moved = [poses(chain, drive, angle) for drive in drives for angle in [_angles(chain, drive)] if len(angle)]
+    moved = [(drive, angle) for drive in drives for angle in [_angles(chain, drive)] if len(angle)]
     if moved:
         points = every.reshape(-1, 3)
         hull = points[ConvexHull(points).vertices]
-        swept = [one.points(hull) for one in moved]
-        low, high = (reduced([reduced(one, axis=(0, 1)) for one in swept], axis=0) for reduced in (np.min, np.max))
-        yield Extent("", body.id, low, high)
+        lows, highs = zip(*(_swept(hull, chain, *turned) for turned in moved), strict=True)
+        yield Extent("", body.id, np.min(lows, axis=0), np.max(highs, axis=0))
         return
     rest = poses(chain, "", np.zeros(1))
     placed = Placement(rest.origin[0], rest.rotation[0]).points(every)
     yield from map(Extent, parts, [body.id] * len(parts), placed.min(1), placed.max(1))
+
+
+def _swept(points: Float[np.ndarray, "n 3"], chain: Chain, drive: str, angle: FloatArray) -> tuple[Corner, Corner]:
+    """Least and greatest corner of points of a body over angles of a drive [m]."""
+    moved = poses(chain, drive, angle)
+    if any(link.turns(drive) for link in chain):
+        every = moved.points(points)
+        return every.min((0, 1)), every.max((0, 1))
+    shifted = points @ moved.rotation[0].T
+    return shifted.min(0) + moved.origin.min(0), shifted.max(0) + moved.origin.max(0)
 
 
 def _angles(chain: Chain, drive: str) -> FloatArray:

@@ -158,8 +158,8 @@ def _across(extents: Sequence[BodyPoints], axis: FloatArray) -> Float[np.ndarray
 
 def _greatest(extents: Sequence[BodyPoints], values: FloatArray) -> Float[np.ndarray, " n"]:
     """The greatest value at the points of each."""
-    sizes = [len(own.points) for own in extents]
-    return np.maximum.reduceat(values, np.cumsum(sizes) - sizes)
+    sizes = np.array([len(own.points) for own in extents])
+    return np.asarray(np.maximum.reduceat(values, np.cumsum(sizes) - sizes))
 
 
 def _cross(vectors: Float[np.ndarray, "*n 3"], axis: FloatArray) -> Float[np.ndarray, "*n 3"]:

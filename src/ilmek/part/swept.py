@@ -76,6 +76,12 @@ class SweptPieces:
             self.travelled[shared] = self.travel.shifts[shared:].sum(0) + by_turns
         return np.asarray(self.travelled[shared][number])
 
+    @cached_property
+    def around(self) -> Float[np.ndarray, "pieces 1 2 3"]:
+        """Boxes that contain the pieces over all intervals, seen from the ground [m]."""
+        boxes = self.boxes()
+        return np.stack([boxes[:, :, 0].min(1), boxes[:, :, 1].max(1)], axis=1)[:, None]
+
     def boxes(self, shared: int = 0) -> Boxes:
         """Boxes that contain the pieces over the intervals, seen from a body of the chain: least, largest x, y, z [m].
 
@@ -177,7 +183,13 @@ def intervals(windows: tuple[Window, ...]) -> Float[np.ndarray, "intervals sampl
 
 
 def box_gaps(boxes: Boxes, others: Boxes) -> Float[np.ndarray, "n m intervals"]:
-    """Distances of boxes [m]."""
-    own, its = boxes[:, None], others[None]
+    """Distances of boxes, each with each [m]."""
+    return gaps_of_two(boxes[:, None], others[None])
+
+
+def gaps_of_two(
+    own: Float[np.ndarray, "*#n intervals 2 3"], its: Float[np.ndarray, "*#n intervals 2 3"]
+) -> Float[np.ndarray, "*n intervals"]:
+    """Distances of boxes and others [m]."""
     apart = np.maximum(own[..., 0, :] - its[..., 1, :], its[..., 0, :] - own[..., 1, :])
     return np.asarray(np.linalg.norm(np.maximum(apart, 0.0), axis=-1))

@@ -140,16 +140,6 @@ def travel_time(pitch: float, window: float, limits: AxisLimits) -> float:
     return max(pitch / limits.speed, required(low))
 
 
-def mean_move_time(positions: int, pitch: float, limits: AxisLimits) -> float:
-    """Mean time between two of n positions in a line, a pitch [SI] apart [s]; 0 for a single one.
-
-    Of the n (n - 1) / 2 pairs, n - d are d pitches apart.
-    """
-    n = positions
-    total = sum((n - d) * move_time(d * pitch, limits) for d in range(1, n))
-    return total / max(n * (n - 1) / 2, 1)
-
-
 def _ramp(speed: float, acceleration: float, jerk: float) -> tuple[float, float]:
     """Times of a jerk phase and of constant acceleration [s] to reach a speed."""
     if speed * jerk < acceleration**2:

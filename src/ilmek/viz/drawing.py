@@ -18,7 +18,6 @@ from ilmek.viz.scale import tick_labels
 from ilmek.viz.sheet import Sheet
 from ilmek.viz.strokes import DOTS, STROKES, Pen
 from ilmek.viz.style import INK, MUTED, SMALL, STRONG, TEXT, YARN, colour, letters, shown_unit
-from ilmek.viz.thinning import thinned_line
 
 WIDTH = 420.0
 FOOT = 30.0
@@ -64,6 +63,8 @@ def pen_for(
 
 def draw_still(pen: Pen, drawing: Drawing) -> None:
     """Draw strokes, dots and the scale bar, without names."""
+    if drawing.strokes:
+        pen.thinned(drawing.strokes[0], drawing.strokes)
     for number, stroke in enumerate(drawing.strokes):
         STROKES[stroke.role](pen, stroke, number)
     for dot in drawing.dots:
@@ -112,7 +113,7 @@ def names(pen: Pen, drawing: Drawing, covered: ComplexArray, foot: float = FOOT)
     for number, stroke in enumerate(drawing.strokes):
         if stroke.label and stroke.label not in seen and stroke.role != "dimension" and len(stroke.points) > 1:
             seen.add(stroke.label)
-            anchors = _beside(thinned_line(pen(stroke.points)), stroke.closed)
+            anchors = _beside(pen.thinned(stroke, drawing.strokes), stroke.closed)
             requests.append(LabelRequest(anchors, stroke.label, TEXT, 7.0 if stroke.role == "link" else 4.5))
             looks.append({"color": _shade(pen, stroke, number), "fontsize": TEXT})
     corner = complex(pen.sheet.width, pen.sheet.height)
@@ -132,7 +133,7 @@ def obstacles(pen: Pen, drawing: Drawing) -> ComplexArray:
     """Points that no name should cover [pt]: every 3 pt along strokes, and rings around dots."""
     parts: list[ComplexArray] = [np.empty(0, complex)]
     for stroke in drawing.strokes:
-        points = thinned_line(pen(stroke.points))
+        points = pen.thinned(stroke, drawing.strokes)
         parts.append(dotted(np.append(points, points[:1]) if stroke.closed else points))
     ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
     parts += [pen(np.array([dot.at])) + ring for dot in drawing.dots]

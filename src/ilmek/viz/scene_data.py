@@ -10,6 +10,7 @@ from ilmek.arrays import FloatArray, Int32, IntArray
 from ilmek.records import JsonObject
 from ilmek.report import Json
 from ilmek.report.scene import Scene, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.viz.thinning import divided
 
 SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
 """Deviations of the samples that are sent from those of a motion, at most [m, rad]."""
@@ -127,20 +128,15 @@ def needed_samples(one: SceneMotion) -> Int32[np.ndarray, " kept"]:
     [Douglas and Peucker 1973, deviations at equal angles]
     """
     values = np.column_stack([one.shift / SHIFT_ERROR, one.rotation / TURN_ERROR])
-    kept, spans = {0, len(one.angle) - 1}, [(0, len(one.angle) - 1)]
-    while spans:
-        first, last = spans.pop()
-        if last - first < 2:
-            continue
-        inner = slice(first + 1, last)
-        share = (one.angle[inner] - one.angle[first]) / (one.angle[last] - one.angle[first])
-        straight = values[first] + share[:, None] * (values[last] - values[first])
-        off = np.abs(values[inner] - straight).max(axis=1)
-        worst = int(np.argmax(off))
-        if off[worst] > 1:
-            kept.add(first + 1 + worst)
-            spans += [(first, first + 1 + worst), (first + 1 + worst, last)]
-    return np.array(sorted(kept), np.int32)
+
+    def away(number: IntArray, begin: IntArray, end: IntArray) -> FloatArray:
+        long = one.angle[end] - one.angle[begin]
+        share = (one.angle[number] - one.angle[begin]) / np.where(long > 0, long, 1.0)
+        straight = values[begin] + share[:, None] * (values[end] - values[begin])
+        return np.asarray(np.abs(values[number] - straight).max(axis=1))
+
+    ends = np.isin(np.arange(len(one.angle)), [0, len(one.angle) - 1])
+    return np.flatnonzero(divided(ends, away, 1.0)).astype(np.int32)
 
 
 def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:

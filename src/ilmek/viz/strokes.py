@@ -1,6 +1,7 @@
 """Drawing of each role of `report.Stroke` and `report.Dot`: bars, hatched ground, pivots, dimensions."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from ilmek.report import Stroke
 from ilmek.viz.font import text_width
 from ilmek.viz.sheet import Sheet, circle
 from ilmek.viz.style import INK, MUTED, PAPER, SMALL, STEEL, YARN, colour, tint
-from ilmek.viz.thinning import thinned_line
+from ilmek.viz.thinning import thinned_line, thinned_lines
 
 BLOCK = 10 + 6.5j
 """Half the length + i half the height of a slider's block [pt]."""
@@ -26,6 +27,17 @@ class Pen:
     origin: complex
     numbers: Mapping[int, int]
     unit: str
+    shown: dict[Stroke, ComplexArray] = field(default_factory=dict)
+
+    def thinned(self, stroke: Stroke, others: Sequence[Stroke] = ()) -> ComplexArray:
+        """The points of a stroke that show on the sheet [pt]: its line, its area and its name need them.
+
+        others  that will be asked for next: all together take less time
+        """
+        if stroke not in self.shown:
+            new = (stroke, *(own for own in others if own is not stroke and own not in self.shown))
+            self.shown.update(zip(new, thinned_lines([self(own.points) for own in new]), strict=True))
+        return self.shown[stroke]
 
     def __call__(self, points: ComplexArray) -> ComplexArray:
         """Positions of points [m] on the sheet [pt]."""
@@ -34,7 +46,7 @@ class Pen:
 
 def _line(pen: Pen, stroke: Stroke, **look: Any) -> ComplexArray:
     """The stroke as a line; returns its points on the sheet."""
-    points = thinned_line(pen(stroke.points))
+    points = pen.thinned(stroke)
     if stroke.closed and len(points):
         points = np.append(points, points[0])
     pen.sheet.line(points, **look)
@@ -43,7 +55,9 @@ def _line(pen: Pen, stroke: Stroke, **look: Any) -> ComplexArray:
 
 def _fill(pen: Pen, stroke: Stroke, shade: str, order: float) -> None:
     points = pen(stroke.points)
-    pen.sheet.area(thinned_line(points[np.isfinite(points)]), facecolor=shade, linewidth=0, zorder=order)
+    whole = np.isfinite(points)
+    area = pen.thinned(stroke) if whole.all() else thinned_line(points[whole])
+    pen.sheet.area(area, facecolor=shade, linewidth=0, zorder=order)
 
 
 def _outline(pen: Pen, stroke: Stroke, _: int) -> None:

@@ -1,8 +1,10 @@
 """Reduction of curves to the points that a figure can show."""
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 
-from ilmek.arrays import Bool, ComplexArray, FloatArray
+from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 
 LIMIT = 720
 TOLERANCE = 0.04
@@ -38,33 +40,56 @@ def thinned_line(points: ComplexArray, tolerance: float = TOLERANCE, limit: int 
     >>> thinned_line(np.array([0, 1, 2, 2 + 1j], dtype=complex)).tolist()
     [0j, (2+0j), (2+1j)]
     """
-    if len(points) > 4 * limit:
-        points = points[np.linspace(0, len(points) - 1, 4 * limit).round().astype(np.intp)]
-    keep = ~np.isfinite(points)
-    edges = np.flatnonzero(np.diff(np.concatenate([[True], keep, [True]]).astype(np.int8)))
-    for start, stop in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        keep[start:stop] = _kept(points[start:stop], tolerance)
-    return np.asarray(points[keep])
+    return thinned_lines([points], tolerance, limit)[0]
 
 
-def _kept(points: ComplexArray, tolerance: float) -> Bool[np.ndarray, " n"]:
-    """Which points of a line without gaps are kept; all intervals are divided at once until none needs division.
+def thinned_lines(
+    lines: Sequence[ComplexArray], tolerance: float = TOLERANCE, limit: int = LIMIT
+) -> tuple[ComplexArray, ...]:
+    """Several polylines, each as by `thinned_line`: quicker than one by one."""
+    few = [
+        line[np.linspace(0, len(line) - 1, 4 * limit).round().astype(np.intp)] if len(line) > 4 * limit else line
+        for line in lines
+    ]
+    points = np.concatenate([np.append(line, np.nan) for line in few])
+    keep = _kept(points, tolerance)
+    stops = np.cumsum([len(line) + 1 for line in few])
+    return tuple(line[keep[stop - 1 - len(line) : stop - 1]] for line, stop in zip(few, stops.tolist(), strict=True))
+
+
+def _kept(points: ComplexArray, tolerance: float) -> BoolArray:
+    """Which points of lines between gaps are kept.
 
     The distance from a chord is that from the segment, because a line may turn back beyond its ends.
     """
-    keep = np.zeros(len(points), dtype=bool)
-    keep[[0, -1]] = True
-    while len(points) > 2:
-        ends = np.flatnonzero(keep)
-        interval = np.minimum(np.cumsum(keep) - 1, len(ends) - 2)
-        starts = points[ends[interval]]
-        chord, off = points[ends[interval + 1]] - starts, points - starts
+
+    def away(number: IntArray, begin: IntArray, end: IntArray) -> FloatArray:
+        chord, off = points[end] - points[begin], points[number] - points[begin]
         squared = np.maximum(chord.real**2 + chord.imag**2, np.finfo(float).tiny)
         share = np.clip((off.real * chord.real + off.imag * chord.imag) / squared, 0.0, 1.0)
-        away = np.abs(off - share * chord)
-        farthest = np.maximum.reduceat(away, ends[:-1])[interval]
-        cuts = np.flatnonzero((away == farthest) & (farthest > tolerance))
-        if not len(cuts):
-            break
-        keep[cuts[np.unique(interval[cuts], return_index=True)[1]]] = True
-    return keep
+        return np.asarray(np.abs(off - share * chord))
+
+    gap = ~np.isfinite(points)
+    return divided(gap | np.append(True, gap[:-1]) | np.append(gap[1:], True), away, tolerance)
+
+
+def divided(kept: BoolArray, away: Callable[[IntArray, IntArray, IntArray], FloatArray], tolerance: float) -> BoolArray:
+    """The samples of a curve that are kept, and of each interval between two the farthest one from what joins its ends.
+
+    All intervals are divided at once, until in none a sample is farther than the tolerance.
+
+    kept  at first, both ends among them
+    away  numbers of samples, and of the begin and the end of the interval of each -> their distances
+    """
+    kept, left = kept.copy(), np.arange(len(kept))  # of the intervals that may need division, each with both ends
+    while len(left) > 2:
+        ends = np.flatnonzero(kept[left])
+        interval = np.minimum(np.cumsum(kept[left]) - 1, len(ends) - 2)
+        distance = away(left, left[ends[interval]], left[ends[interval + 1]])
+        farthest = np.maximum.reduceat(distance, ends[:-1])[interval]
+        cuts = np.flatnonzero((distance == farthest) & (farthest > tolerance))
+        cut, first = np.unique(interval[cuts], return_index=True)
+        kept[left[cuts[first]]] = True
+        sizes = ends[cut + 1] - ends[cut] + 1
+        left = left[np.repeat(ends[cut] - np.cumsum(sizes) + sizes, sizes) + np.arange(sizes.sum())]
+    return kept

@@ -70,6 +70,19 @@ class MovedOutline:
     corners: ComplexArray
     radius: float = 0.0
 
+    def at(self, some: BoolArray) -> ComplexArray:
+        """Its corners at some of the angles."""
+        return self.corners[some] if len(self.corners) > 1 else self.corners
+
+
+def _box_gap(first: MovedOutline, other: MovedOutline) -> FloatArray:
+    """Distance of the boxes about two outlines [m], which are nowhere nearer."""
+    gaps = []
+    for along in (np.real, np.imag):
+        own, its = along(first.corners), along(other.corners)
+        gaps.append(np.maximum(its.min(-1) - own.max(-1), own.min(-1) - its.max(-1)))
+    return np.asarray(np.hypot(*np.maximum(gaps, 0.0)) - first.radius - other.radius)
+
 
 @record
 class ClothDistance:
@@ -92,16 +105,17 @@ def cloth_clearances(loom: LoomDesign) -> tuple[ClothDistance, ...]:
         for cloth in cloths:
             if (moved.body, cloth.body) in WORKING:
                 continue
-            apart = between(moved.corners, cloth.corners) - moved.radius - cloth.radius
-            apart = np.broadcast_to(apart, angle.shape)
-            if moved.body == CARRIER:
-                apart = np.where(laid, apart, np.inf)
+            near = np.broadcast_to(_box_gap(moved, cloth) <= HORIZON, angle.shape)
+            near = near & laid if moved.body == CARRIER else near
+            if not near.any():
+                continue
+            apart = between(moved.at(near), cloth.at(near)) - moved.radius - cloth.radius
             nearest = int(np.argmin(apart))
-            value, where = float(apart[nearest]), float(angle[nearest])
+            value, where = float(apart[nearest]), float(angle[near][nearest])
             if value < least.get((moved.body, cloth.body), (math.inf, 0.0))[0]:
                 least[moved.body, cloth.body] = value, where
-    near = (ClothDistance(*pair, *distance) for pair, distance in least.items() if distance[0] <= HORIZON)
-    return tuple(sorted(near, key=lambda distance: distance.value))
+    kept = (ClothDistance(*pair, *distance) for pair, distance in least.items() if distance[0] <= HORIZON)
+    return tuple(sorted(kept, key=lambda distance: distance.value))
 
 
 def cloth_checks(loom: LoomDesign) -> tuple[Check, ...]:

@@ -216,8 +216,3 @@ def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Chec
             parts=MOTOR,
         ),
     )
-
-
-def _motor_check(found: NeedleStrength, cure: str) -> Check:
-    there = found.motor is not None
-    return must("a servo turns the main shaft", there, "motor table, margin 1.25", cure=cure, parts=MOTOR)
