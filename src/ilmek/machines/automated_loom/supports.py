@@ -194,7 +194,7 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
     arm, apart = rail_middle(loom), RAIL_AXIS / 2 + ROOM + half
     if corner.imag <= arm.imag - RAIL_AXIS / 2 or abs(middle - arm.real) >= apart:
         return middle
-    under = corner.real + half, corner.real + beam.section.side - half
+    under = corner.real, corner.real + beam.section.side
     free = [depth for depth in (arm.real - apart, arm.real + apart) if under[0] <= depth <= under[1]]
     return min(free, key=lambda depth: abs(depth - middle), default=middle)
 

@@ -8,7 +8,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.tubes import Tube
 from ilmek.machines.tension_compensator.members import Loads, Members, bar_checks, bar_tubes, members_for, pick
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.parts import CompensatorParts, parts_of, sprung_bar
+from ilmek.machines.tension_compensator.parts import BarSupports, CompensatorParts, parts_of, sprung_bar
 from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, synthesise
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Choice, at_least, at_most
@@ -178,16 +178,26 @@ def design(params: TensionCompensatorParams) -> TensionCompensator:
 def _beside_the_rods(
     params: TensionCompensatorParams, task: BarTask, tube: tuple[Tube, Choice]
 ) -> tuple[SprungLever, Loads, Members]:
-    """The lever, its loads and its members; the rods so far apart that it passes the lower one."""
+    """The lever, its loads and its members; the rods so far apart that lever and rollers of the bar pass them."""
     span = 0.0
     for _ in range(_ROUNDS):
         one = synthesise(params, task, tube[0].outer_radius, span)
         loads = _loads(params, one)
         members = members_for(params, tube, loads)
-        if params.guide_span or one.clearance(members.lever) >= CLEARANCE:
+        least = min(one.clearance(members.lever), _roller_gap(BarSupports(params, one, members)))
+        if params.guide_span or least >= CLEARANCE:
             break
         span = one.lever.path.half + _FARTHER
     return one, loads, members
+
+
+def _roller_gap(at: BarSupports) -> float:
+    """Least gap between the rollers of a bar and the rods, at rest and in the open shed [m]."""
+    lever, path = at.sprung.lever, at.sprung.lever.path
+    turned = np.exp(-1j * np.array([0.0, at.sprung.angle]))
+    rollers = lever.pivot + np.outer(turned, at.saddle(at.bar, -at.bar)[::2])
+    rods = complex(-path.radius, path.half), complex(-path.radius, -path.half)
+    return float(min(np.abs(rollers - rod).min() for rod in rods)) - path.radius - at.members.roller.outer / 2
 
 
 def _bars(params: TensionCompensatorParams) -> tuple[int, Choice]:

@@ -120,8 +120,8 @@ def lever_for(params: TensionCompensatorParams, radius: float, slack: float, spa
         shown, least = (format_quantity(one, "mm") for one in (params.guide_span, NARROWEST * radius))
         given = f"guide_span={shown} between rollers of {format_quantity(2 * radius, 'mm')}"
         raise ParameterError(given, allowed=f"at least {least}", do="leave guide_span out, or set a smaller bar_tube")
-    least = max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm, span)
-    path = WarpPath(params.guide_span or least, radius)
+    usual = max(4 * radius, SPREAD * slack, ARM_SHARE * params.bar_arm, span)
+    path = WarpPath(params.guide_span or usual, radius)
     rest = path.at_rest(params.strand_angle)
     return Lever(path, rest, params.bar_arm, params.arm_angle, params.spring_arm, params.strut, 0.0)
 

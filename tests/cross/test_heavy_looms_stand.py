@@ -1,0 +1,49 @@
+"""What stands of looms with many, tight warps has room: frame, cylinders, compensator, reducers of the cam shafts.
+
+Evidence: volumes of the parts' meshes by manifold3d, in the pose at the start of a row.
+"""
+
+from functools import cache
+
+import pytest
+
+from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.in_space.beating import beating
+from ilmek.machines.automated_loom.in_space.cams import cams
+from ilmek.machines.automated_loom.in_space.machines import joined
+from ilmek.machines.automated_loom.in_space.standing import standing
+from ilmek.machines.shedding.stack import part_id
+from ilmek.part.contacts import contacts
+from ilmek.part.tree import Tree
+
+LOOMS = (
+    {"width": "3.4m", "length": "3.5m", "knots_across": "20/dm", "tension": "30N", "lift": "60mm", "beat": "comb"},
+    {"width": "1.7m", "length": "2.2m", "knots_across": "25/dm", "tension": "30N", "lift": "70mm"},
+    {"width": "1m", "length": "1m", "knots_across": "50/dm", "beat": "comb"},
+)
+
+
+@cache
+def loom(number: int) -> LoomDesign:
+    return design(AutomatedLoomParams.read(LOOMS[number]))
+
+
+def standing_parts(made: LoomDesign) -> Tree:
+    """Frame with its rail, cylinders, compensator and beat, and of the cam shafts what does not turn."""
+    shafts = cams(made)
+    held = {part_id("stand", index) for index in range(len(made.side.cams))}
+    stands = Tree(tuple(body for body in shafts.tree.bodies if body.id in held))
+    whole = joined((*standing(made), beating(made)))
+    return whole.carrying(shafts.parent, stands, shafts.position)
+
+
+@pytest.mark.parametrize("number", range(len(LOOMS)))
+def test_nothing_that_stands_is_through_another(number: int) -> None:
+    found = contacts(standing_parts(loom(number)))
+    assert [pair.parts for pair in found.through] == []
+
+
+def test_the_bar_of_a_comb_goes_up_before_the_reed() -> None:
+    made = loom(2)
+    assert any(cam.reeded for cam in made.side.cams)
+    assert made.beat.design.params.reach >= made.side.cam_front + made.params.clearance
