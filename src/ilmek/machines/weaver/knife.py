@@ -6,6 +6,7 @@ face: below the bell cranks, and over the cams.
 """
 
 import cmath
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -14,7 +15,14 @@ from ilmek.cams.hertz import line_contact
 from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
 from ilmek.machines.weaver.cutter import LAP, cut, eccentricity
-from ilmek.machines.weaver.cutter_motor import BLADE, cutter_drive, cutter_motor, eccentric, eccentric_diameter
+from ilmek.machines.weaver.cutter_motor import (
+    BLADE,
+    cutter_drive,
+    cutter_motor,
+    eccentric,
+    eccentric_diameter,
+    motor_length,
+)
 from ilmek.machines.weaver.cyclogram import TUBE_TURN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import BELL_CRANKS
@@ -64,12 +72,19 @@ def eye_diameter(weaver: Weaver) -> float:
 
 
 def shaft_at(weaver: Weaver) -> complex:
-    """Axis of the eccentric, x + i y [m]."""
+    """Axis of the eccentric, x + i y [m]: the motor below the bell cranks where it is over the cams there."""
     eye, inner, face = eye_at(weaver), stack_width(weaver.params) / 2, _face(weaver)
     pivots = (lever.pivot.imag for track, lever in weaver.shape.levers.items() if track in BELL_CRANKS)
     below = min(pivots) - HALF - APART - face / 2
     above = _edge(weaver) - LAND - eccentric_diameter(weaver.params) / 2 + eccentricity(weaver.params.yarn)
-    return complex(min(eye.real, inner - face / 2 - APART / 4), min(below, above))
+    return complex(min(eye.real, inner - face / 2 - APART / 4), min(max(below, _over_cams(weaver) + face / 2), above))
+
+
+def _over_cams(weaver: Weaver) -> float:
+    """Height over the cams at the end of the motor, with room [m]."""
+    shape, largest = weaver.shape, max(cam.radius for cam in weaver.cams)
+    end = shape.body.real + _wall(weaver) + motor_length(weaver.params)
+    return shape.axis.imag + math.sqrt(max(largest**2 - max(shape.axis.real - end, 0.0) ** 2, 0.0)) + APART
 
 
 def knife_checks(weaver: Weaver) -> tuple[Check, ...]:
@@ -116,11 +131,9 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
             for angle in (0.0, turn / 2)
         ),
     )
-    row, cycle = (
-        cutter_motor(weaver.params),
-        cut(weaver.params.yarn, weaver.params.strength, weaver.params.cutter_turn, 0.0),
-    )
-    torque, speed = float(cycle.torque.max()), float(cycle.speed.max())
+    params = weaver.params
+    cycle = cut(params.yarn, params.strength, params.cutter_turn, 0.0)
+    torque, speed, row = float(cycle.torque.max()), float(cycle.speed.max()), cutter_motor(params)
     motor = catalogue.motor(CUTTER_MOTOR, "motor of the cutter", row, torque, speed)
     to_the_face = placement(axis.real, axis.imag, front + wall, about=(1.0, 0.0, 0.0), angle=turn / 2)
     yield Occurrence(motor, (to_the_face,))
