@@ -24,14 +24,14 @@ def test_the_error_of_a_tube_is_the_worst_of_all_by_full_steps(settings: dict[st
         worst = max(worst, min(abs(place - step * around / 200) for step in range(2000)))
     found = selector_of(params, magazine)
     assert found.error == pytest.approx(worst + 0.05 * around / 200 + 0.15 * mm)
-    (check,) = (check for check in MACHINE.report(weaver).checks if check.name == "place of a tube")
+    (check,) = (check for check in MACHINE.report(weaver).checks if check.name == "position of a tube")
     assert check.value == pytest.approx(found.error)
     assert check.limit == pytest.approx((0.6 * magazine.pitch - params.yarn) / 2)
 
 
 def test_a_drum_of_tubes_of_small_pitch_fails() -> None:
     weaver = MACHINE.design(WeaverParams(tube_pitch=2.8 * mm, tubes=16))
-    assert "place of a tube" in {check.name for check in MACHINE.report(weaver).failed}
+    assert "position of a tube" in {check.name for check in MACHINE.report(weaver).failed}
 
 
 @pytest.mark.parametrize("settings", HEADS)

@@ -72,15 +72,15 @@ def keyed_journal(end: KeyedEnd) -> Prism:
     return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft, end.number)), end.length)
 
 
-def keys(name: str, title: str, end: KeyedEnd, position: Placement) -> Occurrence:
-    """The keys of such an end, in their grooves, with the end at a position."""
+def keys(name: str, title: str, end: KeyedEnd, *positions: Placement) -> Occurrence:
+    """The keys of such an end, in their grooves, with the end at positions."""
     row = end.keyway
     block = box(row.height, row.width, end.length)
     middle = placement(x=end.diameter / 2 - row.in_shaft + row.height / 2)
     bought = Bought(end.designation, block.volume * STEEL.density)
     part = Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
-    turned = (placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number))
-    return Occurrence(part, tuple(position.after(one) for one in turned))
+    turned = [placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number)]
+    return Occurrence(part, tuple(position.after(one) for position in positions for one in turned))
 
 
 def length_of(part: Part) -> float:

@@ -11,9 +11,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS
+from ilmek.machines.weaver.cutter_motor import HUB
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import LOWER_PLATE, RAIL_AXIS, SLEY_HEIGHT, SLEY_TOOL, UPPER_PLATE
-from ilmek.machines.weaver.knife import HUB, PLAY, eye_at, eye_diameter, shaft_at
+from ilmek.machines.weaver.knife import PLAY, eye_at, eye_diameter, shaft_at
 from ilmek.machines.weaver.motions import CENTRE_ARM
 from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_parts import HANDLER_SHAFT, SLEY_ARM, ToolBodies, part_id

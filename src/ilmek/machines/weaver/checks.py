@@ -13,6 +13,7 @@ from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
 from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
+from ilmek.machines.weaver.hub_keys import key_checks
 from ilmek.machines.weaver.knife import KNIFE, knife_checks
 from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_id, lever_stress
 from ilmek.machines.weaver.limits import HeadLimits
@@ -360,6 +361,7 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             parts=(KNIFE,),
         ),
         *knife_checks(weaver),
+        *key_checks(weaver),
         must(
             "motor of the cam shaft",
             weaver.drive.servo is not None,

@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
 from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
 from ilmek.machines.weaver.cams import cams_for
+from ilmek.machines.weaver.cutter_motor import motor_length
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces
@@ -174,7 +175,7 @@ def design(params: WeaverParams) -> Weaver:
         belt=belt,
         opener=opener,
         magazine=magazine,
-        shape=head_shape(reaching, cams, magazine, selector_of(params, magazine)),
+        shape=head_shape(reaching, cams, magazine, selector_of(params, magazine), motor_length(params)),
         tool_bodies=tools,
         width=params.head_width or math.ceil(max(needs.values()) / mm - _WHOLE) * mm,
         needs=needs,

@@ -11,6 +11,7 @@ from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.hub_keys import OUTPUT, SMALL_KEY, grooved, keyed_disc, small_key
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.parts import MOTOR
 from ilmek.machines.weaver.selector import selector_of
@@ -21,7 +22,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, bar, box, tube
+from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Occurrence
 from ilmek.units import format_quantity, mm
 
@@ -34,9 +35,8 @@ CAM_BELT, CAM_PULLEY, SMALL_PULLEY, STUB = (
 )
 """Ids of the parts."""
 
-MOTOR_PLATE, OUTPUT, UNDER_BRACKET = 6 * mm, 14 * mm, 3 * mm
-"""Thickness of the motor's plate, diameter of the reducer's output, room under the bracket [m]; assumed by this
-project."""
+MOTOR_PLATE, UNDER_BRACKET = 6 * mm, 3 * mm
+"""Thickness of the motor's plate, and room under the bracket [m]; assumed by this project."""
 
 BACK, TEETH, ON_PULLEY = 1.5 * mm, 1.2 * mm, 0.05 * mm
 """A belt outside and inside of its pitch line, half of the AT5 profile each, and its room on a pulley [m]."""
@@ -59,7 +59,7 @@ def reducer_at(weaver: Weaver) -> complex:
 def shaft_pulley(weaver: Weaver) -> Occurrence:
     """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
     radius = weaver.belt.radii[0] - TEETH - ON_PULLEY
-    ring = tube(2 * radius, radius - weaver.params.shaft / 2, weaver.belt.width)
+    ring = keyed_disc(radius, weaver.params.shaft, weaver.belt.width)
     part = Part(CAM_PULLEY, "pulley of the cam shaft", "machined link", _teeth(weaver.belt.large), ring, ALUMINIUM)
     return Occurrence(part, (placement(z=-belt_station(weaver) - weaver.belt.width),))
 
@@ -81,14 +81,16 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         "output of the angle reducer",
         "pin or bush",
         _mm(OUTPUT),
-        bar(OUTPUT, weaver.belt.width + 0.5 * mm),
+        grooved(OUTPUT, weaver.belt.width + 0.5 * mm),
         STEEL,
     )
     yield Occurrence(stub, (placement(begin - 0.5 * mm, at.imag, at.real).after(ALONG_WIDTH),))
     radius = weaver.belt.radii[1] - TEETH - ON_PULLEY
-    ring = tube(2 * radius, radius - OUTPUT / 2, weaver.belt.width)
+    ring = keyed_disc(radius, OUTPUT, weaver.belt.width)
     pulley = Part(SMALL_PULLEY, "small pulley of the cam belt", "machined link", _teeth(SMALL), ring, ALUMINIUM)
-    yield Occurrence(pulley, (placement(begin, at.imag, at.real).after(ALONG_WIDTH),))
+    on_output = placement(begin, at.imag, at.real).after(ALONG_WIDTH)
+    yield Occurrence(pulley, (on_output,))
+    yield catalogue.keys(SMALL_KEY, "key of the small pulley", small_key(weaver), on_output)
     yield _belt(weaver, at, begin)
     left = -case_width(weaver.params) / 2
     plate = box(middle + face / 2 - left, long, MOTOR_PLATE)

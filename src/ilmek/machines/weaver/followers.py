@@ -16,7 +16,7 @@ import numpy as np
 from ilmek.cams.loaded_plate_cam import ROLLER, STEEL, LoadedPlateCam
 from ilmek.machines.weaver.case import ALUMINIUM, WEB
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import GUIDE, LAP, PLAY
+from ilmek.machines.weaver.head_shape import GUIDE, HALF_GUIDE, LAP, PLAY
 from ilmek.machines.weaver.jaws import rail_of
 from ilmek.machines.weaver.levers import OVER, PIN, SOLID
 from ilmek.machines.weaver.motions import HANDLER
@@ -132,7 +132,8 @@ def guide(weaver: Weaver) -> Occurrence:
     if params.cam_gap < WEB:  # no wall is left between two slots: one window
         ends = [(ends[0][0] + WEB, ends[-1][1] - WEB)]
     slots = tuple(_box(complex(-half, -high), complex(half, -low)) for low, high in ends)
-    outline = _box(complex(-4 * half, -wide / 2), complex(4 * half, wide / 2))
+    deep = HALF_GUIDE * params.roller_radius
+    outline = _box(complex(-deep, -wide / 2), complex(deep, wide / 2))
     size = f"{format_quantity(GUIDE, 'mm')} thick"
     section = Profile(outline, slots)
     part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)

@@ -45,6 +45,9 @@ COLLARS = 23 * mm
 SPRING = 36 * mm
 """Room of the centre gripper's spring while it is shortest [m]; assumed by this project."""
 
+HALF_GUIDE = 3.0
+"""Half the depth of the followers' guide over the radius of their rollers; assumed by this project."""
+
 DRAWBAR, UNDER = 5 * mm, 12 * mm
 """Half the height of a carriage's drawbar, and from the opener down to its middle [m]; assumed by this project."""
 
@@ -242,20 +245,24 @@ def _sley(params: WeaverParams, span: complex, above: float) -> HeadTool:
 
 
 def head_shape(
-    reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine, selector: Selector
+    reaching: HeadTools, cams: Sequence[LoadedPlateCam], magazine: Magazine, selector: Selector, cutter: float
 ) -> HeadShape:
     """The head with its tools: behind its face the tools' carriages, below them levers, followers and cam shaft.
 
-    So it is as deep as its largest cam. The magazine stands in front of the body, and moves each tier to the height at
-    which the knot is tied. Its motor, the selector's, stands below it on the bracket that leads from the body to the
-    rail.
+    So it is as deep as its largest cam, or as the cutter's motor behind the face, of a length [m]. The magazine stands
+    in front of the body, and moves each tier to the height at which the knot is tied. Its motor, the selector's, stands
+    below it on the bracket that leads from the body to the rail.
     """
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
     wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face + 2 * BESIDE_MOTOR)
     largest, radius = max(cam.radius for cam in cams), max(cam.cam.roller_radius for cam in cams)
-    line = max(face + CASE + largest, reaching.partition + PARTITION + SOLID)
+    line = max(
+        face + CASE + largest,
+        reaching.partition + PARTITION + SOLID,
+        face + SHEET + cutter + APART + HALF_GUIDE * radius,
+    )
     cranks = [cam.lift for cam in cams if cam.name in BELL_CRANKS]
     arm = max(RACK + LEVER_AXLE / 2 + 0.75 * radius, *(least_arm(lift) for lift in cranks))
     levers = {cam.name: lever for cam in cams if (lever := _lever(reaching, cam, line, arm)) is not None}

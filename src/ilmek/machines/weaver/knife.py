@@ -6,22 +6,27 @@ face: below the bell cranks, and over the cams.
 """
 
 import cmath
+import math
 from collections.abc import Iterator
-from functools import lru_cache
 
 import numpy as np
 
 from ilmek.cams.hertz import line_contact
 from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT, STEEL
-from ilmek.elements.duty import MARGIN, ServoDrive, size_motor
-from ilmek.elements.motors import Motor
-from ilmek.elements.reducers import DIRECT
+from ilmek.elements.duty import MARGIN
 from ilmek.machines.weaver.cutter import LAP, cut, eccentricity
+from ilmek.machines.weaver.cutter_motor import (
+    BLADE,
+    cutter_drive,
+    cutter_motor,
+    eccentric,
+    eccentric_diameter,
+    motor_length,
+)
 from ilmek.machines.weaver.cyclogram import TUBE_TURN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import BELL_CRANKS
 from ilmek.machines.weaver.levers import HALF
-from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.turning import home, pivot
@@ -30,7 +35,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar, box, rectangle, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
@@ -46,11 +51,8 @@ KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
 BLADE_BODY, ECCENTRIC_BODY = part_id("sliding knife"), part_id("turning eccentric")
 """Ids of parts and bodies."""
 
-HUB = 12 * mm
-"""Diameter of the eccentric's hub on a shaft of 8 mm [m]; assumed by this project, as all sizes here."""
-
-BLADE, EDGE, LAND = 3 * mm, 3 * mm, 5 * mm
-"""Thickness of the blade, its width beside its slot, and from that to the edge [m]."""
+EDGE, LAND = 3 * mm, 5 * mm
+"""Width of the blade beside its slot, and from that to its edge [m]; assumed by this project, as all sizes here."""
 
 STRIP, LIP = 4 * mm, 1.5 * mm
 """Width of a guide beside the blade; width and thickness of its lip over it [m]."""
@@ -70,27 +72,25 @@ def eye_diameter(weaver: Weaver) -> float:
 
 
 def shaft_at(weaver: Weaver) -> complex:
-    """Axis of the eccentric, x + i y [m]."""
+    """Axis of the eccentric, x + i y [m]: the motor below the bell cranks where it is over the cams there."""
     eye, inner, face = eye_at(weaver), stack_width(weaver.params) / 2, _face(weaver)
     pivots = (lever.pivot.imag for track, lever in weaver.shape.levers.items() if track in BELL_CRANKS)
     below = min(pivots) - HALF - APART - face / 2
-    above = _edge(weaver) - LAND - _diameter(weaver.params) / 2 + eccentricity(weaver.params.yarn)
-    return complex(min(eye.real, inner - face / 2 - APART / 4), min(below, above))
+    above = _edge(weaver) - LAND - eccentric_diameter(weaver.params) / 2 + eccentricity(weaver.params.yarn)
+    return complex(min(eye.real, inner - face / 2 - APART / 4), min(max(below, _over_cams(weaver) + face / 2), above))
 
 
-@lru_cache(maxsize=8)
-def cutter_drive(weaver: Weaver) -> ServoDrive | None:
-    """The motor of least power that makes the cut; None where none does."""
-    params, moments = weaver.params, _eccentric(weaver).moments
-    assert moments is not None
-    inertia = float(moments.second[0, 0] + moments.second[1, 1])
-    return size_motor(cut(params.yarn, params.strength, params.cutter_turn, inertia), (DIRECT,))
+def _over_cams(weaver: Weaver) -> float:
+    """Height over the cams at the end of the motor, with room [m]."""
+    shape, largest = weaver.shape, max(cam.radius for cam in weaver.cams)
+    end = shape.body.real + _wall(weaver) + motor_length(weaver.params)
+    return shape.axis.imag + math.sqrt(max(largest**2 - max(shape.axis.real - end, 0.0) ** 2, 0.0)) + APART
 
 
 def knife_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The motor's torque, and the pressure of the eccentric on its slot."""
-    params, drive = weaver.params, cutter_drive(weaver)
-    pressed = line_contact(params.strength / BLADE, 2 / _diameter(params), MODULUS)
+    params, drive = weaver.params, cutter_drive(weaver.params)
+    pressed = line_contact(params.strength / BLADE, 2 / eccentric_diameter(params), MODULUS)
     return (
         at_least(
             "torque of the cutter's motor, over what the cut takes",
@@ -131,8 +131,9 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
             for angle in (0.0, turn / 2)
         ),
     )
-    row, cycle = _motor(weaver), cut(weaver.params.yarn, weaver.params.strength, weaver.params.cutter_turn, 0.0)
-    torque, speed = float(cycle.torque.max()), float(cycle.speed.max())
+    params = weaver.params
+    cycle = cut(params.yarn, params.strength, params.cutter_turn, 0.0)
+    torque, speed, row = float(cycle.torque.max()), float(cycle.speed.max()), cutter_motor(params)
     motor = catalogue.motor(CUTTER_MOTOR, "motor of the cutter", row, torque, speed)
     to_the_face = placement(axis.real, axis.imag, front + wall, about=(1.0, 0.0, 0.0), angle=turn / 2)
     yield Occurrence(motor, (to_the_face,))
@@ -154,18 +155,14 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 
 
 def _eccentric(weaver: Weaver) -> Part:
-    """A disc in the blade's slot, and its hub through the face on the motor's shaft."""
-    params = weaver.params
-    disc = Placed(bar(_diameter(params), BLADE), (placement(y=-eccentricity(params.yarn)),))
-    shape = Sum((disc, Placed(bar(HUB, _wall(weaver)), (placement(z=BLADE),))))
-    size = f"eccentricity {_mm(eccentricity(params.yarn))}"
+    shape, size = eccentric(weaver.params, _wall(weaver)), f"eccentricity {_mm(eccentricity(weaver.params.yarn))}"
     return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL)
 
 
 def _blade(weaver: Weaver) -> Part:
     """A plate about the axis of the eccentric, with a slot across; its upper edge cuts."""
     axis, (half, low, high) = shaft_at(weaver), _outline(weaver)
-    wide, by = _diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
+    wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
     size = f"{_mm(2 * half)} x {_mm(high - low)} x {_mm(BLADE)}"
@@ -174,7 +171,7 @@ def _blade(weaver: Weaver) -> Part:
 
 def _outline(weaver: Weaver) -> tuple[float, float, float]:
     """Half the width of the blade about the axis of the eccentric, heights of its lower and upper edge at rest [m]."""
-    axis, by, across = shaft_at(weaver), eccentricity(weaver.params.yarn), _diameter(weaver.params)
+    axis, by, across = shaft_at(weaver), eccentricity(weaver.params.yarn), eccentric_diameter(weaver.params)
     beside = abs(eye_at(weaver).real - axis.real) + by + EDGE
     return max(across / 2 + by + EDGE, beside), axis.imag - by - across / 2 - EDGE, _edge(weaver)
 
@@ -184,24 +181,14 @@ def _edge(weaver: Weaver) -> float:
     return eye_at(weaver).imag - eccentricity(weaver.params.yarn)
 
 
-def _diameter(params: WeaverParams) -> float:
-    """Of the eccentric [m]."""
-    return HUB + 2 * eccentricity(params.yarn)
-
-
 def _wall(weaver: Weaver) -> float:
     """Thickness of the face, or of what bears the motor where there is none [m]."""
     return max(sheet(weaver), WALL)
 
 
-def _motor(weaver: Weaver) -> Motor | None:
-    drive = cutter_drive(weaver)
-    return drive.motor if drive else None
-
-
 def _face(weaver: Weaver) -> float:
     """Side of the motor's flange [m]."""
-    row = _motor(weaver)
+    row = cutter_motor(weaver.params)
     return row.face if row else catalogue.SPECIAL_FACE
 
 

@@ -127,7 +127,7 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
             parts=(TUBE,),
         ),
         at_most(
-            "place of a tube",
+            "position of a tube",
             selector_of(params, magazine).error,
             (TUBE_BORE * magazine.pitch - params.yarn) / 2,
             "mm",

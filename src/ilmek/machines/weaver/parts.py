@@ -15,6 +15,7 @@ from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.hub_keys import CAM_KEY, PULLEY_KEY, cam_key, grooved, pulley_key
 from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import case_width
@@ -22,7 +23,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Prism, bar, rectangle, tube
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.units import format_quantity, mm, turn
@@ -96,13 +97,18 @@ def _into_gap(weaver: Weaver) -> float:
 def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What turns: the shaft, a cam for each track, and spacers between cams, pulley and bearings."""
     params, wide = weaver.params, case_width(weaver.params)
-    shaft = Part(SHAFT, "cam shaft of the head", "turned part", _round(params.shaft), bar(params.shaft, wide), STEEL)
-    yield Occurrence(shaft, (placement(z=-wide / 2),))
+    end = wide / 2 - params.side_plate - _into_gap(weaver)
+    journals = Placed(bar(params.shaft, wide / 2 - end), (placement(z=-wide / 2), placement(z=end)))
+    middle = Placed(grooved(params.shaft, 2 * end), (placement(z=-end),))
+    title, size = "cam shaft of the head", _round(params.shaft)
+    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((journals, middle)), STEEL))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
     end = wide / 2 - params.side_plate - _into_gap(weaver)
     pulley = -belt_station(weaver) - weaver.belt.width
+    yield catalogue.keys(CAM_KEY, "key of a cam of the head", cam_key(weaver), *(placement(z=z) for z in begins))
+    yield catalogue.keys(PULLEY_KEY, "key of the cam shaft's pulley", pulley_key(weaver), placement(z=pulley))
     places = [
         (-end, -end),
         (pulley, pulley + weaver.belt.width),

@@ -31,7 +31,7 @@ class Selector:
     torque: float = result("Nm", "torque that it must give")
     speed: float
     step: float = result("mm", "travel of the tubes for a step of it")
-    error: float = result("mm", "greatest error of a tube's place, by full steps")
+    error: float = result("mm", "greatest error of a tube's position, by full steps")
     stepper: Motor | None
 
     @property
