@@ -117,18 +117,12 @@ class LoomAssembly:
 @lru_cache(maxsize=4)
 def assembly(loom: LoomDesign) -> LoomAssembly:
     """The parts of a loom against each other; takes some seconds."""
-    return LoomAssembly(loom, nearest_parts(loom), standing_contacts(loom))
-
-
-@lru_cache(maxsize=4)
-def standing_contacts(loom: LoomDesign) -> Contacts:
-    """What touches and what is through each other as the loom stands; a small part of `assembly`."""
-    return contacts(loom_tree(loom))
+    return LoomAssembly(loom, nearest_parts(loom), contacts(loom_tree(loom)))
 
 
 def holds_in_space(loom: LoomDesign) -> bool:
     """Whether the checks of `assembly` hold; ended at the first comparison in which one fails, so quicker than all."""
-    touching = standing_contacts(loom)
+    touching = contacts(loom_tree(loom))
     each = chain([()], passes(loom, loom.params.clearance))
     return all(LoomAssembly(loom, nearest_of(near), touching).holds for near in each)
 

@@ -31,6 +31,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     beside,
     servo_axis,
     servo_face,
+    standing_servos,
 )
 from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.drives import head_motion
@@ -131,7 +132,7 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
     head, params, inside = arms.head, arms.params, arms.head.section
     motion = head_motion(params, head)
     rest = head.arm.tip(np.array([0.0]))[0]
-    first, second = (servo_axis(params, head, motion, number) for number in (0, 1))
+    first, last = (servo_axis(params, head, motion, number) for number in (0, standing_servos(params) - 1))
     return ArmsInHead(
         time=motion.cycle.period,
         yarn=head.yarn_needed,
@@ -150,8 +151,8 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
         bar_height=params.link_thickness,
         servo_aside=inside.middle - first.real,
         servo_depth=first.imag,
-        servo_pitch=second.imag - first.imag,
-        belts_end=second.imag + OUTSIDE,
+        servo_pitch=last.imag - first.imag,
+        belts_end=last.imag + OUTSIDE,
         belts_over=BELTS_OVER,
         servo_shaft=SERVO_SHAFT,
     )

@@ -12,13 +12,11 @@ from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
 
-from ilmek.machines.automated_loom.assembly import assembly, standing_contacts
+from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.cost import costs_by_heads
 from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
-from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
 from ilmek.machines.automated_loom.report import analyse, checks
-from ilmek.machines.weaver.tree import HEAD
 from ilmek.report import Alternative, Check, choose
 
 _ALL: Mapping[str, tuple[Check, ...]] = MappingProxyType({})
@@ -40,22 +38,13 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
     """The loom, or where its parts have no room in space and its beat was left open, that with the next kind that has.
 
     params  of the choice: with the heads of the loom, these stay
-    Where no kind has room, the loom with the beat whose heaviest failed check weighs least. Where a head has no room
-    for its own parts, no beat helps: the loom stays.
+    Where no kind has room, the loom with the beat whose heaviest failed check weighs least.
     """
     refused: dict[str, tuple[Check, ...]] = {}
-    if params.beat != AUTO or not _heads_have_room(loom):
-        return loom
-    while loom.params.beat not in refused and not assembly(loom).holds:
+    while params.beat == AUTO and loom.params.beat not in refused and not assembly(loom).holds:
         refused[loom.params.beat] = assembly(loom).checks
         loom = _chosen(params, refused)
     return loom
-
-
-def _heads_have_room(loom: LoomDesign) -> bool:
-    """Whether no two parts of a head are through each other as they stand."""
-    carried = set(loom_tree(loom).carried_by(HEAD))
-    return not any(carried.issuperset(pair.bodies) for pair in standing_contacts(loom).through)
 
 
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:

@@ -150,10 +150,14 @@ def elbow_belt(levels: DriveLevels, length: float) -> Occurrence:
 def standing_drives(
     params: KnottingDyadParams, head: Head, levels: DriveLevels, motion: "HeadMotion"
 ) -> Iterator[Occurrence]:
-    """The plate of the arms, the belts from the servos, and the servos' shafts with their pulleys."""
+    """The plate of the arms, the belts from the servos, and the servos' shafts with their pulleys.
+
+    Where the second servos are in the elbows, the first alone.
+    """
     yield _plate(params, head, levels, motion.hole)
     pivot, middle = head.arm.pivot, head.section.middle
-    for number, (name, z) in enumerate(zip(SERVO_BELTS, (levels.first, levels.second), strict=True)):
+    rows = list(zip(SERVO_BELTS, (levels.first, levels.second), strict=True))[: standing_servos(params)]
+    for number, (name, z) in enumerate(rows):
         servo = servo_axis(params, head, motion, number)
         way = servo - pivot
         belt = _belt(name, f"belt of the {('first', 'second')[number]} links", abs(way))
@@ -169,6 +173,11 @@ def standing_drives(
         pulley = Sum((Placed(stub), Placed(_pulley(SERVO_SHAFT))))
         own = _made(f"{NAME}/servo-pulley-{number + 1}", "pulley on the shaft of a servo", pulley, SERVO_SHAFT)
         yield Occurrence(own.part, tuple(placement(at.real, at.imag, z) for at in both(head, servo)))
+
+
+def standing_servos(params: KnottingDyadParams) -> int:
+    """Servos of an arm that stand in the head."""
+    return 2 if params.elbow_drive == "belt" else 1
 
 
 def servo_face(motion: "HeadMotion") -> float:

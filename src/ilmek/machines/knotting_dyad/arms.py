@@ -34,7 +34,8 @@ SERVOS = (f"{NAME}/first-servo", f"{NAME}/second-servo")
 OF = "of an arm"
 """What links and pins belong to."""
 
-BLADE = MATERIALS["heat-treatable steel"]
+BLADE, FLAT = MATERIALS["heat-treatable steel"], 1.2
+"""Material of the blades; height of a gripper along the warps over a cube's of its mass, assumed by this project."""
 
 
 @record
@@ -112,7 +113,7 @@ def carried(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, tu
             *belt,
             *_loads("elbow-load", "load of an elbow", params.elbow_mass, length, middle),
         ),
-        "link 2": (blade, *pulley, *_loads("gripper", "gripper of an arm", params.gripper_mass, tip, middle)),
+        "link 2": (blade, *pulley, *_loads("gripper", "gripper of an arm", params.gripper_mass, tip, middle, FLAT)),
     }
 
 
@@ -130,8 +131,8 @@ def edgewise(params: KnottingDyadParams, x: float, z: float) -> Placement:
 
 
 def gripper_half(params: KnottingDyadParams) -> float:
-    """Half the room of a gripper across its needle, however this is tilted [m]."""
-    return _cube(params.gripper_mass) / math.sqrt(2)
+    """Half the room of a gripper in any direction, however its needle is tilted [m]."""
+    return _cube(params.gripper_mass) * max(math.hypot(1.0, 1 / FLAT), FLAT) / 2
 
 
 def _cube(mass: float) -> float:
@@ -139,12 +140,17 @@ def _cube(mass: float) -> float:
     return float((mass / BLADE.density) ** (1 / 3))
 
 
-def _loads(name: str, title: str, mass: float, x: float, z: float) -> Iterator[Occurrence]:
-    """A bought part of a given mass [kg] on the line of its link: room of a cube of steel; none without mass."""
+def _loads(  # noqa: PLR0917
+    name: str, title: str, mass: float, x: float, z: float, flat: float = 1.0
+) -> Iterator[Occurrence]:
+    """A bought part of a given mass [kg] on the line of its link: room of steel as long as a cube; none without mass.
+
+    flat  its height over the cube's, and the cube's width over its own; of a flat part x [m] is its end
+    """
     if mass > 0:
         side = _cube(mass)
         purchase = Bought(format_quantity(mass, "g"), mass)
-        part = Part(
-            f"{NAME}/{name}", title, "turned part", shape=box(side, side, side), purchase=purchase, envelope=True
-        )
-        yield Occurrence(part, (placement(x, z=z - side / 2),))
+        room = box(side, side / flat, flat * side)
+        part = Part(f"{NAME}/{name}", title, "turned part", shape=room, purchase=purchase, envelope=True)
+        middle = x if flat == 1.0 else x - side / 2
+        yield Occurrence(part, (placement(middle, z=z - flat * side / 2),))

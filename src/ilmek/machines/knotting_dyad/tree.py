@@ -28,6 +28,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     servo_axis,
     shaft,
     standing_drives,
+    standing_servos,
 )
 from ilmek.machines.knotting_dyad.arms import (
     SERVOS,
@@ -230,10 +231,8 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
 
 def _servos(dyad: KnottingDyad, head: Head, motion: HeadMotion, level: float) -> Iterator[Occurrence]:
     """Servos and reducers that stand under a level [m], one behind the other, their shafts upright."""
-    belts = dyad.params.elbow_drive == "belt"
-    for number, (name, drive) in enumerate(zip(SERVOS, motion.joints, strict=True)):
-        if number == 1 and not belts:
-            continue
+    standing = list(zip(SERVOS, motion.joints, strict=True))[: standing_servos(dyad.params)]
+    for number, (name, drive) in enumerate(standing):
         parts = tuple(_drive_parts(name, drive))
         lines = [
             _hanging(in_line(parts, -level), axis) for axis in both(head, servo_axis(dyad.params, head, motion, number))

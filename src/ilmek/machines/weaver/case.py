@@ -82,7 +82,7 @@ def _bored(weaver: Weaver, thick: float) -> Sum:
     outline = rectangle(back - front, stack_width(weaver.params)).points + (front + back) / 2
     bores = [
         Hole(complex(depth, side * arms.servo_aside), arms.servo_shaft / 2)
-        for depth in (arms.servo_depth, arms.servo_depth + arms.servo_pitch)
+        for depth in sorted({arms.servo_depth, arms.servo_depth + arms.servo_pitch})
         for side in (-1, 1)
     ]
     return Sum((Placed(Prism(drilled(polygon(outline), bores), thick), (placement(z=-thick / 2),)),))

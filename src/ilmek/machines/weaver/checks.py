@@ -320,11 +320,9 @@ def _spring_check(weaver: Weaver) -> Check:
 def _belt_check(weaver: Weaver) -> Check:
     """The belt of the cam shaft bears the torque."""
     cure = "set a wider weaver.cam_belt, lighter tools, a longer knot_cycle, or a lower tension"
-    pull = MARGIN * weaver.belt.pull
+    pull, allowed = MARGIN * weaver.belt.pull, weaver.belt.allowed
     source = f"{PROFILE.name}, {MESHING} teeth in mesh, margin {MARGIN:g}"
-    return at_most(
-        "pull of the cam shaft's belt", pull, weaver.belt.allowed, "N", source, cure=cure, parts=(CAM_BELT_PART,)
-    )
+    return at_most("pull of the cam shaft's belt", pull, allowed, "N", source, cure=cure, parts=(CAM_BELT_PART,))
 
 
 def _case_check(weaver: Weaver) -> Check:

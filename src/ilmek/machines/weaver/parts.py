@@ -105,7 +105,6 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
-    end = wide / 2 - params.side_plate - _into_gap(weaver)
     pulley = -belt_station(weaver) - weaver.belt.width
     yield catalogue.keys(CAM_KEY, "key of a cam of the head", cam_key(weaver), *(placement(z=z) for z in begins))
     yield catalogue.keys(PULLEY_KEY, "key of the cam shaft's pulley", pulley_key(weaver), placement(z=pulley))
