@@ -20,7 +20,7 @@ from ilmek.machines.component import Component
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm", "--no-pdf")
-FAILS = ("--loom", "head_width=20mm")
+FAILS = ("--loom", "head_width=20mm", "--loom", "beat=comb")
 """A setting with which the loom is designed, and fails a check."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
@@ -68,6 +68,7 @@ def test_reasons_stand_below_the_headline_and_all_warnings_are_notes() -> None:
     assert all(f"note: {warning}" in result.stderr for warning in found["warnings"])
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_the_loom_states_whether_it_weaves() -> None:
     result = run("design", "automated-loom", "--json", "-")
     found = json.loads(result.stdout)
