@@ -80,7 +80,7 @@ def test_the_loom_states_whether_it_weaves() -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     out = str(tmp_path / "out")
-    first = run("weave", MEDALLION, *SMALL, "--out", out, "--json", "-")
+    first = run("weave", MEDALLION, *SMALL, "--loom", "beat=comb", "--out", out, "--json", "-")
     found = json.loads(first.stdout)
     assert first.exit_code == judged(found)
     assert found["weaves"] is any(file.endswith("programme.ilmek") for file in found["files"])

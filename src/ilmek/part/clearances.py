@@ -179,7 +179,7 @@ class _Pair:
     @property
     def ends(self) -> Float[np.ndarray, "n samples"]:
         """Samples of the intervals in which their boxes are near [rad]."""
-        return self.carried[0].ends[self.gaps < self.horizon]
+        return np.asarray(self.carried[0].ends[self.gaps < self.horizon])
 
     def search(self) -> Generator[_Asked, FloatArray, _Where | None]:
         """Where they are nearest; None where that is the horizon or more. Asks for distances at angles."""
