@@ -111,7 +111,7 @@ def lobed(half_width: float, half_height: float, lobes: int, depth: float = 0.07
     t = np.linspace(0, 2 * np.pi, 60 * lobes, endpoint=False)
     scallop = 1 - depth + depth * np.abs(np.sin(0.5 * lobes * t)) ** 0.65
     drawn = 1 + tip * np.exp(-((np.cos(t) / 0.22) ** 2))
-    return half_width * np.cos(t) * scallop + 1j * half_height * np.sin(t) * scallop * drawn
+    return np.asarray(half_width * np.cos(t) * scallop + 1j * half_height * np.sin(t) * scallop * drawn)
 
 
 # Motifs
@@ -341,7 +341,7 @@ def wool(rows: int, columns: int) -> NDArray[np.float64]:
     grain = np.random.default_rng(1923).integers(-2, 3, (rows, columns)) * 0.012
     row = np.arange(rows) / rows
     abrash = 0.035 * np.sin(2 * np.pi * (2.3 * row + 0.1)) + 0.025 * np.sin(2 * np.pi * (7.1 * row + 0.4))
-    return 1 + grain + np.round(abrash, 2)[:, None]
+    return np.asarray(1 + grain + np.round(abrash, 2)[:, None])
 
 
 if __name__ == "__main__":

@@ -89,7 +89,7 @@ def draw(kind: str, variants: int, rng: np.random.Generator) -> Family:
         return rng.uniform(low, high, variants)
 
     def anywhere(low: float, high: float) -> ComplexArray:
-        return between(low, high) * np.exp(1j * between(-np.pi, np.pi))
+        return np.asarray(between(low, high) * np.exp(1j * between(-np.pi, np.pi)))
 
     first = anywhere(0, 1)
     second = anywhere(0, 1) if kind == "RPP" else first + anywhere(1.5, 3)

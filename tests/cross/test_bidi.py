@@ -4,7 +4,8 @@ import unicodedata
 
 import pytest
 from bidi import get_display
-from hypothesis import given, settings
+from effort import examples
+from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.io.chart.bidi import levels, visual_runs
@@ -22,7 +23,7 @@ def without_joiners(text: str) -> str:
 
 
 @given(st.text(LETTERS, min_size=1, max_size=24))
-@settings(max_examples=400, deadline=None)
+@examples(400, light=100)
 def test_order_of_any_mixture(text: str) -> None:
     assert without_joiners(shown(text)) == without_joiners(get_display(text, base_dir=None))
 

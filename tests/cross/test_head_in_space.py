@@ -85,6 +85,7 @@ def _pieces(tree: Tree) -> list[_Piece]:
     return pieces
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("number", range(len(LOOMS)))
 def test_no_part_of_a_head_is_through_another_over_a_knot(number: int) -> None:
     pieces = _pieces(_moving(number))

@@ -286,7 +286,7 @@ def test_papers_are_reproduced() -> None:
     assert set(ilmek.reproduce("beat-up").verdicts) == {"beat-up"}
 
 
-@pytest.mark.usefixtures("not_in_space")
+@pytest.mark.usefixtures("plain_page")
 def test_carpet_is_woven(tmp_path: Path) -> None:
     woven = ilmek.weave(
         str(ROOT / "examples" / "medallion.png"), str(tmp_path / "out"), size="30x40cm", quality="10x10/dm", heads=1

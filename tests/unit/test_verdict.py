@@ -20,7 +20,7 @@ from ilmek.machines.component import Component
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm", "--no-pdf")
-FAILS = ("--loom", "head_width=20mm")
+FAILS = ("--loom", "head_width=20mm", "--loom", "beat=comb")
 """A setting with which the loom is designed, and fails a check."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
@@ -68,6 +68,7 @@ def test_reasons_stand_below_the_headline_and_all_warnings_are_notes() -> None:
     assert all(f"note: {warning}" in result.stderr for warning in found["warnings"])
 
 
+@pytest.mark.usefixtures("not_in_space")
 def test_the_loom_states_whether_it_weaves() -> None:
     result = run("design", "automated-loom", "--json", "-")
     found = json.loads(result.stdout)
@@ -79,7 +80,7 @@ def test_the_loom_states_whether_it_weaves() -> None:
 @pytest.mark.usefixtures("plain_page")
 def test_a_loom_that_cannot_weave_gets_no_programme(tmp_path: Path) -> None:
     out = str(tmp_path / "out")
-    first = run("weave", MEDALLION, *SMALL, "--out", out, "--json", "-")
+    first = run("weave", MEDALLION, *SMALL, "--loom", "beat=comb", "--out", out, "--json", "-")
     found = json.loads(first.stdout)
     assert first.exit_code == judged(found)
     assert found["weaves"] is any(file.endswith("programme.ilmek") for file in found["files"])

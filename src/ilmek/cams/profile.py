@@ -26,7 +26,8 @@ def reach(s: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
 
 def pitch_point(angle: RealField, s: RealField, prime_radius: float, offset: float = 0.0) -> ComplexField:
     """Roller's centre in the cam's frame [m], complex."""
-    return (reach(s, prime_radius, offset) - 1j * offset) * np.exp(-1j * np.asarray(angle))
+    point: ComplexField = (reach(s, prime_radius, offset) - 1j * offset) * np.exp(-1j * np.asarray(angle))
+    return point
 
 
 def normal(angle: RealField, s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> ComplexField:
@@ -35,7 +36,8 @@ def normal(angle: RealField, s: RealField, ds: RealField, prime_radius: float, o
     angle, s, ds, prime_radius, offset  as in the module: [rad], [m], [m/rad], [m], [m], shapes that broadcast
     """
     arrow = reach(s, prime_radius, offset) + 1j * (ds - offset)
-    return arrow / np.abs(arrow) * np.exp(-1j * np.asarray(angle))
+    unit: ComplexField = arrow / np.abs(arrow) * np.exp(-1j * np.asarray(angle))
+    return unit
 
 
 def profile_point(

@@ -205,7 +205,7 @@ def _leaving(  # noqa: PLR0917
 
     def f(inputs: np.ndarray) -> np.ndarray:
         apart = output_history(moved.motion(inputs), output).value - value
-        return np.abs(apart) - tolerance
+        return np.asarray(np.abs(apart) - tolerance)
 
     found = float(bracketed_roots(f, np.array([inside]), np.array([outside]))[0])
     return found if np.isfinite(found) else float(inside)

@@ -90,7 +90,7 @@ class PoseBranch:
     def reduced(self, values: FloatArray) -> FloatArray:
         """Values of the input [rad, m] on the branch, reduced by as few periods as possible; NaN for those beyond."""
         if self.full:
-            return self.start + np.mod(values - self.start, self.period)
+            return np.asarray(self.start + np.mod(values - self.start, self.period))
         found = np.where((values >= self.start) & (values <= self.stop), values, np.nan)
         if np.isfinite(self.period):
             up = values - self.period * np.ceil((values - self.stop) / self.period)

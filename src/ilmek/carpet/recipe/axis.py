@@ -139,7 +139,7 @@ class Tiling:
 
     def number(self, line: FloatArray) -> IntArray:
         """The number of the tile at each position of the span."""
-        return np.floor((line - self.first) / self.side).astype(np.int64)
+        return np.asarray(np.floor((line - self.first) / self.side), np.int64)
 
     def shifted(self, by: int) -> "Tiling":
         """The same tiles some lines further."""

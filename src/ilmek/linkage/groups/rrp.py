@@ -111,7 +111,8 @@ def shortness(A: ComplexField, Q: ComplexField, e: ComplexField, a: RealField) -
     (2.0, 0.0)
     """
     d = A - Q
-    return np.maximum(np.abs(e.real * d.imag - e.imag * d.real) - a, 0)
+    missing: RealField = np.maximum(np.abs(e.real * d.imag - e.imag * d.real) - a, 0)
+    return missing
 
 
 _reach, _link_rate, _slider_rate = compiled(reach), compiled(link_rate), compiled(slider_rate)

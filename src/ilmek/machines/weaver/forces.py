@@ -87,7 +87,7 @@ def pressed(params: WeaverParams, position: FloatArray, ends: int) -> FloatArray
     travel = min(ends * max(params.yarn - params.pressed, 0.0), params.jaw)
     if travel <= 0:
         return np.asarray(position >= params.jaw, float)
-    return np.clip(1 - (params.jaw - position) / travel, 0.0, 1.0)
+    return np.asarray(np.clip(1 - (params.jaw - position) / travel, 0.0, 1.0))
 
 
 def _tightening(params: WeaverParams, cyclogram: Cyclogram, track: Track, angle: FloatArray) -> FloatArray:

@@ -176,10 +176,10 @@ def of_four_bar(
     signs = [
         1 if one is None or math.cos(start - one) > 0 else -1 for one, start in zip(given_starts, starts, strict=True)
     ]
-    starts = [float(start) if one is None else one for one, start in zip(given_starts, starts, strict=True)]
+    from_pins = [float(start) if one is None else one for one, start in zip(given_starts, starts, strict=True)]
     a, c = signs[0] * a, signs[1] * c
     return four_bar.branch * signs[0] * signs[1], Generator(
-        1 / a, 1 / c, (1 + a * a - b * b + c * c) / (2 * a * c), *starts
+        1 / a, 1 / c, (1 + a * a - b * b + c * c) / (2 * a * c), *from_pins
     )
 
 

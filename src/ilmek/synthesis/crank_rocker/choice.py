@@ -47,7 +47,7 @@ class Limit:
     def shortage(self, table: Table) -> FloatArray:
         """Violation relative to the bound [1], one per member; 0 or less where the limit is met, inf for NaN values."""
         short = self.sign * (self.bound - table[self.quantity]) / (abs(self.bound) or 1.0)
-        return np.nan_to_num(short, nan=np.inf)
+        return np.asarray(np.nan_to_num(short, nan=np.inf))
 
     def kept(self, table: Table) -> BoolArray:
         """Whether each member meets the limit, except for rounding."""

@@ -100,11 +100,13 @@ def beta_of_ratio(swing: RealField, rotation: RealField, ratio: RealField) -> Re
     [the quotient of the two Eqs 1; at phi = pi + psi Eq 10, beta = pi - phi/2, for any ratio]
     """
     lag = rotation / 2 - swing / 2
-    return np.mod(np.arctan2(np.cos(lag), -ratio * np.sin(lag)), turn) - rotation / 2
+    beta: RealField = np.mod(np.arctan2(np.cos(lag), -ratio * np.sin(lag)), turn) - rotation / 2
+    return beta
 
 
 def _rocker(crank: RealField, coupler: RealField, beta: RealField) -> RealField:
-    return np.hypot(crank + coupler - np.cos(beta), np.sin(beta))
+    rocker: RealField = np.hypot(crank + coupler - np.cos(beta), np.sin(beta))
+    return rocker
 
 
 def rotation_limits(swing: RealField) -> OpenInterval:

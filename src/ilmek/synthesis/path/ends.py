@@ -118,7 +118,7 @@ class ScaledTask:
 
     def agreeing(self, errors: Float[np.ndarray, " some"], best: float) -> Bool[np.ndarray, " some"]:
         """Which squared errors agree with one."""
-        return np.abs(errors - best) <= SAME * best + ZERO_ERROR**2 * len(self.points)
+        return np.asarray(np.abs(errors - best) <= SAME * best + ZERO_ERROR**2 * len(self.points))
 
 
 def scaled_task(task: PathTask) -> ScaledTask:
