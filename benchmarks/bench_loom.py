@@ -12,7 +12,7 @@ from ilmek.machines.automated_loom.report import all_checks
 from ilmek.part.drive_balance import drive_balance
 
 RUNS = 7
-ALLOWED, CHOOSING = 0.1, 1.0
+ALLOWED, CHOOSING = 0.1, 0.5
 """Of a design with everything given, and of the choice of all that is left open [s]."""
 
 SPACE = 2.5

@@ -82,6 +82,32 @@ def test_a_bar_that_turns_comes_as_near_as_its_end(gap):
         assert near.volume > 0
 
 
+@settings(max_examples=10, deadline=None)
+@given(gap=st.floats(0.5, 8.0), run=st.floats(0.1, 1.0), number=st.integers(2, 4), turned=st.floats(-math.pi, math.pi))
+def test_bodies_on_several_carriers_come_as_near_as_on_one(gap, run, number, turned):
+    """A cube passes another one on each carrier; carriers stand turned and far apart, and none meets another's."""
+    places = tuple(placement(3.0 * k, about=Z, angle=k * turned) for k in range(number))
+    apart = 20 * mm + gap * mm
+    tree = Tree(
+        (
+            RigidBody("carrier", (), "", Joint(), places),
+            body("wall", cube("a/wall"), parent="carrier"),
+            body(
+                "slide",
+                cube("b/slide"),
+                at=(-run, apart, 0.0),
+                parent="carrier",
+                motion=sliding((0, 0, 0), (2 * run, 0, 0)),
+                axis=X,
+            ),
+        )
+    )
+    (near,) = approaches(tree, "row", 10 * mm, required=lambda *_: 10 * mm)
+    assert near.distance == pytest.approx(gap * mm, abs=TOLERANCE)
+    beside = Tree((*tree.bodies, body("last", cube("c/last"), at=(3.0 * (number - 1), 0.0, 20 * mm))))
+    assert {one.bodies for one in approaches(beside, "row", 10 * mm)} == {("wall", "slide"), ("slide", "last")}
+
+
 @settings(max_examples=20, deadline=None)
 @given(depth=st.floats(0.6, 10.0))
 def test_what_two_cubes_have_in_common(depth):

@@ -15,6 +15,7 @@ import scipy.linalg
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.elements import plane_frame
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.plane_frame import FrameMember, frame_frequencies
 from ilmek.errors import ParameterError
@@ -57,6 +58,22 @@ def test_a_portal_sways_by_the_stiffness_of_its_columns(height, width, mass):
     for held, share in ((CLAMPED, 24), (HINGED, 6)):
         own = frame_frequencies(nodes, members, {0: held, 3: held}, {1: mass / 2, 2: mass / 2}, MODULUS)
         assert own[0] == pytest.approx(math.sqrt(share * MODULUS * 1e-6 / height**3 / mass) / (2 * math.pi), rel=1e-3)
+
+
+@settings(max_examples=12)
+@given(st.lists(st.tuples(st.floats(-1, 1), st.floats(-1, 1)), min_size=3, max_size=6, unique=True), st.integers(1, 4))
+def test_the_lowest_frequencies_are_those_of_a_dense_solver(points, count):
+    """scipy's generalised eigenvalues of the same matrices, of frames at random with all nodes joined to the first."""
+    nodes = [0j, *(complex(x, y) + 3.0 * k for k, (x, y) in enumerate(points, start=1))]
+    members = [FrameMember(0, k, 1e-3, 1e-6, 8.0) for k in range(1, len(nodes))]
+    masses = {k: 5.0 * k for k in range(1, len(nodes))}
+    stiffness, inertia = plane_frame._assembled(nodes, members, MODULUS)
+    for node, mass in masses.items():
+        inertia[3 * node, 3 * node] += mass
+        inertia[3 * node + 1, 3 * node + 1] += mass
+    squares = scipy.linalg.eigh(stiffness[3:, 3:], inertia[3:, 3:], eigvals_only=True)
+    own = frame_frequencies(nodes, members, {0: CLAMPED}, masses, MODULUS, count=count)
+    np.testing.assert_allclose(own, np.sqrt(squares[:count]) / (2 * math.pi), rtol=1e-6)
 
 
 def test_a_frame_that_nothing_holds_is_refused():

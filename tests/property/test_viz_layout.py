@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from ilmek.viz.flags import flags
 from ilmek.viz.labels import LabelRequest, placed
-from ilmek.viz.thinning import thinned_curve, thinned_line
+from ilmek.viz.thinning import thinned_curve, thinned_line, thinned_lines
 
 coordinates = st.floats(-100.0, 100.0)
 
@@ -23,6 +23,32 @@ def test_a_thinned_line_strays_no_farther_than_its_tolerance(
     for point in points:
         share = np.clip(((point - kept[:-1]) * np.conj(steps)).real / np.maximum(np.abs(steps) ** 2, 1e-300), 0.0, 1.0)
         assert np.abs(kept[:-1] + share * steps - point).min() <= tolerance + 1e-6
+
+
+@given(
+    st.lists(st.lists(st.tuples(coordinates, coordinates), max_size=40), min_size=1, max_size=6), st.floats(0.01, 5.0)
+)
+def test_lines_together_are_thinned_as_each_alone(lines: list[list[tuple[float, float]]], tolerance: float) -> None:
+    """Against the algorithm as its authors state it, by recursion."""
+    every = [np.array([complex(x, y) for x, y in line], dtype=complex) for line in lines]
+    for line, kept in zip(every, thinned_lines(every, tolerance), strict=True):
+        assert kept.tolist() == douglas_peucker(line.tolist(), tolerance)
+
+
+def douglas_peucker(points: list[complex], tolerance: float) -> list[complex]:
+    if len(points) < 3:
+        return points
+    begin, chord = points[0], points[-1] - points[0]
+    away = []
+    for point in points[1:-1]:
+        off = point - begin
+        squared = max(chord.real**2 + chord.imag**2, np.finfo(float).tiny)
+        share = min(max((off.real * chord.real + off.imag * chord.imag) / squared, 0.0), 1.0)
+        away.append(abs(off - share * chord))
+    if max(away) <= tolerance:
+        return [points[0], points[-1]]
+    cut = 1 + away.index(max(away))
+    return [*douglas_peucker(points[: cut + 1], tolerance)[:-1], *douglas_peucker(points[cut:], tolerance)]
 
 
 @given(st.integers(1, 20_000), st.integers(0, 2**32 - 1))

@@ -77,7 +77,7 @@ class PiecePair:
     @property
     def ends(self) -> Float[np.ndarray, "n samples"]:
         """Samples of the intervals in which their boxes are near [rad]."""
-        return self.carried[0].ends[self.near]
+        return np.asarray(self.carried[0].ends[self.near])
 
 
 @dataclass(frozen=True, eq=False)

@@ -192,9 +192,9 @@ class Common:
 
     def _measured(self, first: Collider, other: Collider, turned: Rotation, moved: Vector) -> tuple[float, float]:
         common = self._of(first) ^ self._of(other).transform(np.column_stack([turned, moved]))
-        shared, surface = common.volume(), common.surface_area()
-        depth = 2 * shared / surface if surface > 0 else 0.0
-        return (depth, shared) if shared > VOLUME and depth > DEPTH else (0.0, 0.0)
+        shared = common.volume()
+        depth = 2 * shared / common.surface_area() if shared > VOLUME else 0.0
+        return (depth, shared) if depth > DEPTH else (0.0, 0.0)
 
     def _of(self, one: Collider) -> Manifold:
         if one not in self.manifolds:
