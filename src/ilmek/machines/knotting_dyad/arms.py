@@ -103,9 +103,9 @@ def carried(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, tu
     tip = head.arm.second
     bottoms, length = levels_of(params, hole).bottoms, abs(head.arm.first)
     levels, middle = drive_levels(params, bottoms), bottoms["link 2"] + params.link_thickness / 2
-    belt, pulley = (elbow_belt(levels, length),), (elbow_pulley(levels, hole),)
-    if params.elbow_drive != "belt":
-        belt, pulley = (), ()
+    belted = params.elbow_drive == "belt"
+    belt = (elbow_belt(levels, length),) if belted else ()
+    pulley = (elbow_pulley(levels, hole),) if belted else ()
     blade = Occurrence(blade_part(params, head), (edgewise(params, tip - head.section.needle_length / 2, middle),))
     return {
         "link 1": (

@@ -56,11 +56,11 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     face = _made(FACE, "face of the head with the tools' guides", _face(weaver), thick)
     yield Occurrence(face, (placement(z=low.real),))
     flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
-    heights = low.imag + thick / 2, high.imag - thick / 2
+    heights = [low.imag + thick / 2, high.imag - thick / 2]
     across = _made(CROSS_PLATE, "plate across the head", flat, thick)
     if weaver.params.with_arms and weaver.params.arms.servo_depth > 0:
-        yield Occurrence(_made(TOP_PLATE, "plate over the head", _bored(weaver, thick), thick), (_level(heights[1]),))
-        heights = heights[:1]
+        over = _made(TOP_PLATE, "plate over the head", _bored(weaver, thick), thick)
+        yield Occurrence(over, (_level(heights.pop()),))
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
     wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
