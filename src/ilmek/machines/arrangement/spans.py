@@ -20,7 +20,7 @@ would strain the warps more.
 import math
 from typing import TYPE_CHECKING
 
-from ilmek.machines.warp_tension.cylinders import cylinders, spacer_tube
+from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.records import value_record
 from ilmek.units import mm
 
@@ -70,8 +70,7 @@ class ShedRoom:
     leaf_height  of the comb                              head      height of the head's tools above the fell
     back_rest    its radius                               swing     length of the tension compensator behind it
     half_depth   of the compensator, to either side of the warps
-    tube         radius of the upper cylinder, and what a wider spacer takes of the columns' room
-    warp         diameter of a warp
+    tube         radius of the upper cylinder             warp      diameter of a warp
     clearance    least distance of what moves
     rear         from the compensator's middle to the cylinder's axis: its beams, and the cylinder or its bearings
     """
@@ -127,17 +126,11 @@ def shed_room(task: "LoomTask") -> ShedRoom:
         back_rest=max(made.roller_radius, BACK_REST) if made else BACK_REST,
         swing=max(made.swing, COMPENSATOR) if made else COMPENSATOR,
         half_depth=max(made.half_depth, COMPENSATOR_DEPTH) if made else COMPENSATOR_DEPTH,
-        tube=max(TUBE_SHARE * task.width, LEAST_TUBE) + _wider_spacer(task),
+        tube=max(TUBE_SHARE * task.width, LEAST_TUBE),
         warp=task.yarns.warp.diameter,
         clearance=spare,
         rear=_rear(task),
     )
-
-
-def _wider_spacer(task: "LoomTask") -> float:
-    """What the radius of the spacer is more than that of the cylinders [m]; 0 before they are designed."""
-    made = task.warp_tension
-    return max(spacer_tube(made.params, made.outer_radius).outer_radius - made.outer_radius, 0.0) if made else 0.0
 
 
 def _rear(task: "LoomTask") -> float:
