@@ -211,7 +211,8 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     radius = cylinder.outer_radius if cylinder else room.tube
     shape, comb = head.shape, _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius, head)
-    behind, rest = cylinder_offset(room), complex(-room.back_rest, spans.back_rest)
+    # A wider spacer leaves the columns their room; the warps count as shorter by that, which stretches them more.
+    behind, rest = cylinder_offset(room) + spacer.radius - radius, complex(-room.back_rest, spans.back_rest)
     return SideView(
         room=room,
         spans=spans,
