@@ -55,21 +55,23 @@ def test_make_test_tries_the_same_cases_each_time_and_a_campaign_others() -> Non
     assert said == ["3 range(0, 2) 20\n", "50 range(1000, 1003) 60\n", "50 range(2000, 2003) 60\n"]
 
 
-def test_phases_run_side_by_side_and_a_failure_ends_its_lane(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_phases_run_side_by_side_and_after_a_failure(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     rules = ("waits:\n\t@read line < pipe && echo $$line", "feeds:\n\t@echo fed > pipe", "fails:\n\t@echo bad; exit 3")
-    (tmp_path / "makefile").write_text("\n".join((*rules, "never:\n\t@echo never\n")))
+    (tmp_path / "makefile").write_text("\n".join((*rules, "last:\n\t@echo late\n")))
     make = ("make", "--no-print-directory", "-C", str(tmp_path))
     ended(["mkfifo", str(tmp_path / "pipe")])
-    phases = run([["waits"], ["feeds", "fails", "never"]], make)
-    assert {(phase.name, phase.status == 0) for phase in phases} == {("waits", True), ("feeds", True), ("fails", False)}
+    phases = run([["waits"], ["feeds", "fails", "last"]], make)
+    ends = {phase.name: phase.status == 0 for phase in phases}
+    assert ends == {"waits": True, "feeds": True, "fails": False, "last": True}
     shown = capfd.readouterr().out
     assert "waits        | fed" in shown
     assert "fails        | bad" in shown
-    assert "never" not in shown
+    assert "last         | late" in shown
 
 
 def test_the_table_has_the_seconds_of_each_phase() -> None:
-    shown = table([Phase("lint", 0, 2.4), Phase("unit", 1, 181.0)], 182.0, 350.0)
+    shown = table([Phase("lint", 0, 2.4, ("fine",)), Phase("unit", 1, 181.0, ("FAILED a",))], 182.0, 350.0)
+    assert shown.splitlines()[0] == "FAILED a"
     assert re.search(r"^lint +2 s$", shown, re.MULTILINE)
     assert re.search(r"^unit +181 s  FAILED$", shown, re.MULTILINE)
     assert re.search(r"^all +182 s; 350 s of processor time", shown, re.MULTILINE)

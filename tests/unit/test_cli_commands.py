@@ -20,7 +20,7 @@ from ilmek.machines.catalogue import MACHINES
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MEDALLION = str(EXAMPLES / "medallion.png")
 SMALL = ("--size", "40x60cm", "--quality", "15x15/dm")
-LOOM = (*SMALL, "--heads", "2")
+LOOM = (*SMALL, "--heads", "1")
 """One loom for all tests of `weave` that ask for no other: it is designed once."""
 
 pytestmark = pytest.mark.usefixtures("nothing_near")
@@ -57,8 +57,8 @@ def test_weave_makes_its_files(woven: tuple[Path, Any]) -> None:
 def test_weave_json_has_its_names(woven: tuple[Path, Any]) -> None:
     folder, found = woven
     assert found["knots"] == 60 * 90
-    assert found["heads"] == 2
-    assert found["weaving_time"] > found["knots"] / 2 * 1.5
+    assert found["heads"] == 1
+    assert found["weaving_time"] > found["knots"] * 1.5
     assert {"name", "knots", "length", "mass"} <= found["yarn"][0].keys()
     assert sum(yarn["knots"] for yarn in found["yarn"]) == found["knots"]
     assert {"name", "value", "limit", "unit", "ok", "source"} <= found["checks"][0].keys()
@@ -83,7 +83,7 @@ def test_programme_ties_the_chart(woven: tuple[Path, Any]) -> None:
             of_head = np.repeat(np.arange(setup.heads), np.diff(row.starts))
             tied[number, row.columns] = setup.loading[of_head, row.tubes]
         assert programme.totals.duration == pytest.approx(found["weaving_time"], rel=1e-12)
-        assert setup.heads == 2
+        assert setup.heads == 1
         assert found["time_bound"] <= found["weaving_time"] <= found["time_naive"]
     assert np.array_equal(tied[::-1], chart)
 
@@ -121,7 +121,7 @@ def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
         assert re.search(rf"^{name} ", shown, re.MULTILINE), shown
     assert shown.endswith(f" {tmp_path / 'out' / 'report.html'}\n")
     assert re.match(r"weaves: (yes|NO, \d+ reason)", shown)
-    assert len([line for line in shown.splitlines() if not line.startswith("  ")]) <= 15
+    assert len([line for line in shown.splitlines() if not line.startswith("  ")]) <= 16
 
 
 @pytest.mark.usefixtures("plain_page")

@@ -15,7 +15,7 @@ from ilmek.machines.weaver.cam_belt import SMALL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, disc, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, disc, tube
 from ilmek.plane.contours import keyed_bore
 from ilmek.report import Check
 from ilmek.units import mm
@@ -36,9 +36,11 @@ def grooved(diameter: float, length: float) -> Prism:
     return Prism(Profile(keyed_bore(diameter / 2, row.width, -row.in_shaft)), length)
 
 
-def keyed_disc(radius: float, bore: float, length: float) -> Sum:
-    """A disc with a bore and its keyway [m]: a hub, and a ring about it."""
+def keyed_disc(radius: float, bore: float, length: float) -> Shape:
+    """A disc with a bore and its keyway [m]: a hub, and a ring about it where the disc is larger."""
     hub = bore / 2 + HUB_WALL
+    if radius <= hub:
+        return Prism(disc(radius, *round_bore(bore).cutouts), length)
     ring = Placed(tube(2 * radius, radius - hub, length))
     return Sum((ring, Placed(Prism(disc(hub, *round_bore(bore).cutouts), length))))
 

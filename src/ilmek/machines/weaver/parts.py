@@ -98,10 +98,11 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What turns: the shaft, a cam for each track, and spacers between cams, pulley and bearings."""
     params, wide = weaver.params, case_width(weaver.params)
     end = wide / 2 - params.side_plate - _into_gap(weaver)
-    journals = Placed(bar(params.shaft, wide / 2 - end), (placement(z=-wide / 2), placement(z=end)))
+    journal, seats = wide / 2 - end, (placement(z=-wide / 2), placement(z=end))
+    journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
     middle = Placed(grooved(params.shaft, 2 * end), (placement(z=-end),))
     title, size = "cam shaft of the head", _round(params.shaft)
-    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((journals, middle)), STEEL))
+    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
