@@ -37,7 +37,7 @@ CARRIAGE, CARRIAGE_MOTOR = part_id("drive of the carriage"), part_id("carriage-m
 """Ids of bodies, and of the motor of a carriage."""
 
 BEFORE_MAGAZINE = 5 * mm
-"""Between the magazine and the motor of a carriage [m]; assumed by this project."""
+"""Between magazine, or guide carriages, and the motor of a carriage [m]; assumed by this project."""
 
 
 @lru_cache(maxsize=8)
@@ -67,10 +67,12 @@ def _carriage_drive(weaver: Weaver) -> tuple[float, float]:
 def on_the_axis(weaver: Weaver, x: float, top: float) -> Placement:
     """The motor of a carriage at the end of its share, over the axis, from whose back z counts: its flange on a height.
 
-    It stands before the magazine, which passes over the axis; the heads' drives pass under it.
+    It stands before the magazine, which passes over the axis, and before guide carriages that reach over the flange;
+    the heads' drives pass under it.
     """
-    chosen = smallest_motor(*_carriage_drive(weaver))
-    depth = BEFORE_MAGAZINE + (chosen.face if chosen else catalogue.SPECIAL_FACE) / 2
+    chosen, row = smallest_motor(*_carriage_drive(weaver)), carriage_guide(weaver)
+    behind = BEFORE_MAGAZINE + (row.height if row.block / 2 >= top else 0.0)
+    depth = behind + (chosen.face if chosen else catalogue.SPECIAL_FACE) / 2
     return placement(x, top, depth, about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
 
 
