@@ -142,12 +142,20 @@ def _levels(loom: LoomDesign, beams: Iterable[float]) -> tuple[list[float], list
     """Heights above the floor at which a side has nodes, from its feet on, and what it carries at each [m, kg]."""
     top = loom.side.top - loom.side.floor
     masses = [(mass / 2, min(height, top)) for mass, height in carried_masses(loom)]
-    heights = sorted({0.0, top, *beams, *(height for _, height in masses)})
-    levels = [low for low, high in zip(heights, [*heights[1:], math.inf], strict=True) if high - low > _NEAR]
+    levels = _apart(0.0, top, *beams, *(height for _, height in masses))
     carried = [0.0] * len(levels)
     for mass, height in masses:
-        carried[min(range(len(levels)), key=lambda k: abs(levels[k] - height))] += mass
+        carried[_nearest(levels, height)] += mass
     return levels, carried
+
+
+def _apart(*coordinates: float) -> list[float]:
+    """Coordinates of nodes in ascending order, one where several are the same but for rounding [m]."""
+    return [low for low, high in pairwise([*sorted(coordinates), math.inf]) if high - low > _NEAR]
+
+
+def _nearest(coordinates: list[float], wanted: float) -> int:
+    return min(range(len(coordinates)), key=lambda k: abs(coordinates[k] - wanted))
 
 
 def _across(loom: LoomDesign, frame: LoomFrame) -> float:
@@ -167,7 +175,8 @@ def _across(loom: LoomDesign, frame: LoomFrame) -> float:
         for begin in (0, number)
         for k in range(number - 1)
     ]
-    members += [_member(levels.index(y), number + levels.index(y), section) for y, section in beams.items()]
+    levelled = [(_nearest(levels, y), section) for y, section in beams.items()]
+    members += [_member(level, number + level, section) for level, section in levelled]
     masses = dict(enumerate([*carried, *carried]))
     held = dict.fromkeys((0, number), _HINGED)
     return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])
@@ -179,16 +188,16 @@ def _along(loom: LoomDesign, frame: LoomFrame) -> float:
     rear, front = foot_reach(loom, frame)
     base, column = base_section(loom, frame), loom.side.column
     posts = [(depth - column, height, section, mass) for depth, height, section, mass in _posts(loom, frame)]
-    feet = sorted({-rear, 0.0, front, *(min(x, front) for x, *_ in posts)})
+    feet = _apart(-rear, 0.0, front, *(min(x, front) for x, *_ in posts))
     nodes = (
         [complex(x) for x in feet] + [1j * y for y in levels[1:]] + [complex(min(x, front), h) for x, h, *_ in posts]
     )
-    upright = [feet.index(0.0), *range(len(feet), len(feet) + len(levels) - 1)]
+    upright = [_nearest(feet, 0.0), *range(len(feet), len(feet) + len(levels) - 1)]
     members = [_member(k, k + 1, base, frame.number) for k in range(len(feet) - 1)]
     members += [_member(low, high, frame.column, frame.number) for low, high in pairwise(upright)]
     masses = dict(zip(upright, carried, strict=True))
     for top, (x, _, section, mass) in enumerate(posts, start=len(nodes) - len(posts)):
-        members.append(_member(feet.index(min(x, front)), top, section))
+        members.append(_member(_nearest(feet, min(x, front)), top, section))
         masses[top] = mass
     held = dict.fromkeys((0, len(feet) - 1), _HINGED)
     return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])

@@ -60,11 +60,15 @@ def required_travel(weaver: Weaver) -> float:
     return 2 * BEARING_LIFE * weaver.params.cloth.knot_pitch
 
 
+def offered_guides() -> tuple[LinearGuide, ...]:
+    """Those that have room on the rail, in ascending order of their height."""
+    return tuple(row for row in LINEAR_GUIDES if row.height <= RAIL_AXIS - LEAST_AXIS)
+
+
 def guide_for(weaver: Weaver, mass: float) -> LinearGuide:
     """The lowest guide that lasts under a head of a mass [kg]; the highest that has room where none does."""
-    offered = [row for row in LINEAR_GUIDES if row.height <= RAIL_AXIS - LEAST_AXIS]
-    lasting = (row for row in offered if life(weaver, mass, row) >= required_travel(weaver))
-    return next(lasting, offered[-1])
+    lasting = (row for row in offered_guides() if life(weaver, mass, row) >= required_travel(weaver))
+    return next(lasting, offered_guides()[-1])
 
 
 def life(weaver: Weaver, mass: float, row: LinearGuide) -> float:

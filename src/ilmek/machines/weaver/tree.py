@@ -12,7 +12,7 @@ from functools import lru_cache
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import smallest_motor
-from ilmek.machines.weaver.carriage_guide import guide_carriages, guide_for
+from ilmek.machines.weaver.carriage_guide import carriages, guide_carriages, guide_for, offered_guides
 from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
@@ -86,8 +86,10 @@ def head_tree(weaver: Weaver) -> Tree:
 
 
 def carriage_guide(weaver: Weaver) -> LinearGuide:
-    """The guide of the head's carriage, by the mass on it."""
-    return guide_for(weaver, weaver.params.head_mass or _without_guide(weaver).mass)
+    """The guide of the head's carriage, by the mass on it: as given, or of all but the carriages, with the heaviest."""
+    tied = weaver.params.arms.mass if weaver.params.with_arms else 0.0
+    own = max(carriages(weaver, row) * row.block_mass for row in offered_guides())
+    return guide_for(weaver, weaver.params.head_mass or _without_guide(weaver).mass + tied + own)
 
 
 @lru_cache(maxsize=8)
