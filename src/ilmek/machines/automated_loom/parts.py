@@ -13,8 +13,10 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.frame_modes import least_frequency, sway_checks
+from ilmek.machines.automated_loom.joints import TIPPING, tipping
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.bill import bill
@@ -64,10 +66,22 @@ def motors(parts: tuple[BillLine, ...]) -> int:
 
 @lru_cache(maxsize=4)
 def parts_of_loom(loom: LoomDesign) -> PartsList:
-    """The parts list. Raises ParameterError for unreadable prices."""
+    """The parts list; the feet are so long that the loom does not tip. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
     machines, on_posts = tuple(_of_machines(loom)), sum(part.mass_all for part in loom.beat.parts)
-    frame = _frame(loom, frame_task(loom, sum(part.mass_all for part in machines) - on_posts))
+    task = frame_task(loom, sum(part.mass_all for part in machines) - on_posts)
+    listed = _listed(loom, machines, _frame(loom, task), prices)
+    short = TIPPING / tipping(loom, listed.frame).value
+    if short <= 1:
+        return listed
+    reach = short * min(foot_reach(loom, listed.frame))
+    return _listed(loom, machines, _frame(loom, replace(task, depth=reach)), prices)
+
+
+def _listed(
+    loom: LoomDesign, machines: tuple[BillLine, ...], frame: LoomFrame, prices: Mapping[str, PriceRates]
+) -> PartsList:
+    """The parts list with a frame, and this with its mass and its feet."""
     carried = (*machines, *bill(carried_tree(loom, frame)))
     own = bill(frame_tree(loom, frame, motors(carried)))
     load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)

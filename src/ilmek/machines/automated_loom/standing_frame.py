@@ -115,8 +115,8 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
 
 
 def foot_reach(loom: LoomDesign, frame: LoomFrame) -> tuple[float, float]:
-    """Levelling feet behind and before the columns' axis [m]."""
-    return frame.task.depth, _front(loom, frame) - loom.side.column
+    """Levelling feet behind and before the columns' axis [m]; before it not nearer than behind it."""
+    return frame.task.depth, max(_front(loom, frame) - loom.side.column, frame.task.depth)
 
 
 def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
