@@ -164,6 +164,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     knotting, of_knotting = knotting_head(task)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})
+    machines["weft"], task = _made("weft", task)  # its devices beside the head
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
     cams = task.shedding

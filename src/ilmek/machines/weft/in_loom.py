@@ -5,19 +5,27 @@ from ilmek.machines.beat import GUIDED
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weft.design import Weft
 from ilmek.machines.weft.params import AUTO, RAPIER, WeftParams
+from ilmek.machines.weft.rapier_tree import SIDE
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.report import Work
 from ilmek.units import mm, turn
 
 BESIDE_HEADS = 70 * mm
-"""From the cloth's edge to the devices that serve it: half a head passes between; assumed, and checked in space."""
+"""From the cloth's edge to the devices that serve it, at least: half a head passes between; assumed by this project."""
 
 
 def fit(task: LoomTask) -> WeftParams:
-    """The parameters for a loom's cloth and shed; cams that sink for the beat leave no room for shuttles' carriages."""
-    params = task.params
+    """The parameters for a loom's cloth and shed; cams that sink for the beat leave no room for shuttles' carriages.
+
+    Where the head is designed, and a rapier lays the wefts, the devices at the edges are beside it and its step.
+    """
+    params, laid = task.params, task.designs.get("weft")
     carrier = RAPIER if params.weft == AUTO and params.beat == GUIDED else params.weft
-    edge = BESIDE_HEADS if carrier == RAPIER else WeftParams().edge
+    edge = WeftParams().edge
+    if RAPIER in (carrier, laid and laid.carrier):
+        room = SPARE * params.clearance + SIDE / 2
+        beside = (task.weaver.width + task.cloth.knot_pitch) / 2 + room if laid else 0.0
+        edge = max(BESIDE_HEADS, beside)
     return WeftParams(
         carrier=carrier,
         edge=edge,
