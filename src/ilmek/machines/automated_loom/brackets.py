@@ -43,6 +43,9 @@ BACK_REST_SAG = 2e-3
 _STEP = 5 * mm
 """Heights of brackets are multiples of this [m]."""
 
+_CORNER = 5 * mm
+"""Radius of the corners of a bracket with a slot [m]."""
+
 _CURE = "set a lower tension, or a narrower carpet"
 
 
@@ -237,10 +240,14 @@ def _of_seat(  # noqa: PLR0917
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
     ends, half = (float(moved.imag.min()), float(moved.imag.max())), seat.side / 2
     radius = min(_radius(loom, moment, ends, seat.radius), max(most, half))
-    # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
-    beyond = max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
-    outer = moved + math.copysign(beyond, at.real - loom.side.column)
-    nodes = np.concatenate([outer, loom.side.column + 1j * moved.imag])
+    if shift is not None:  # square at its end: a round one would reach farther to what lays the weft
+        ends, radius = (ends[0] - radius + _CORNER, ends[1] + radius - _CORNER), _CORNER
+        moved_ends, beyond = at.real + 1j * np.array(ends), half - _CORNER
+    else:
+        # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
+        moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
+    outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
+    nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
     bores = _bores(seat, moved)
     return Bracket(name, title, far + seat.bearing.width, nodes, ends, radius, bores, seat, force, moment)
 

@@ -17,8 +17,10 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.beat import GUIDED
+from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.weft.carriers import AXIS
 from ilmek.machines.weft.rapier_tree import SIDE, RapierSide
+from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.shapes import box
@@ -50,6 +52,7 @@ class RapierSupport:
     side    the rapier's, its carrier's middle in the side view [m]
     face, front, column  of the columns: inner face from the middle of the width, front in the side view, side [m]
     gap     of the axis from brackets that let cams sink [m], None where they do not; clearance: allowed [m]
+    lowest  height to which drives of cams sink over the arms [m]; inf where they do not
     """
 
     side: RapierSide
@@ -64,11 +67,18 @@ class RapierSupport:
     column: float
     gap: float | None
     clearance: float
+    lowest: float
+
+    @property
+    def drop(self) -> float:
+        """How far the arms lie below the beams [m]: level with them, or under them below drives that sink."""
+        above = self.middle.imag + self.side.low + self.clearance - self.lowest
+        return max(above, self.section.side) if above > 0 else 0.0
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Deflection of arms and beams, buckling of the post, room before the brackets of the cam shafts."""
-        bearing = _checks(self.section, self.weight, self.inertia, self.reach, self.height)
+        bearing = _checks(self.section, self.weight, self.inertia, self.reach + self.drop, self.height)
         if self.gap is None:
             return bearing
         room = at_least(
@@ -99,8 +109,20 @@ def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSuppor
     # Brackets that let the cams sink reach down to the axis.
     _, _, *of_cams = brackets_of(loom).shafts
     before = middle.real - SIDE / 2 - max(float(own.nodes.real.max()) + own.radius for own in of_cams)
-    gap, clearance = before if loom.params.beat == GUIDED else None, loom.params.clearance
-    return RapierSupport(rapier, middle, section, weight, inertia, reach, height, face, front, column, gap, clearance)
+    gap, clearance, lowest = None, loom.params.clearance, math.inf
+    if loom.params.beat == GUIDED:
+        gap, lowest = before, _lowest_drive(loom)
+    return RapierSupport(
+        rapier, middle, section, weight, inertia, reach, height, face, front, column, gap, clearance, lowest
+    )
+
+
+def _lowest_drive(loom: LoomDesign) -> float:
+    """Height to which reducers and motors of the cam shafts sink [m]."""
+    assert loom.beat.path is not None
+    sunk = float((loom.beat.path.tip - loom.beat.path.tip[0]).imag.min())
+    halves = (catalogue.face_of(reducer(loom.shedding, index)) / 2 for index in range(len(loom.side.cams)))
+    return min(cam.at.imag - half for cam, half in zip(loom.side.cams, halves, strict=True)) + sunk
 
 
 def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, height: float) -> tuple[Check, Check]:
@@ -133,10 +155,15 @@ def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
     side, rapier, middle = support.section.side, support.side, support.middle
     y, z = middle.imag + rapier.low - side / 2, middle.real + rapier.plate_back
     beside, inner = support.face + support.column / 2, rapier.edge - SIDE / 2
-    gap = z - side - support.front
+    gap = z - side - support.front + (side if support.drop else 0.0)
     if gap > LEAST:
         arm = member("weft-arm", "arm of the rapier's side", support.section, gap)
-        yield Occurrence(arm, tuple(placement(x, y, support.front) for x in (-beside, beside)))
+        yield Occurrence(arm, tuple(placement(x, y - support.drop, support.front) for x in (-beside, beside)))
+    if (high := support.drop - side) > LEAST:
+        riser = member("weft-riser", "post on an arm of the rapier's side", support.section, high)
+        yield Occurrence(
+            riser, tuple(placement(x, y - side / 2 - high, z - side / 2).after(UPRIGHT) for x in (-beside, beside))
+        )
     long = beside + side / 2 - inner
     beam = member("weft-beam", "beam along an edge of the cloth", support.section, long)
     starts = (-beside - side / 2, inner)
