@@ -50,7 +50,7 @@ def cam_beam(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> complex:
     side, half, (highest, lowest) = loom.side, cam_beam_section(frame, made).side / 2, _between(made)
     height = (highest + lowest) / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - half
-    rears = [rear - half for rear, *_ in _held(loom)]
+    rears = [rear - half - ROOM for rear, *_ in _held(loom)]
     return complex(min(side.column, behind, *rears), height)
 
 
