@@ -64,12 +64,23 @@ def planned_compensation(task: LoomTask, gain: float) -> float:
 
     gain  of the warp's tension in the open shed on a fixed back rest [N]
     """
-    given = task.params.machines.of("tension-compensator")
-    usual = {"rate_share": RATE_SHARE, "tension_most": TENSION_MOST, "tension_least": TENSION_LEAST, "bars": 0}
-    share, most, least, bars = (_number(given.get(name), value) for name, value in usual.items())
-    tension = task.cloth.warp_tension
-    number = int(bars) or bars_needed(tension, gain, share, most, least)
+    tension, share = task.cloth.warp_tension, _planned(task)[0]
+    number = planned_bars(task, gain)
     return 1 - (compensated_tension(tension, gain, number, share)[0] - tension) / gain if gain > 0 else 0.0
+
+
+def planned_bars(task: LoomTask, gain: float) -> int:
+    """Bars that the compensator will have; gain as above."""
+    *limits, bars = _planned(task)
+    return int(bars) or bars_needed(task.cloth.warp_tension, gain, *limits)
+
+
+def _planned(task: LoomTask) -> tuple[float, float, float, float]:
+    """Rate of the compensator over its warps', greatest and least tension over that at rest; bars, 0: as required."""
+    given = task.params.machines.of("tension-compensator")
+    usual = {"rate_share": RATE_SHARE, "tension_most": TENSION_MOST, "tension_least": TENSION_LEAST, "bars": 0.0}
+    share, most, least, bars = (_number(given.get(name), value) for name, value in usual.items())
+    return share, most, least, bars
 
 
 def _number(value: object, usual: float) -> float:

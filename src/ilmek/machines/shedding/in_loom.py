@@ -4,15 +4,18 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from ilmek.elements.drive_parts import positive_work
 from ilmek.machines.arrangement.spans import ShedRoom, shed_room, shed_spans, warp_length
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.cam_shaft import smallest_prime
 from ilmek.machines.shedding.design import SheddingDesign, design
 from ilmek.machines.shedding.params import SheddingParams
-from ilmek.machines.warp_loads import planned_compensation
+from ilmek.machines.warp_loads import planned_bars, planned_compensation
 from ilmek.records import value_record
 from ilmek.report import Work
+from ilmek.units import mm
 from ilmek.weaving.shed import shed_lengthening
 
 STEEL = "structural steel"
@@ -22,6 +25,12 @@ ITERATIONS = 6
 
 USUAL_SPAN = 0.4
 """Spans of the warps before they are known [m]."""
+
+LONGER, STEP = 1.0, 10 * mm
+"""Longer back spans that are tried for a soft or slack warp, and their step [m]; assumed by this project."""
+
+SPARE = 1.05
+"""Gain of a warp's tension that is planned for, over that by mean spans: the cams' own lengthening is a little more."""
 
 SAME = 1e-6
 """Difference in size that needs no other spans [m]."""
@@ -74,18 +83,16 @@ def _outline_of(made: SheddingDesign) -> _Outline:
 
 def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mapping[str, Any]) -> SheddingParams:
     """The parameters with the spans that shafts of an outline need; those `given` by the user in their place."""
-    params, warp = task.params, task.yarns.warp
-    spans = shed_spans(room, *outline.first)
-    back = shed_spans(room, *outline.last).back[0]
-    both = {"front_span": spans.front[0], "back_span": back}
-    length = warp_length(room, spans) + outline.apart + back - spans.back[0]
-    gain = warp.stiffness / length * float(shed_lengthening(params.lift, spans.front[0], back))
+    params, spans = task.params, shed_spans(room, *outline.first)
+    front, beside = spans.front[0], warp_length(room, spans) + outline.apart - spans.back[0]
+    back = _single_bar(task, front, shed_spans(room, *outline.last).back[0], beside)
+    both = {"front_span": front, "back_span": back}
     derived = SheddingParams(
         cloth=task.cloth,
         lift=params.lift,
         **({"half_span": given["half_span"]} if "half_span" in given else both),
-        warp_length=length,
-        compensation=planned_compensation(task, gain),
+        warp_length=beside + back,
+        compensation=planned_compensation(task, _gain(task, front, back, beside)),
         shuttle_height=room.opening,
         guideway=False,
         speed=params.shed_speed,
@@ -94,6 +101,22 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
         spans=math.ceil(task.width / params.shaft_span - 1e-9),
     )
     return task.parameters("shedding", derived)
+
+
+def _single_bar(task: LoomTask, front: float, back: float, beside: float) -> float:
+    """The back span [m], at least `back`, with which one bar of the compensator keeps the warps' tension: a second has
+    no room below them. `back` where two are given, or one is too few with any span.
+
+    beside  length of a warp that is not in the back span [m]
+    """
+    offered = (back + longer for longer in np.arange(0.0, LONGER, STEP).tolist())
+    return next((one for one in offered if planned_bars(task, SPARE * _gain(task, front, one, beside)) == 1), back)
+
+
+def _gain(task: LoomTask, front: float, back: float, beside: float) -> float:
+    """Gain of a lifted warp's tension on a fixed back rest [N]; arguments as above."""
+    longer = float(shed_lengthening(task.params.lift, front, back))
+    return task.yarns.warp.stiffness / (beside + back) * longer
 
 
 def work(made: SheddingDesign) -> tuple[Work, ...]:
