@@ -122,13 +122,14 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> t
     length = max(stations) + belt_begin + BELT_WIDTH - begin
     size = f"round {format_quantity(diameter, 'mm')}"
     shared = Part("beat-up/shared-shaft", "shaft of all cranks", "turned part", size, bar(diameter, length), PIN_STEEL)
-    ring = rounded_hull(np.array([0, axis]), linkage.params.width / 2)
+    pulley = max(linkage.params.width / 2, diameter / 2 + _AROUND)
+    ring = rounded_hull(np.array([0, axis]), pulley)
     belt = Part(
         "beat-up/shared-belt",
         "belt and pulleys of a crank",
         "belt and pulleys",
         shape=Prism(drilled(ring, [Hole(axis, diameter / 2)]), BELT_WIDTH),
-        purchase=Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + math.pi * linkage.params.width),
+        purchase=Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley),
         envelope=True,
     )
     places = tuple(placement(z=station + belt_begin) for station in stations)

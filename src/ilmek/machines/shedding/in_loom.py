@@ -26,7 +26,7 @@ ITERATIONS = 6
 USUAL_SPAN = 0.4
 """Spans of the warps before they are known [m]."""
 
-LONGER, STEP = 1.0, 10 * mm
+LONGER, STEP = 1.5, 10 * mm
 """Longer back spans that are tried for a soft or slack warp, and their step [m]; assumed by this project."""
 
 SPARE = 1.05
