@@ -11,7 +11,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
@@ -33,7 +33,6 @@ def write_rows_pdf(
     direction: str = "both",
     progress: Progress = SILENT,
     *,
-    title: str = "",
     printing: Printing = PLAIN,
 ) -> None:
     """Write the rows of a chart to `path`, each as one strip where it fits the paper.
@@ -43,8 +42,7 @@ def write_rows_pdf(
     """
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Rows to weave by: {name}", printing.digits) as canvas:
+    with printed_file(path, f"Rows to weave by: {title_of(chart)}", printing.digits) as canvas:
         draw_legend(canvas, chart, inks, printing)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
@@ -53,7 +51,7 @@ def write_rows_pdf(
             page.append(strip)
             if len(page) == plan.lines or (strip.number == chart.rows and strip.stop == chart.columns):
                 number += 1
-                _draw_page(setter, page, plan, (number, name, direction, marks), inks)
+                _draw_page(setter, page, plan, (number, title_of(chart), direction, marks), inks)
                 page = []
                 progress(number / plan.count)
 

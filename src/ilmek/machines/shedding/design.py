@@ -33,7 +33,7 @@ from ilmek.machines.shedding.stack import CamStack
 from ilmek.machines.shedding.stack_choice import ChosenStack, chosen_stack
 from ilmek.machines.shedding.tolerance_chain import ToleranceChain, tolerance_chain
 from ilmek.machines.shedding.warp import lifting_work
-from ilmek.num.piecewise import Extremum, supremum
+from ilmek.num.piecewise import supremum
 from ilmek.records import computed, record
 from ilmek.report import Choice, Json
 from ilmek.weaving.shed import shed_lengthening
@@ -79,11 +79,6 @@ class SheddingDesign:
     def shed(self) -> Shed:
         """Cams of the first shaft."""
         return self.first.shed
-
-    @property
-    def across_max(self) -> Extremum:
-        """Largest force of the lifted warps across the first shaft [N]."""
-        return self.first.across_max
 
     @property
     def shaft(self) -> SquareShaft:
