@@ -70,9 +70,7 @@ def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, pri
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     page, title = (sheet.width / sheet.unit, sheet.height / sheet.unit), f"Knot chart: {title_of(chart)}"
-    with printed_file(
-        path, f"Knot chart: {title_of(chart)}", printing.digits, pagesize=page, pdfVersion=(1, 6)
-    ) as canvas:
+    with printed_file(path, title, printing.digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
         _write_head(canvas, chart, sheet)
         canvas.saveState()
