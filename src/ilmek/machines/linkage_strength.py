@@ -162,11 +162,7 @@ def _most(pins: Mapping[str, PinStrength], name: str) -> PinStrength:
 
 
 def linkage_strength(
-    loads: LinkageLoads,
-    limits: StrengthParams,
-    sections: Mapping[str, tuple[float, float]],
-    *,
-    name: str = "strength",
+    loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]], *, name: str = "strength"
 ) -> LinkageStrength:
     """Strength of links of given sections; of the stock pins the first that is enough, else the largest that fits.
 
@@ -289,14 +285,8 @@ def strength_checks(
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
-            at_most(
-                _stress_of(link),
-                one.stress,
-                limits.allowed_stress,
-                "MPa",
-                f"parameter {name}.stress",
-                cure=cure,
-                parts=_ids(parts, link),
+            at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress").with_cure(
+                cure, *_ids(parts, link)
             )
             for link, one in found.links.items()
         ),
@@ -351,9 +341,7 @@ def _hole_check(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check
             WIDEST_PIN,
             "1",
             "assumed by this project",
-            cure="set wider links, or leave the pins' diameter open",
-            parts=_ids(parts, *found.sections, *found.pins),
-        ),
+        ).with_cure("set wider links, or leave the pins' diameter open", *_ids(parts, *found.sections, *found.pins)),
     )
 
 

@@ -28,12 +28,7 @@ def chart_rows_layout(chart: Chart, direction: str = "both") -> RowsLayout:
 
 
 def write_rows_pdf(
-    path: Path,
-    chart: Chart,
-    direction: str = "both",
-    progress: Progress = SILENT,
-    *,
-    printing: Printing = PLAIN,
+    path: Path, chart: Chart, direction: str = "both", progress: Progress = SILENT, *, printing: Printing = PLAIN
 ) -> None:
     """Write the rows of a chart to `path`, each as one strip where it fits the paper.
 
@@ -128,9 +123,5 @@ def _write_head(canvas: PrintCanvas, plan: RowsLayout, titles: tuple[str, str], 
         f"Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a symbol alone: one "
         f"knot. {_reads(direction)}",
     )
-    canvas.drawString(
-        MARGIN,
-        top - 33.0,
-        marks,
-    )
+    canvas.drawString(MARGIN, top - 33.0, marks)
     canvas.drawRightString(plan.width - MARGIN, MARGIN - FOOT / 2, "Below each row: its knots of each yarn.")

@@ -139,18 +139,14 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
             0,
             "1",
             _worst(whole.through, titles) or "meshes of all parts over both cyclograms",
-            cure="change the arrangement so that the parts named have room",
-            parts=tuple(dict.fromkeys(through)),
-        ),
+        ).with_cure("change the arrangement so that the parts named have room", *tuple(dict.fromkeys(through))),
         at_most(
             "groups of parts that touch",
             len(groups),
             1,
             "1",
             "meshes of all parts at the start of a row, within 0.1 mm; more than one: parts that nothing holds",
-            cure="give the parts named supports",
-            parts=tuple(dict.fromkeys(loose)),
-        ),
+        ).with_cure("give the parts named supports", *tuple(dict.fromkeys(loose))),
         _joints(whole.loom),
         *drive_checks(loom_tree(whole.loom)),
         _closed(whole.loom),
@@ -168,9 +164,7 @@ def _joints(loom: LoomDesign) -> Check:
         0,
         "1",
         ", ".join(body.id for body in without) or "joints of all bodies to what carries them",
-        cure="give the bodies named bearings, guides or fasteners",
-        parts=tuple(dict.fromkeys(parts)),
-    )
+    ).with_cure("give the bodies named bearings, guides or fasteners", *tuple(dict.fromkeys(parts)))
 
 
 def _is_without_joint(body: RigidBody) -> bool:
@@ -199,9 +193,7 @@ def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ..
             limit - DEVIATION,
             "mm",
             f"parameter clearance, assumed by this project, less the meshes' deviation; {_where(near)}",
-            cure="set a larger clearance",
-            parts=near.approach.parts,
-        )
+        ).with_cure("set a larger clearance", *near.approach.parts)
         for near in least.values()
     )
 

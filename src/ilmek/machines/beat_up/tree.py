@@ -147,14 +147,7 @@ def crank_rockers(
             pinned("crank", layer("coupler", thick)),
         ),
         body("coupler", PART_IDS["crank"], "C", [_turned(lengths["crank"], -layer("coupler", thick), coupler)]),
-        body(
-            "rocker",
-            parent,
-            "A",
-            [rocker_position(design, z) for z in stations],
-            pinned("rocker", 0.0),
-            *struck,
-        ),
+        body("rocker", parent, "A", [rocker_position(design, z) for z in stations], pinned("rocker", 0.0), *struck),
     )
 
 

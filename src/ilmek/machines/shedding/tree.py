@@ -86,10 +86,7 @@ def _of_shaft(
         (position,),
     )
     return standing, RigidBody(
-        part_id("cam shaft", index),
-        _turning(design, index),
-        standing.id,
-        replace(pin, motor=part_id("motor", index)),
+        part_id("cam shaft", index), _turning(design, index), standing.id, replace(pin, motor=part_id("motor", index))
     )
 
 

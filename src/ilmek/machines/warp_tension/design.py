@@ -97,11 +97,7 @@ class WarpTensionDesign:
         "1", "2 - 1/efficiency; self-locking at 0 and below", lambda it: it.reducer.back_driving_efficiency
     )
     motor_name = computed(
-        "",
-        "class of motor chosen",
-        lambda it: it.motor.name if it.motor else None,
-        name="motor",
-        absent=NO_MOTOR,
+        "", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor", absent=NO_MOTOR
     )
     take_up_angle = computed(
         "deg", "rotation of the cylinder per row", lambda it: it.params.cloth.row_distance / it.outer_radius

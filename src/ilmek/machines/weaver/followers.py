@@ -66,11 +66,7 @@ def follower_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
             upright = rack_at(weaver, rack_top(weaver) + float(cam.motion.s[0]))
             parts = *parts, Occurrence(rack(weaver), (position.after(_DOWN).inverse.after(upright),))
         yield RigidBody(
-            follower_id(cam.name),
-            parts,
-            parent,
-            Joint(JointKind.CAM, (1.0, 0.0, 0.0)),
-            (position.after(_DOWN),),
+            follower_id(cam.name), parts, parent, Joint(JointKind.CAM, (1.0, 0.0, 0.0)), (position.after(_DOWN),)
         )
 
 

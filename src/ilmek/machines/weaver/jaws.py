@@ -199,14 +199,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
 
 
-_ROLLER_PART = Part(
-    part_id("jaw-roller"),
-    "roller of the jaws",
-    "pin or bush",
-    in_mm(ROLLER),
-    bar(ROLLER, FACE),
-    STEEL,
-)
+_ROLLER_PART = Part(part_id("jaw-roller"), "roller of the jaws", "pin or bush", in_mm(ROLLER), bar(ROLLER, FACE), STEEL)
 
 
 def _roller() -> Part:
@@ -237,14 +230,7 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
     title = f"collar of the {kind} jaws"
     return (
         Part(part_id(f"{kind}-collar"), title, "turned part", in_mm(FLANGE), ring, STEEL),
-        Part(
-            wire_id(track),
-            f"wire of the {kind} jaws",
-            "pin or bush",
-            in_mm(wire),
-            bar(wire - IN_BORE, long),
-            STEEL,
-        ),
+        Part(wire_id(track), f"wire of the {kind} jaws", "pin or bush", in_mm(wire), bar(wire - IN_BORE, long), STEEL),
     )
 
 

@@ -98,18 +98,10 @@ def knife_checks(weaver: Weaver) -> tuple[Check, ...]:
             MARGIN,
             "1",
             f"motors of the table; a cut of {format_quantity(params.strength, 'N', 3)} through all fibres at once",
-            cure="set a longer weaver.cutter_turn, or a lighter pile yarn",
-            parts=(CUTTER_MOTOR, KNIFE),
-        ),
+        ).with_cure("set a longer weaver.cutter_turn, or a lighter pile yarn", CUTTER_MOTOR, KNIFE),
         at_most(
-            "Hertz pressure of the cutter's eccentric",
-            float(pressed.pressure),
-            PRESSURE_LIMIT,
-            "MPa",
-            STEEL.name,
-            cure="set a lighter pile yarn",
-            parts=(ECCENTRIC, KNIFE),
-        ),
+            "Hertz pressure of the cutter's eccentric", float(pressed.pressure), PRESSURE_LIMIT, "MPa", STEEL.name
+        ).with_cure("set a lighter pile yarn", ECCENTRIC, KNIFE),
     )
 
 

@@ -203,9 +203,7 @@ def _room_check(made: Weft) -> Check:
         made.params.room,
         "m",
         "assumed by this project: parameter room",
-        cure="set more weft.room, or weft=shuttle",
-        parts=(CARRIAGE, AXIS),
-    )
+    ).with_cure("set more weft.room, or weft=shuttle", CARRIAGE, AXIS)
 
 
 def _tension_checks(made: Weft) -> tuple[Check, ...]:
@@ -215,14 +213,8 @@ def _tension_checks(made: Weft) -> tuple[Check, ...]:
     cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
     pulled = (BOBBIN,) if made.params.carrier == SHUTTLE else (GRIPPER,)
     return tuple(
-        at_most(
-            f"tension of the {name}",
-            tension,
-            made.params.tension_share * breaks[name],
-            "N",
-            source,
-            cure=cure,
-            parts=pulled,
+        at_most(f"tension of the {name}", tension, made.params.tension_share * breaks[name], "N", source).with_cure(
+            cure, *pulled
         )
         for name, tension in made.tension.items()
     )
@@ -235,20 +227,10 @@ def _axis_checks(made: Weft) -> tuple[Check, ...]:
     return (
         at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure, parts=moved),
         at_most(
-            "acceleration of the passage",
-            passage.acceleration,
-            params.acceleration,
-            "m/s^2",
-            "acceleration",
-            cure=cure,
-            parts=moved,
-        ),
-        must(
-            "belt of the axis",
-            not math.isnan(axis.width),
-            "pull of the teeth in mesh, widths of stock",
-            cure=cure,
-            parts=(AXIS,),
+            "acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration"
+        ).with_cure(cure, *moved),
+        must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock").with_cure(
+            cure, AXIS
         ),
         at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure, parts=(MOTOR,)),
     )

@@ -30,10 +30,7 @@ class WeftPassage:
     stroke = computed("mm", "stroke of the carrier, from rest to rest", lambda it: it.move.distance)
     speed = computed("m/s", "largest speed of the carrier", lambda it: it.move.speed, name="speed_max")
     acceleration = computed(
-        "m/s^2",
-        "largest acceleration of the carrier",
-        lambda it: it.move.jerk * it.move.ramp,
-        name="acceleration_max",
+        "m/s^2", "largest acceleration of the carrier", lambda it: it.move.jerk * it.move.ramp, name="acceleration_max"
     )
     time = computed(
         "s",

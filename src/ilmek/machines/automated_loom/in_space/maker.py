@@ -77,8 +77,5 @@ def motion(
     drive = ROW if cyclogram.name == "row" else KNOT
     still = np.zeros(len(angle))
     return SceneMotion(
-        drive,
-        angle,
-        np.zeros((len(angle), 3)) if shift is None else shift,
-        still if rotation is None else rotation,
+        drive, angle, np.zeros((len(angle), 3)) if shift is None else shift, still if rotation is None else rotation
     )
