@@ -15,9 +15,7 @@ def drive_checks(tree: Tree) -> tuple[Check, ...]:
     return (
         at_most(
             "degrees of freedom", free.number, free.driven, "1", f"no motor holds: {named}" if named else passive
-        ).with_cure(
-            "give the bodies named a motor, or what keeps them to a body that has one", *tuple(dict.fromkeys(parts))
-        ),
+        ).with_cure("give the bodies named a motor, or what keeps them to a body that has one", *dict.fromkeys(parts)),
         at_most(
             "axes that motors drive",
             free.axes,

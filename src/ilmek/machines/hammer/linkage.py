@@ -80,11 +80,10 @@ class CombLinkage:
         "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
     )
     beat_speed = computed("rad/s", "speed of the crank", lambda it: it.one.params.speed)
-    frame_force = computed(
-        "N",
-        "greatest force of all crank-rockers on the frame, on an empty beat",
-        lambda it: it.number * frame_force(it.one.state),
-    )
+
+    @computed("N", "greatest force of all crank-rockers on the frame, on an empty beat")
+    def frame_force(self) -> float:
+        return self.number * frame_force(self.one.state)
 
 
 def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:

@@ -55,16 +55,15 @@ class Weft:
     alternatives: tuple["Weft", ...] = ()
 
     carrier = computed("", "what carries the weft", lambda it: it.params.carrier)
-    weft_length = computed(
-        "m",
-        "length of each weft for a row, with its turn",
-        lambda it: {"straight weft": it.lengths.straight, "sinuous weft": it.lengths.sinuous},
-    )
-    weft_need = computed(
-        "m",
-        "length of each weft for the carpet",
-        lambda it: {name: it.params.rows * length for name, length in it.weft_length.items()},
-    )
+
+    @computed("m", "length of each weft for a row, with its turn")
+    def weft_length(self) -> dict[str, float]:
+        return {"straight weft": self.lengths.straight, "sinuous weft": self.lengths.sinuous}
+
+    @computed("m", "length of each weft for the carpet")
+    def weft_need(self) -> dict[str, float]:
+        return {name: self.params.rows * length for name, length in self.weft_length.items()}
+
     stops = computed("1", "stops of the loom for new bobbins", lambda it: stop_count(it.bobbins, it.params.rows))
     stop_time = computed("min", "time of all stops", lambda it: stop_time(it.bobbins, it.params.rows))
 
