@@ -280,6 +280,24 @@ def format_quantity(value: float, unit: str, digits: int = 4) -> str:
     return f"{number}{' ' if printed[:1].isalpha() else ''}{printed}"
 
 
+def in_mm(length: float) -> str:
+    """A length as it stands in a parts list.
+
+    >>> in_mm(0.0597375)
+    '59.74 mm'
+    """
+    return format_quantity(length, "mm")
+
+
+def round_size(diameter: float) -> str:
+    """A diameter as it stands in a parts list.
+
+    >>> round_size(0.012)
+    'round 12 mm'
+    """
+    return f"round {in_mm(diameter)}"
+
+
 def counted(number: int, noun: str, plural: str = "") -> str:
     """A number with its noun, in the plural where it is not one; default: with an s.
 

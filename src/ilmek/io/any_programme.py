@@ -6,12 +6,7 @@ from typing import TypeAlias
 
 from ilmek.errors import ParameterError
 from ilmek.io.programme_file import ProgrammeFile, open_programme, write_programme
-from ilmek.io.programme_text import (
-    ProgrammeText,
-    header_lines,
-    open_programme_text,
-    write_programme_text,
-)
+from ilmek.io.programme_text import ProgrammeText, header_lines, open_programme_text, write_programme_text
 from ilmek.io.programme_text_rows import RowReader, RowText, RowWriter
 from ilmek.loom.operations import LoomProgramme
 from ilmek.progress import SILENT, Progress

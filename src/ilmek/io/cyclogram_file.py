@@ -89,12 +89,12 @@ def parse_cyclogram(text: str, *, name: str = "cyclogram", toml: bool = True) ->
     return _read(parse_data(text, name=name, toml=toml, error=ParameterError), name)
 
 
-def cyclogram_of_data(data: Mapping[str, object], *, name: str = "cyclogram") -> Cyclogram:
-    """The cyclogram of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
+def cyclogram_of_data(data: Mapping[str, object]) -> Cyclogram:
+    """The cyclogram of the plain data of a file, as `tomllib` or `json` reads them.
 
     Raises ParameterError with the key.
     """
-    return _read(DataText(data, {}, ""), name)
+    return _read(DataText(data, {}, ""), "cyclogram")
 
 
 def timed_data(data: Table, cyclogram: Cyclogram) -> JsonObject:

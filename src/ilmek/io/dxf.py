@@ -154,12 +154,7 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
     thick = f"{format_quantity(plate.thickness, 'mm')} thick"
     round_solid = plate.solid if isinstance(plate.solid, RoundSolid) else None
     size = thick if round_solid is None else f"diameter {format_quantity(2 * round_solid.outer, 'mm')}"
-    lines = (
-        f"{plate.title} ({plate.name})",
-        f"{plate.material}, {size}, {pieces}",
-        *plate.notes,
-        f"mm, 1:1; {known}",
-    )
+    lines = (f"{plate.title} ({plate.name})", f"{plate.material}, {size}, {pieces}", *plate.notes, f"mm, 1:1; {known}")
     _put(space, lines, low, height)
 
 

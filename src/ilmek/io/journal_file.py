@@ -11,10 +11,10 @@ sync.
 
 import os
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Protocol
 
 from ilmek.errors import LoomError
+from ilmek.io.closable import Closable
 from ilmek.io.output import disk
 
 LARGEST_JOURNAL = 4_000_000_000
@@ -85,7 +85,7 @@ class SystemFile:
             self._handle = -1
 
 
-class JournalFile:
+class JournalFile(Closable):
     """A journal of which the first `durable` bytes are certainly on the disc."""
 
     def __init__(self, file: RawFile, name: str = "the journal") -> None:
@@ -150,14 +150,6 @@ class JournalFile:
         except OSError:
             return
         self._tail = False
-
-    def __enter__(self) -> "JournalFile":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
 
 def require_size(name: object, size: int) -> None:

@@ -10,9 +10,9 @@ import stat
 import time
 from contextlib import suppress
 from pathlib import Path
-from types import TracebackType
 
 from ilmek.errors import LoomError, OutputError
+from ilmek.io.closable import Closable
 from ilmek.io.journal_file import JournalFile, SystemFile, require_size
 from ilmek.io.output import disk
 from ilmek.io.regular_file import open_regular
@@ -26,7 +26,7 @@ _TRIES, _PAUSE = 5, 0.01
 _NAMES = {JOURNAL, WOVEN, LOCK, CHANNEL}
 
 
-class JournalFolder:
+class JournalFolder(Closable):
     """A journal's folder, made if there is none, and locked until it is closed.
 
     new  remove the carpet that the folder has, and begin another one
@@ -97,14 +97,6 @@ class JournalFolder:
         if self._lock >= 0:
             os.close(self._lock)
             self._lock = -1
-
-    def __enter__(self) -> "JournalFolder":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
 
 def require_journal(path: Path) -> None:

@@ -35,6 +35,6 @@ def _values(data: object) -> int:
     return 1 + (sum(map(_values, inner)) if deep else len(inner))
 
 
-def write_json(path: Path, data: object, progress: Progress = SILENT) -> None:
-    """Write the data to a file. Raises OSError, Cancelled."""
-    path.write_text(json_text(data, progress), encoding="utf-8")
+def write_json(path: Path, data: object) -> None:
+    """Write the data to a file. Raises OSError."""
+    path.write_text(json_text(data), encoding="utf-8")

@@ -105,12 +105,12 @@ def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) ->
     return _read(parse_data(text, name=name, toml=toml, error=MechanismError), name)
 
 
-def mechanism_of_data(data: Mapping[str, object], *, name: str = "mechanism") -> MechanismFile:
-    """The mechanism of the plain data of a file, as `tomllib` or `json` reads them; messages call it `name`.
+def mechanism_of_data(data: Mapping[str, object]) -> MechanismFile:
+    """The mechanism of the plain data of a file, as `tomllib` or `json` reads them.
 
     Raises MechanismError with the key.
     """
-    return _read(DataText(plain_data(data, name, MechanismError), {}, ""), name)
+    return _read(DataText(plain_data(data, "mechanism", MechanismError), {}, ""), "mechanism")
 
 
 def _read(text: DataText, name: str) -> MechanismFile:

@@ -31,14 +31,7 @@ def gif(pictures: Iterator[Image.Image], rate: int, colours: Sequence[str] = ())
     flat = (one.quantize(palette=palette, dither=Image.Dither.NONE) for one in itertools.chain((first,), pictures))
     file = io.BytesIO()
     next(flat).save(
-        file,
-        format="GIF",
-        save_all=True,
-        append_images=flat,
-        duration=1000 // rate,
-        loop=0,
-        optimize=False,
-        disposal=1,
+        file, format="GIF", save_all=True, append_images=flat, duration=1000 // rate, loop=0, optimize=False, disposal=1
     )
     return file.getvalue()
 

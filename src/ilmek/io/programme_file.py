@@ -14,12 +14,12 @@ import sqlite3
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, UInt8
 from ilmek.errors import IlmekError, LoomError
+from ilmek.io.closable import Closable
 from ilmek.io.programme_meta import meta_texts, read_meta
 from ilmek.io.programme_rows import change_records, packed, packed_row, read_stops, unpacked, unpacked_row
 from ilmek.io.sqlite_readonly import DamagedDatabase, ReadOnlyDatabase, SqliteHeader
@@ -139,7 +139,7 @@ def open_programme(path: Path, *, lenient: bool = False, progress: Progress = SI
         raise
 
 
-class ProgrammeFile:
+class ProgrammeFile(Closable):
     """An open programme, `loom.operations.LoomProgramme`, with its totals and the work of each head.
 
     digest     of its rows                                  stated_digest  as the file states it
@@ -202,14 +202,6 @@ class ProgrammeFile:
     def close(self) -> None:
         """Close the file; rows that were read stay usable."""
         self._database.close()
-
-    def __enter__(self) -> "ProgrammeFile":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
     def _stopped(self) -> dict[int, None]:
         """The rows with stops, in order. Raises LoomError for rows, and changes of packages, beyond the carpet."""

@@ -19,13 +19,13 @@ import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from types import TracebackType
 from typing import Any, BinaryIO
 
 import numpy as np
 
 from ilmek.arrays import UInt8
 from ilmek.errors import IlmekError, LoomError, shortened
+from ilmek.io.closable import Closable
 from ilmek.io.programme_meta import KEYS, meta_texts, read_meta
 from ilmek.io.programme_text_rows import LineRemark, RowReader, RowText, RowWriter
 from ilmek.io.regular_file import open_regular
@@ -108,7 +108,7 @@ def open_programme_text(path: Path, *, lenient: bool = False, progress: Progress
         raise
 
 
-class ProgrammeText:
+class ProgrammeText(Closable):
     """An open text of a programme, `loom.operations.LoomProgramme`.
 
     digest   SHA-256 of all operations and the chart
@@ -181,14 +181,6 @@ class ProgrammeText:
     def close(self) -> None:
         """Close the file; rows that were read stay usable."""
         self._file.close()
-
-    def __enter__(self) -> "ProgrammeText":
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
 
 class _Opening:

@@ -167,10 +167,8 @@ class BeatDrive:
             at_least(
                 "beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure, parts=self.striking
             ),
-            at_least(
-                *("beat: stroke", self.path.rise, stroke_needed(self.task), "mm", stroke),
-                cure="set a larger stroke",
-                parts=self.striking,
+            at_least(*("beat: stroke", self.path.rise, stroke_needed(self.task), "mm", stroke)).with_cure(
+                "set a larger stroke", *self.striking
             ),
             *self.loom_checks,
         )

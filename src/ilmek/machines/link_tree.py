@@ -27,7 +27,7 @@ from ilmek.plane.contours import rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, turn
+from ilmek.units import in_mm, round_size, turn
 
 GAP = 0.4
 """Distance of neighbouring levels, over the greatest thickness of a link: assumed by this project."""
@@ -112,12 +112,12 @@ def link_part(name: str, title: str, pins: Mapping[str, complex], size: LinkSize
     points = np.array(list(pins.values()), dtype=complex)
     holes = [Hole(point, size.hole / 2) for point in bored(pins, BRIDGE * size.hole).values()]
     reach = float(np.max(np.abs(points[:, None] - points[None, :])))
-    section = f"{format_quantity(size.width, 'mm')} x {format_quantity(size.thickness, 'mm')}"
+    section = f"{in_mm(size.width)} x {in_mm(size.thickness)}"
     return Part(
         name,
         title,
         "machined link",
-        f"{section}, {format_quantity(reach, 'mm')}",
+        f"{section}, {in_mm(reach)}",
         Prism(drilled(rounded_hull(points, size.width / 2), holes), size.thickness),
         size.material,
         seats={pin: Seat(placement(point.real, point.imag), size.hole) for pin, point in pins.items()},
@@ -126,7 +126,7 @@ def link_part(name: str, title: str, pins: Mapping[str, complex], size: LinkSize
 
 def pin_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A pin about z from z = 0 [m]."""
-    size = f"round {format_quantity(diameter, 'mm')}, {format_quantity(length, 'mm')}"
+    size = f"{round_size(diameter)}, {in_mm(length)}"
     shape = bar(diameter, length)
     return Part(name, title, "pin or bush", size, shape, PIN_STEEL, seats={JOURNAL: Seat(placement(), diameter)})
 

@@ -125,27 +125,26 @@ class LinkageStrength:
     link_stress = computed(
         "MPa", "greatest nominal stress of each link", lambda it: {name: one.stress for name, one in it.links.items()}
     )
-    link_fatigue = computed(
-        "1",
-        "least safety of each loaded link against fatigue, with the notch of its holes",
-        lambda it: it.of_links("fatigue"),
-    )
+
+    @computed("1", "least safety of each loaded link against fatigue, with the notch of its holes")
+    def link_fatigue(self) -> dict[str, float]:
+        return self.of_links("fatigue")
+
     link_buckling = computed(
         "1", "least safety against buckling of each link that is pushed", lambda it: it.of_links("buckling")
     )
-    link_frequency = computed(
-        "Hz",
-        "lowest natural frequency of each link with a mass in its plane, its joints held",
-        lambda it: {name: value / turn for name, value in it.of_links("frequency").items()},
-    )
+
+    @computed("Hz", "lowest natural frequency of each link with a mass in its plane, its joints held")
+    def link_frequency(self) -> dict[str, float]:
+        return {name: value / turn for name, value in self.of_links("frequency").items()}
+
     pin_shear = computed("MPa", "greatest shear stress of a pin, in a fork", lambda it: it.worst_pin("shear"))
     pin_bending = computed("MPa", "greatest bending stress of a pin, in a fork", lambda it: it.worst_pin("bending"))
     pin_pressure = computed("MPa", "greatest pressure of a pin on its bush", lambda it: it.worst_pin("pressure"))
-    pin_wear = computed(
-        "1",
-        "greatest mean of pressure times sliding speed of a pin over the time, in MPa m/s",
-        lambda it: it.worst_pin("wear") / MPa,
-    )
+
+    @computed("1", "greatest mean of pressure times sliding speed of a pin over the time, in MPa m/s")
+    def pin_wear(self) -> float:
+        return self.worst_pin("wear") / MPa
 
     def of_links(self, name: str) -> dict[str, float]:
         """A safety or frequency of each link that has one."""
@@ -162,11 +161,7 @@ def _most(pins: Mapping[str, PinStrength], name: str) -> PinStrength:
 
 
 def linkage_strength(
-    loads: LinkageLoads,
-    limits: StrengthParams,
-    sections: Mapping[str, tuple[float, float]],
-    *,
-    name: str = "strength",
+    loads: LinkageLoads, limits: StrengthParams, sections: Mapping[str, tuple[float, float]], *, name: str = "strength"
 ) -> LinkageStrength:
     """Strength of links of given sections; of the stock pins the first that is enough, else the largest that fits.
 
@@ -289,14 +284,8 @@ def strength_checks(
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
-            at_most(
-                _stress_of(link),
-                one.stress,
-                limits.allowed_stress,
-                "MPa",
-                f"parameter {name}.stress",
-                cure=cure,
-                parts=_ids(parts, link),
+            at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress").with_cure(
+                cure, *_ids(parts, link)
             )
             for link, one in found.links.items()
         ),
@@ -351,9 +340,7 @@ def _hole_check(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check
             WIDEST_PIN,
             "1",
             "assumed by this project",
-            cure="set wider links, or leave the pins' diameter open",
-            parts=_ids(parts, *found.sections, *found.pins),
-        ),
+        ).with_cure("set wider links, or leave the pins' diameter open", *_ids(parts, *found.sections, *found.pins)),
     )
 
 

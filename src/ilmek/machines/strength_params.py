@@ -24,11 +24,7 @@ class StrengthParams(Params):
         doc="allowed nominal stress of the links; default: the material's fatigue limit over 1.5",
     )
     modulus: float | None = kind.pressure(
-        None,
-        unit="GPa",
-        at_least=1 * MPa,
-        at_most=2e12,
-        doc="Young's modulus of the links; default: the material's",
+        None, unit="GPa", at_least=1 * MPa, at_most=2e12, doc="Young's modulus of the links; default: the material's"
     )
     fatigue: float = kind.ratio(
         1.5,

@@ -1,7 +1,7 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Protocol, runtime_checkable
 
 from ilmek.records import value_record
@@ -29,6 +29,10 @@ class Check:
     relation: str = "<="
     cure: str = ""
     parts: tuple[str, ...] = ()
+
+    def with_cure(self, cure: str, *parts: str) -> "Check":
+        """The check with what cures a failure, and the ids of the parts that it concerns."""
+        return replace(self, cure=cure, parts=parts)
 
     def as_json(self) -> dict[str, Json]:
         """The check as plain data: name, value and limit [SI], their unit, ok, source, relation, cure, shown."""

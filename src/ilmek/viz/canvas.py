@@ -38,13 +38,7 @@ class Canvas:
         return self.picture.reduce(FINER)
 
     def line(
-        self,
-        points: ComplexArray,
-        color: str,
-        width: float,
-        dashes: Sequence[float] = (),
-        *,
-        closed: bool = False,
+        self, points: ComplexArray, color: str, width: float, dashes: Sequence[float] = (), *, closed: bool = False
     ) -> None:
         """Draw a line with round ends through points [pt]; NaN makes a gap. dashes: lengths of dash, gap ... [pt]."""
         if closed and len(points):
@@ -127,13 +121,7 @@ class PixelSheet(Sheet):
         self._drawn.append((zorder, lambda canvas: canvas.line(points, color, linewidth, lengths)))
 
     def area(
-        self,
-        points: ComplexArray,
-        *,
-        facecolor: str,
-        edgecolor: str = "",
-        linewidth: float = 0.0,
-        zorder: float = 1.0,
+        self, points: ComplexArray, *, facecolor: str, edgecolor: str = "", linewidth: float = 0.0, zorder: float = 1.0
     ) -> None:
         """Draw a filled polygon, as on a sheet."""
         self._drawn.append((zorder, lambda canvas: canvas.area(points, facecolor, edgecolor, linewidth)))

@@ -20,11 +20,7 @@ _MOST_WHOLE = 400
 
 
 def cursor(
-    plot: Plot,
-    sheet: Sheet,
-    box: Box,
-    spans: tuple[tuple[float, float], tuple[float, float]],
-    numbers: list[int],
+    plot: Plot, sheet: Sheet, box: Box, spans: tuple[tuple[float, float], tuple[float, float]], numbers: list[int]
 ) -> str:
     """The cursor at rest, hidden, and the data of its script.
 

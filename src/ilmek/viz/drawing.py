@@ -73,10 +73,7 @@ def draw_still(pen: Pen, drawing: Drawing) -> None:
 
 
 def _corners(points: ComplexArray) -> tuple[complex, complex]:
-    return (
-        complex(points.real.min(), points.imag.min()),
-        complex(points.real.max(), points.imag.max()),
-    )
+    return (complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max()))
 
 
 def look_numbers(strokes: tuple[Stroke, ...], looks: Mapping[str, int]) -> dict[int, int]:

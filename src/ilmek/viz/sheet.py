@@ -61,13 +61,7 @@ class Sheet:
         self.line(points, color=color, linewidth=linewidth, zorder=zorder)
 
     def area(
-        self,
-        points: ComplexArray,
-        *,
-        facecolor: str,
-        edgecolor: str = "",
-        linewidth: float = 0.0,
-        zorder: float = 1.0,
+        self, points: ComplexArray, *, facecolor: str, edgecolor: str = "", linewidth: float = 0.0, zorder: float = 1.0
     ) -> None:
         """Draw a filled polygon [pt]; its edge is drawn if it has a colour."""
         through = self._through(points)

@@ -6,7 +6,7 @@ from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
 from ilmek.io.chart.legend import thousands
-from ilmek.io.chart.printing import PrintCanvas
+from ilmek.io.chart.printing import PrintCanvas, title_of
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.units import counted, format_number
@@ -15,12 +15,12 @@ _LEFT, _TOP, _WIDTH, _HEIGHT = 54.0, 800.0, 487.0, 620.0
 _GREY = (0.36, 0.40, 0.44)
 
 
-def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout, name: str) -> None:
+def draw_overview(canvas: PrintCanvas, chart: Chart, plan: SheetLayout) -> None:
     """Draw the carpet in true proportion under the grid of sheets; each number is a link to its sheet."""
     canvas.bookmarkPage("overview")
     canvas.addOutlineEntry("The whole carpet", "overview", 0)
     canvas.setFont(STRONG, 16)
-    canvas.drawString(_LEFT, _TOP, f"Knot chart: {name}")
+    canvas.drawString(_LEFT, _TOP, f"Knot chart: {title_of(chart)}")
     canvas.setFont(TEXT, 9)
     canvas.setFillColorRGB(*_GREY)
     for line, text in enumerate(_facts(chart, plan)):

@@ -19,11 +19,7 @@ from ilmek.io.chart.bidi import visual_runs
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.symbols import ARABIC, DEVANAGARI, HAN, HANGUL, HEBREW, TEXT, register_fonts
 
-_SCRIPTS = {
-    HEBREW: ((0x0590, 0x05FF),),
-    ARABIC: ((0x0600, 0x06FF), (0x0750, 0x077F)),
-    DEVANAGARI: ((0x0900, 0x097F),),
-}
+_SCRIPTS = {HEBREW: ((0x0590, 0x05FF),), ARABIC: ((0x0600, 0x06FF), (0x0750, 0x077F)), DEVANAGARI: ((0x0900, 0x097F),)}
 """Code points for which a font comes before TEXT, which has no joined forms and no marks in place."""
 
 

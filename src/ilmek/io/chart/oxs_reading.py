@@ -245,11 +245,7 @@ def _whole(given: dict[str, str], name: str, most: int) -> int:
 
 
 def _chart(
-    reader: _Reader,
-    stitches: _Stitches,
-    notes: tuple[str, ...],
-    size: CarpetSize | None,
-    quality: Quality | None,
+    reader: _Reader, stitches: _Stitches, notes: tuple[str, ...], size: CarpetSize | None, quality: Quality | None
 ) -> tuple[Chart, tuple[str, ...]]:
     left_out = [counted(count, *names) for names, count in sorted(reader.left_out.items())]
     if left_out:

@@ -14,24 +14,21 @@ from ilmek.io.chart.front_pages import draw_overview
 from ilmek.io.chart.grid import draw_sheet
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.printing import PLAIN, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, Printing, printed_file, title_of
 from ilmek.io.chart.sheets import SheetLayout, cut
 from ilmek.io.chart.symbols import symbols
 from ilmek.progress import SILENT, Progress
 
 
-def write_chart_pdf(
-    path: Path, chart: Chart, progress: Progress = SILENT, *, title: str = "", printing: Printing = PLAIN
-) -> None:
+def write_chart_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, printing: Printing = PLAIN) -> None:
     """Write the chart to `path`.
 
     A sheet takes about 0.01 s; `chart_cut` gives the number of sheets.
     """
     plan = chart_cut(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Knot chart: {name}", printing.digits) as canvas:
-        draw_overview(canvas, chart, plan, name)
+    with printed_file(path, f"Knot chart: {title_of(chart)}", printing.digits) as canvas:
+        draw_overview(canvas, chart, plan)
         draw_legend(canvas, chart, inks, printing)
         for sheet in plan.sheets():
             draw_sheet(canvas, chart, plan, sheet, inks)

@@ -23,14 +23,7 @@ from ilmek.errors import PictureError
 from ilmek.io.carpet_facts import chart_facts, chart_of_facts, read_facts
 from ilmek.io.overlay_text import overlay_text, read_overlay
 from ilmek.io.picture import METRE
-from ilmek.io.picture_file import (
-    DamagedError,
-    MeteredBytes,
-    check_structure,
-    pillow_settings,
-    read_bytes,
-    shortened,
-)
+from ilmek.io.picture_file import DamagedError, MeteredBytes, check_structure, pillow_settings, read_bytes, shortened
 from ilmek.progress import SILENT, Cancelled, Progress
 
 KEY, OVERLAY_KEY = "ilmek-chart", "ilmek-overlay"

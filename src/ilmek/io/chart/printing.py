@@ -10,6 +10,7 @@ from reportlab.lib.pagesizes import A4
 from reportlab.pdfgen.canvas import Canvas
 
 from ilmek.carpet.bill import YarnBill
+from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import Mounting
 from ilmek.io.chart.symbols import register_fonts
 from ilmek.records import record
@@ -64,6 +65,11 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
     def draw_sign(self, x: float, y: float, sign: str) -> None:
         """The symbol of a yarn, centred on x."""
         super().drawCentredString(x, y, sign)
+
+
+def title_of(chart: Chart) -> str:
+    """The name of a chart's size, or its columns and rows."""
+    return chart.size.name or f"{chart.columns} × {chart.rows} knots"
 
 
 @contextmanager

@@ -11,7 +11,7 @@ from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, sp
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
 from ilmek.io.chart.lettering import cut_line, draw_line
-from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
 
@@ -79,8 +79,7 @@ def write_colours_pdf(
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
     halves = "; L, R: half knots on left, right warps" if chart.overlay.halves else ""
     marks = halves + ("; j: jufti knots" if chart.overlay.juftis else "")
-    name = chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Rows to weave by: {name}", printing.digits) as canvas:
+    with printed_file(path, f"Rows to weave by: {title_of(chart)}", printing.digits) as canvas:
         draw_legend(canvas, chart, inks, printing)
         for number, lines in enumerate(colour_pages(chart, direction), start=1):
             canvas.setFillGray(0.1)
@@ -88,7 +87,7 @@ def write_colours_pdf(
             canvas.drawString(_LEFT, _TOP, "Rows by colours")
             canvas.setFont(TEXT, 7)
             canvas.setFillColorRGB(*_GREY)
-            canvas.drawRightString(A4[0] - _LEFT, _TOP, f"{name}, page {number} of {pages}")
+            canvas.drawRightString(A4[0] - _LEFT, _TOP, f"{title_of(chart)}, page {number} of {pages}")
             canvas.drawString(
                 _LEFT,
                 _TOP - 12.0,

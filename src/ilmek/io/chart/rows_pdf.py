@@ -11,7 +11,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import directions, row_codes, runs_of
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.rows_layout import FOOT, HEAD, LEFT, MARGIN, RIGHT, RULER, SMALLEST, RowsLayout, rows_layout
 from ilmek.io.chart.rows_strip import Strip, Typesetter, draw_strip, knots_in_words
 from ilmek.io.chart.symbols import SIGNS, STRONG, TEXT, symbols
@@ -28,13 +28,7 @@ def chart_rows_layout(chart: Chart, direction: str = "both") -> RowsLayout:
 
 
 def write_rows_pdf(
-    path: Path,
-    chart: Chart,
-    direction: str = "both",
-    progress: Progress = SILENT,
-    *,
-    title: str = "",
-    printing: Printing = PLAIN,
+    path: Path, chart: Chart, direction: str = "both", progress: Progress = SILENT, *, printing: Printing = PLAIN
 ) -> None:
     """Write the rows of a chart to `path`, each as one strip where it fits the paper.
 
@@ -43,8 +37,7 @@ def write_rows_pdf(
     """
     plan = chart_rows_layout(chart, direction)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    with printed_file(path, f"Rows to weave by: {name}", printing.digits) as canvas:
+    with printed_file(path, f"Rows to weave by: {title_of(chart)}", printing.digits) as canvas:
         draw_legend(canvas, chart, inks, printing)
         setter = Typesetter(canvas, plan.size)
         page: list[Strip] = []
@@ -53,7 +46,7 @@ def write_rows_pdf(
             page.append(strip)
             if len(page) == plan.lines or (strip.number == chart.rows and strip.stop == chart.columns):
                 number += 1
-                _draw_page(setter, page, plan, (number, name, direction, marks), inks)
+                _draw_page(setter, page, plan, (number, title_of(chart), direction, marks), inks)
                 page = []
                 progress(number / plan.count)
 
@@ -130,9 +123,5 @@ def _write_head(canvas: PrintCanvas, plan: RowsLayout, titles: tuple[str, str], 
         f"Row 1 is the first that is woven, at the lower edge. Count over symbol: a run of knots; a symbol alone: one "
         f"knot. {_reads(direction)}",
     )
-    canvas.drawString(
-        MARGIN,
-        top - 33.0,
-        marks,
-    )
+    canvas.drawString(MARGIN, top - 33.0, marks)
     canvas.drawRightString(plan.width - MARGIN, MARGIN - FOOT / 2, "Below each row: its knots of each yarn.")

@@ -15,7 +15,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.io.chart.grid import draw_cells
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_entry
-from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file
+from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.sheets import SheetLayout, require_wall
 from ilmek.io.chart.symbols import STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
@@ -65,17 +65,14 @@ def _entries(width: float) -> int:
     return max(1, int((width - 2 * _SIDE) // _ENTRY))
 
 
-def write_wall_pdf(
-    path: Path, chart: Chart, progress: Progress = SILENT, *, title: str = "", printing: Printing = PLAIN
-) -> None:
+def write_wall_pdf(path: Path, chart: Chart, progress: Progress = SILENT, *, printing: Printing = PLAIN) -> None:
     """Write the chart as one sheet to `path`. Raises CarpetError as `wall_sheet`."""
     sheet = wall_sheet(chart)
     inks = Inks.of(chart.yarns, symbols(chart.yarns))
-    name = title or chart.size.name or f"{chart.columns} × {chart.rows} knots"
-    page = (sheet.width / sheet.unit, sheet.height / sheet.unit)
-    with printed_file(path, f"Knot chart: {name}", printing.digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
+    page, title = (sheet.width / sheet.unit, sheet.height / sheet.unit), f"Knot chart: {title_of(chart)}"
+    with printed_file(path, title, printing.digits, pagesize=page, pdfVersion=(1, 6)) as canvas:
         canvas.scale(1 / sheet.unit, 1 / sheet.unit)
-        _write_head(canvas, chart, sheet, name)
+        _write_head(canvas, chart, sheet)
         canvas.saveState()
         canvas.translate(
             (sheet.width - chart.columns * sheet.cells.cell_width) / 2,
@@ -96,10 +93,10 @@ def write_wall_pdf(
     progress(1.0)
 
 
-def _write_head(canvas: PrintCanvas, chart: Chart, sheet: WallSheet, name: str) -> None:
+def _write_head(canvas: PrintCanvas, chart: Chart, sheet: WallSheet) -> None:
     canvas.setFillGray(0.1)
     canvas.setFont(STRONG, 16)
-    canvas.drawString(_SIDE, sheet.height - 34.0, f"Knot chart: {name}")
+    canvas.drawString(_SIDE, sheet.height - 34.0, f"Knot chart: {title_of(chart)}")
     canvas.setFont(TEXT, 9)
     width, length = (format_number(side * 100, 4) for side in sheet.lengths)
     canvas.drawString(

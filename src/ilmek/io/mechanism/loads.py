@@ -143,11 +143,7 @@ def frictions_of(
 
 
 def _frictions(
-    name: str,
-    table: Table,
-    parts: Mapping[str, Sequence[Joint]],
-    pins: Mapping[str, PinMember],
-    source: SourceText,
+    name: str, table: Table, parts: Mapping[str, Sequence[Joint]], pins: Mapping[str, PinMember], source: SourceText
 ) -> Iterator[JointFriction]:
     with source.located("friction", name):
         if name not in parts:

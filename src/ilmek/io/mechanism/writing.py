@@ -134,10 +134,7 @@ class _Writer:
 
     def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Json]:
         if isinstance(load, WindowedLoad) and _is_default(load.side):
-            return {
-                **self.load(name, load.load, turning),
-                "while": self.window(load.window, load.input_name, turning),
-            }
+            return {**self.load(name, load.load, turning), "while": self.window(load.window, load.input_name, turning)}
         if isinstance(load, TabulatedLoad) and load.turns == turning.get(load.input_name):
             inner = self.load(name, load.load, turning)
             unit = "N" if "force" in inner else "N*m"

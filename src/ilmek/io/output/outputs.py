@@ -40,11 +40,7 @@ class Outputs:
     """
 
     def __init__(
-        self,
-        *,
-        force: bool = False,
-        inputs: Mapping[str, Path] = MappingProxyType({}),
-        progress: Progress = SILENT,
+        self, *, force: bool = False, inputs: Mapping[str, Path] = MappingProxyType({}), progress: Progress = SILENT
     ) -> None:
         self.force, self.progress = force, progress
         self._inputs = {label: resolved(path) for label, path in inputs.items() if path.exists()}

@@ -7,7 +7,7 @@ from ilmek.io.plc.sequence_logic import sequence_units
 from ilmek.io.plc.sequence_variables import PlcSize, row_structure
 from ilmek.io.plc.state_model import state_units
 from ilmek.io.plc.units import PlcProject
-from ilmek.loom.control.interlocks import TensionLimits, usual_limits
+from ilmek.loom.control.interlocks import usual_limits
 from ilmek.loom.operations import LoomProgramme, LoomSetup
 
 CYCLE = 0.010
@@ -17,10 +17,9 @@ MOST_COLUMNS = 32_000
 """Largest number of knots of a row: an INT is the index of a knot."""
 
 
-def plc_project(programme: LoomProgramme, limits: TensionLimits | None = None) -> PlcProject:
+def plc_project(programme: LoomProgramme) -> PlcProject:
     """The control program that weaves a programme's carpet.
 
-    limits  of the warps' tension; default: those of the controller
     Raises LoomError for a row of more than MOST_COLUMNS knots.
     """
     setup = programme.setup
@@ -30,7 +29,7 @@ def plc_project(programme: LoomProgramme, limits: TensionLimits | None = None) -
     units = (
         *state_units(),
         *cam_units(cam_tables(setup.cyclograms)),
-        interlock_unit(setup.heads, limits or usual_limits(setup.warp_pitch)),
+        interlock_unit(setup.heads, usual_limits(setup.warp_pitch)),
         *sequence_units(size),
     )
     return PlcProject("loom", (row_structure(size),), units, "Loom", CYCLE, _remarks(setup, programme.digest))

@@ -115,6 +115,6 @@ class PlcProject:
         return "\n".join((head, *texts))
 
 
-def indented(text: str, levels: int = 1) -> str:
-    """Lines moved to the right by a number of levels; empty lines stay empty."""
-    return "\n".join(f"{levels * INDENT}{line}" if line else line for line in text.splitlines())
+def indented(text: str) -> str:
+    """Lines moved to the right by a level; empty lines stay empty."""
+    return "\n".join(f"{INDENT}{line}" if line else line for line in text.splitlines())

@@ -97,11 +97,6 @@ class CamPosition:
     front: float
     lift: float
 
-    @property
-    def reeded(self) -> bool:
-        """Whether a reed stands before its cams."""
-        return self.front > self.guide_radius
-
 
 @record
 class SideView:

@@ -49,18 +49,15 @@ class LoomAssembly:
     buildable = computed(
         "", "no part through or too near to another, all in one group, each held by a joint", lambda it: it.holds
     )
-    clashes = computed(
-        "1",
-        "pairs of parts that are through each other at an angle of a row or a knot",
-        lambda it: len(it.through),
-        name="assembly_clashes",
-    )
-    number_of_groups = computed(
-        "1",
-        "groups of parts that touch: 1 where each is held",
-        lambda it: len(it.contacts.groups),
-        name="assembly_groups",
-    )
+
+    @computed("1", "pairs of parts that are through each other at an angle of a row or a knot", name="assembly_clashes")
+    def clashes(self) -> int:
+        return len(self.through)
+
+    @computed("1", "groups of parts that touch: 1 where each is held", name="assembly_groups")
+    def number_of_groups(self) -> int:
+        return len(self.contacts.groups)
+
     degrees_of_freedom = computed(
         "1",
         "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
@@ -139,18 +136,14 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
             0,
             "1",
             _worst(whole.through, titles) or "meshes of all parts over both cyclograms",
-            cure="change the arrangement so that the parts named have room",
-            parts=tuple(dict.fromkeys(through)),
-        ),
+        ).with_cure("change the arrangement so that the parts named have room", *dict.fromkeys(through)),
         at_most(
             "groups of parts that touch",
             len(groups),
             1,
             "1",
             "meshes of all parts at the start of a row, within 0.1 mm; more than one: parts that nothing holds",
-            cure="give the parts named supports",
-            parts=tuple(dict.fromkeys(loose)),
-        ),
+        ).with_cure("give the parts named supports", *dict.fromkeys(loose)),
         _joints(whole.loom),
         *drive_checks(loom_tree(whole.loom)),
         _closed(whole.loom),
@@ -168,9 +161,7 @@ def _joints(loom: LoomDesign) -> Check:
         0,
         "1",
         ", ".join(body.id for body in without) or "joints of all bodies to what carries them",
-        cure="give the bodies named bearings, guides or fasteners",
-        parts=tuple(dict.fromkeys(parts)),
-    )
+    ).with_cure("give the bodies named bearings, guides or fasteners", *dict.fromkeys(parts))
 
 
 def _is_without_joint(body: RigidBody) -> bool:
@@ -199,9 +190,7 @@ def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ..
             limit - DEVIATION,
             "mm",
             f"parameter clearance, assumed by this project, less the meshes' deviation; {_where(near)}",
-            cure="set a larger clearance",
-            parts=near.approach.parts,
-        )
+        ).with_cure("set a larger clearance", *near.approach.parts)
         for near in least.values()
     )
 

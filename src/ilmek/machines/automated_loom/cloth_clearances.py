@@ -128,9 +128,7 @@ def cloth_checks(loom: LoomDesign) -> tuple[Check, ...]:
             loom.params.clearance,
             "mm",
             source.format(near.angle / deg),
-            cure=CURES.get(near.body, "leave the spans of the shed open"),
-            parts=parts[near.body],
-        )
+        ).with_cure(CURES.get(near.body, "leave the spans of the shed open"), *parts[near.body])
         for near in cloth_clearances(loom)
     )
 

@@ -14,14 +14,8 @@ def drive_checks(tree: Tree) -> tuple[Check, ...]:
     named, passive = ", ".join(free.undriven), f"rank of joints, transmissions and motors; passive: {len(free.passive)}"
     return (
         at_most(
-            "degrees of freedom",
-            free.number,
-            free.driven,
-            "1",
-            f"no motor holds: {named}" if named else passive,
-            cure="give the bodies named a motor, or what keeps them to a body that has one",
-            parts=tuple(dict.fromkeys(parts)),
-        ),
+            "degrees of freedom", free.number, free.driven, "1", f"no motor holds: {named}" if named else passive
+        ).with_cure("give the bodies named a motor, or what keeps them to a body that has one", *dict.fromkeys(parts)),
         at_most(
             "axes that motors drive",
             free.axes,
@@ -30,9 +24,7 @@ def drive_checks(tree: Tree) -> tuple[Check, ...]:
             f"in excess: {', '.join(free.excess)}"
             if free.excess
             else "motors of the tree, and the rank that each adds",
-            cure="leave out the motors named, or give each a body to drive",
-            parts=free.excess,
-        ),
+        ).with_cure("leave out the motors named, or give each a body to drive", *free.excess),
         _power(tree),
     )
 
@@ -49,6 +41,4 @@ def _power(tree: Tree) -> Check:
         sum(number for _, number in motors),
         "1",
         f"no power: {', '.join(weak)}" if weak else "amplifiers in the cabinet, one for each motor",
-        cure="give each motor its power and an amplifier",
-        parts=(AMPLIFIER, *weak),
-    )
+    ).with_cure("give each motor its power and an amplifier", AMPLIFIER, *weak)

@@ -109,6 +109,4 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:
         TIPPING,
         "1",
         "weight at the columns against the beat at its beam; assumed by this project",
-        cure="set a lower speed of the crank, or bolt the feet to the floor",
-        parts=(part_id("levelling-foot"),),
-    )
+    ).with_cure("set a lower speed of the crank, or bolt the feet to the floor", part_id("levelling-foot"))

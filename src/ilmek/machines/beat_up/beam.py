@@ -75,21 +75,13 @@ def beam_checks(section: HollowSquare, span: float, carried: float) -> tuple[Che
     cure = "set a lower speed of the crank, or a narrower carpet"
     return (
         at_most(
-            "deflection of the beat's beam",
-            sag,
-            SAG_SHARE * span,
-            "mm",
-            "span over 2000, assumed by this project",
-            cure=cure,
-            parts=(BEAM,),
-        ),
+            "deflection of the beat's beam", sag, SAG_SHARE * span, "mm", "span over 2000, assumed by this project"
+        ).with_cure(cure, BEAM),
         at_most(
             "stress of the beat's beam",
             stress,
             STEEL.strength / SAFETY,
             "MPa",
             "yield of S235 over 2, assumed by this project",
-            cure=cure,
-            parts=(BEAM,),
-        ),
+        ).with_cure(cure, BEAM),
     )

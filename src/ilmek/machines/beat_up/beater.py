@@ -156,9 +156,7 @@ def plate_check(found: Beater, acceleration: float) -> tuple[Check, ...]:
             STEEL.strength / PLATE_SAFETY,
             "MPa",
             "yield of S235 over 3, assumed by this project",
-            cure="set wider or thicker links, or a lighter beater_mass",
-            parts=(found.plate.id,),
-        ),
+        ).with_cure("set wider or thicker links, or a lighter beater_mass", found.plate.id),
     )
 
 
@@ -173,18 +171,14 @@ def beater_checks(found: Beater) -> tuple[Check, ...]:
             found.teeth * found.tooth.mass,
             "kg",
             "teeth of the parts list",
-            cure=lighter,
-            parts=found.ids,
-        ),
+        ).with_cure(lighter, *found.ids),
         at_most(
             "inertia of the beater about its pivot, off that of its mass at the striking edge",
             abs(found.inertia_share - 1) if found.mass else 0.0,
             INERTIA_TOLERANCE,
             "1",
             point,
-            cure="set another beater_mass, or more travel.stroke_warps",
-            parts=found.ids,
-        ),
+        ).with_cure("set another beater_mass, or more travel.stroke_warps", *found.ids),
     )
 
 

@@ -59,23 +59,15 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     return (
         at_least(*named, cure="leave the ground of the crank-rocker open", parts=(PART_IDS["coupler"],)),
         at_least(
-            "clearance: rocker at rest and heads that knot",
-            min(_over(linkage, side)),
-            clearance,
-            "mm",
-            source,
-            cure=cure,
-            parts=(PART_IDS["rocker"],),
-        ),
+            "clearance: rocker at rest and heads that knot", min(_over(linkage, side)), clearance, "mm", source
+        ).with_cure(cure, PART_IDS["rocker"]),
         at_least(
             "clearance: plate of the crank-rocker and heads that retreat",
             min(_before(linkage, side)),
             clearance,
             "mm",
             source,
-            cure=cure,
-            parts=(PLATE,),
-        ),
+        ).with_cure(cure, PLATE),
     )
 
 

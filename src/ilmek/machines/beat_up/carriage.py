@@ -27,7 +27,7 @@ from ilmek.part.shapes import Prism, bar, box
 from ilmek.part.tree import Occurrence, in_line
 from ilmek.plane.contours import polygon, rounded_hull
 from ilmek.report import Hole
-from ilmek.units import format_quantity, mm
+from ilmek.units import in_mm, mm, round_size
 
 AXIS_SIDE = 80 * mm
 """Side of the section of the belt axis [m]; assumed by this project."""
@@ -96,7 +96,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
         PLATE,
         "plate of crank and rocker",
         "laser-cut part",
-        format_quantity(thickness, "mm"),
+        in_mm(thickness),
         Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness),
         STEEL,
     )
@@ -120,7 +120,7 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> t
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
-    size = f"round {format_quantity(diameter, 'mm')}"
+    size = round_size(diameter)
     shared = Part("beat-up/shared-shaft", "shaft of all cranks", "turned part", size, bar(diameter, length), PIN_STEEL)
     pulley = max(linkage.params.width / 2, diameter / 2 + _AROUND)
     ring = rounded_hull(np.array([0, axis]), pulley)
@@ -149,7 +149,7 @@ def pivot_pin(linkage: BeatUp) -> Part:
 
 @lru_cache(maxsize=16)
 def _pivot_pin(diameter: float, thickness: float) -> Part:
-    size = f"round {format_quantity(diameter, 'mm')}"
+    size = round_size(diameter)
     shape = bar(diameter, layer("plate", thickness) + thickness)
     return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", size, shape, PIN_STEEL)
 

@@ -36,7 +36,7 @@ from ilmek.part.placement import placement
 from ilmek.part.shapes import Placed, Sum, Turned, bar, tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
-from ilmek.units import format_quantity, turn
+from ilmek.units import format_quantity, in_mm, turn
 from ilmek.weaving.fell import Fabric
 
 MOTOR = "beat-up/motor"
@@ -185,7 +185,7 @@ def _coupled(found: CrankStart) -> Iterator[Part]:
     )
     if found.start_flywheel > 0:
         wheel = _wheel(found.start_flywheel)
-        size_of = f"rim round {format_quantity(2 * FLYWHEEL_RADIUS, 'mm')}, on the motor's side"
+        size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"
         yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
 
 

@@ -90,11 +90,11 @@ class BeatUp:
     rocker = computed("1", "rocker over ground (paper, Eq 3)", lambda it: float(it.links.rocker))
     crank_coupler_ratio = computed("1", "crank over coupler, r/l", lambda it: it.crank / it.coupler)
     swing = computed("deg", "swing of the rocker between its dead centres", lambda it: float(it.dead_centres.swing))
-    crank_rotation = computed(
-        "deg",
-        "rotation of the crank from the beat to the other dead centre",
-        lambda it: float(it.dead_centres.rotation),
-    )
+
+    @computed("deg", "rotation of the crank from the beat to the other dead centre")
+    def crank_rotation(self) -> float:
+        return float(self.dead_centres.rotation)
+
     beta = computed("deg", "crank angle of the beat, the extended dead centre", lambda it: float(it.dead_centres.beta))
 
     period = computed("s", "time of one beat, a turn of the crank", lambda it: turn / it.params.speed)

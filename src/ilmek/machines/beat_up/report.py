@@ -111,23 +111,17 @@ def criteria(design: BeatUp) -> tuple[Check, ...]:
     ratio_cure, margin_cure = "set beta, or a shorter crank", "set a shorter crank"
     rule, links = f"{PAPER}, criterion", tuple(PART_IDS[name] for name in LINKS)
     return (
-        at_least(
-            *("transmission angle, to run at all", angle, tolerated, "deg", f"{rule} i: 90° - µ < 50°"),
-            cure=turns,
-            parts=links,
+        at_least(*("transmission angle, to run at all", angle, tolerated, "deg", f"{rule} i: 90° - µ < 50°")).with_cure(
+            turns, *links
         ),
-        at_least(
-            *("transmission angle, to run well", angle, wanted, "deg", f"{rule} i: 90° - µ < 40°"),
-            cure=turns,
-            parts=links,
+        at_least(*("transmission angle, to run well", angle, wanted, "deg", f"{rule} i: 90° - µ < 40°")).with_cure(
+            turns, *links
         ),
         at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{rule} ii", cure=ratio_cure, parts=links[:2]),
         at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{rule} iii", cure=margin_cure, parts=links),
         at_least(
-            *("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"),
-            cure=beats,
-            parts=links[2:],
-        ),
+            *("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N")
+        ).with_cure(beats, *links[2:]),
     )
 
 

@@ -86,9 +86,7 @@ def beat_up_strength_checks(found: BeatUpStrength) -> tuple[Check, ...]:
             BRIDGE,
             "1",
             "bridge between the holes, assumed by this project",
-            cure="set a longer ground, thinner pins, or other links",
-            parts=tuple(PART_IDS[name] for name in LINKS),
-        ),
+        ).with_cure("set a longer ground, thinner pins, or other links", *tuple(PART_IDS[name] for name in LINKS)),
     )
 
 

@@ -127,26 +127,14 @@ def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
             params.warp_force,
             "N",
             "force that the rows need, fabric assumed by this project: hammer.packing, laid_pitch, jammed_pitch",
-            cure=carried,
-            parts=found.beater.ids,
-        ),
+        ).with_cure(carried, *found.beater.ids),
         at_least(
-            "beater out of the warps, at its farthest",
-            found.clear,
-            params.reach,
-            "mm",
-            "parameter travel.reach",
-            cure="set shorter teeth, a longer ground, or a larger swing",
-            parts=found.beater.ids[:1],
-        ),
+            "beater out of the warps, at its farthest", found.clear, params.reach, "mm", "parameter travel.reach"
+        ).with_cure("set shorter teeth, a longer ground, or a larger swing", *found.beater.ids[:1]),
         *beater_checks(found.beater),
         *plate_check(found.beater, found.stroke_force / found.beater.mass if found.beater.mass else 0.0),
-        must(
-            "a motor moves the slide",
-            found.slide is not None,
-            "motor table, margin 1.25",
-            cure="set a lower acceleration of the slide",
-            parts=(MOTOR,),
+        must("a motor moves the slide", found.slide is not None, "motor table, margin 1.25").with_cure(
+            "set a lower acceleration of the slide", MOTOR
         ),
     )
     if found.mode == "start-stop" or found.strokes == 1:

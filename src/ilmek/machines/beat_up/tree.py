@@ -147,14 +147,7 @@ def crank_rockers(
             pinned("crank", layer("coupler", thick)),
         ),
         body("coupler", PART_IDS["crank"], "C", [_turned(lengths["crank"], -layer("coupler", thick), coupler)]),
-        body(
-            "rocker",
-            parent,
-            "A",
-            [rocker_position(design, z) for z in stations],
-            pinned("rocker", 0.0),
-            *struck,
-        ),
+        body("rocker", parent, "A", [rocker_position(design, z) for z in stations], pinned("rocker", 0.0), *struck),
     )
 
 
@@ -188,7 +181,7 @@ def link_motions(design: BeatUp, drive: str, angle: FloatArray, crank: FloatArra
     return {PART_IDS[name]: one for name, one in motions_of(motion, rest, parents, drive, angle).items()}
 
 
-def in_side_view(design: BeatUp, across: float = 0.0) -> Placement:
+def in_side_view(design: BeatUp) -> Placement:
     """Where the linkage lies in a loom whose fell is the origin: its rocker points to the back at the beat.
 
     It stands mirrored in the side view: a direction e^(i t) of it is e^(i (g - t)) there, g = pi + r0, with r0 the
@@ -197,7 +190,7 @@ def in_side_view(design: BeatUp, across: float = 0.0) -> Placement:
     first, axis = design.rocker_angles[0], shaft(design)
     up, front = math.sin(math.pi + first), math.cos(math.pi + first)
     rotation = np.array([[0.0, 0.0, 1.0], [up, -front, 0.0], [front, up, 0.0]])
-    return Placement(np.array([across, axis.imag, axis.real]), rotation)
+    return Placement(np.array([0.0, axis.imag, axis.real]), rotation)
 
 
 def rocker_position(design: BeatUp, z: float = 0.0) -> Placement:

@@ -60,12 +60,10 @@ class CamAnalysis:
     area = computed(
         "cm^2", "area of the face, bore included", lambda it: area_of(it.design), absent="there is not one face"
     )
-    mass = computed(
-        "kg",
-        "mass of the cam, bored; of both where there are two",
-        lambda it: mass_of(it.design),
-        absent="undercut leaves no face",
-    )
+
+    @computed("kg", "mass of the cam, bored; of both where there are two", absent="undercut leaves no face")
+    def mass(self) -> float | None:
+        return mass_of(self.design)
 
     @computed("mm", "range of the contact along a flat face, from its stem or pivot", optional=True)
     def face_span(self) -> Json:

@@ -42,18 +42,17 @@ class CompliantFollower:
         "Hz", "of the follower on its linkage", lambda it: float(it.follower.frequencies[0]) / (2 * math.pi)
     )
     time_ratio = computed("", "time of the rise over the natural period", lambda it: it.times[0] * it.natural_frequency)
-    lag_max = computed(
-        "mm",
-        "largest distance of the mass from its position by the cam",
-        lambda it: it.arc * float(np.max(np.abs(it.response.lag))),
-    )
+
+    @computed("mm", "largest distance of the mass from its position by the cam")
+    def lag_max(self) -> float:
+        return self.arc * float(np.max(np.abs(self.response.lag)))
+
     residual_vibration = computed("mm", "amplitude of the mass after the rise", lambda it: it.residual(0))
     residual_vibration_fall = computed("mm", "amplitude of the mass after the fall", lambda it: it.residual(1))
-    contact_springy_min = computed(
-        "N",
-        "least force on the cam along the motion, with the lag",
-        lambda it: float(np.min(it.response.contact)) / it.arc,
-    )
+
+    @computed("N", "least force on the cam along the motion, with the lag")
+    def contact_springy_min(self) -> float:
+        return float(np.min(self.response.contact)) / self.arc
 
     @property
     def times(self) -> tuple[float, float]:

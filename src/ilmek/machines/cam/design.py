@@ -78,12 +78,11 @@ class CamDesign:
     rise = computed("deg", "cam angle of the rise", lambda it: it.params.rise)
     dwell = computed("deg", "cam angle for which the follower stays lifted", lambda it: it.params.dwell)
     fall = computed("deg", "cam angle of the fall", lambda it: it.params.fall_angle)
-    power_max = computed(
-        "W",
-        "greatest shaft power",
-        lambda it: None if it.extremes.jammed else max(it.extremes.torque.value, 0.0) * it.params.speed,
-        absent=JAMMED,
-    )
+
+    @computed("W", "greatest shaft power", absent=JAMMED)
+    def power_max(self) -> float | None:
+        return None if self.extremes.jammed else max(self.extremes.torque.value, 0.0) * self.params.speed
+
     spring_rate = computed(
         "N/mm", "rate of the return spring", lambda it: it.follower_load.rate / it.params.per_unit**2
     )
@@ -96,13 +95,10 @@ class CamDesign:
     def lift_off_speed(self) -> float | None:
         return self.lift_off.speed if math.isfinite(self.lift_off.speed) else None
 
-    roller_name = computed(
-        "",
-        "roller of the table",
-        lambda it: it.roller.name if it.roller else None,
-        name="roller",
-        absent="none, or none fits",
-    )
+    @computed("", "roller of the table", name="roller", absent="none, or none fits")
+    def roller_name(self) -> str | None:
+        return self.roller.name if self.roller else None
+
     roller_radius = computed(
         "mm", "radius of roller or ball; 0 of knife and flat", lambda it: it.cam.roller_radius, least=0.0
     )

@@ -27,7 +27,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import area, circle, polygon
 from ilmek.report import Plate, WorkPiece
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import in_mm, mm, round_size, turn
 
 CAM, FOLLOWER = "cam/cam", "cam/follower"
 """Ids of the bodies."""
@@ -70,7 +70,7 @@ def cam_parts(design: CamDesign) -> Iterator[Part]:
     """The cam, or both conjugate ones; nothing where no surface can guide the follower."""
     if design.undercut:
         return
-    title, kind = f"cam, lift {format_quantity(design.params.lift, 'mm')}", design.params.kind
+    title, kind = f"cam, lift {in_mm(design.params.lift)}", design.params.kind
     if kind == "wedge":
         yield _wedge(design, title)
     elif design.params.laid_flat:
@@ -100,7 +100,7 @@ def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
         name,
         title,
         "cam plate",
-        f"{format_quantity(design.face_width, 'mm')} thick",
+        f"{in_mm(design.face_width)} thick",
         Prism(Profile(polygon(trace.surface), cutouts(design, cam), smooth=True), design.face_width),
         MATERIALS[params.material],
         paths=paths,
@@ -110,7 +110,7 @@ def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
 
 
 def _cutter_note(radius: float) -> tuple[str, ...]:
-    return (f"cutter of {format_quantity(2 * radius, 'mm')}",) if radius > 0 else ()
+    return (f"cutter of {in_mm(2 * radius)}",) if radius > 0 else ()
 
 
 def _wedge(design: CamDesign, title: str) -> Part:
@@ -119,7 +119,7 @@ def _wedge(design: CamDesign, title: str) -> Part:
         CAM,
         title,
         "cam plate",
-        f"{format_quantity(design.face_width, 'mm')} thick",
+        f"{in_mm(design.face_width)} thick",
         Prism(section, design.face_width),
         MATERIALS[design.params.material],
         notes=_cutter_note(design.params.cutter_radius or design.cam.roller_radius),
@@ -130,7 +130,7 @@ def _round(design: CamDesign, title: str) -> Part:
     """A barrel or an end cam, drawn laid flat."""
     ends = developed_cams.axial_ends(design)
     shape = flanked(design, ends)
-    size = f"round {format_quantity(2 * float(shape.radii[-1]), 'mm')}"
+    size = round_size(2 * float(shape.radii[-1]))
     material = MATERIALS[design.params.material]
     return Part(CAM, title, "turned part", size, shape, material, drawing=solid_plate(design, title, ends))
 
@@ -147,8 +147,8 @@ def _grooved(design: CamDesign, title: str) -> Part:
     cutter = min(params.cutter_radius or cam.roller_radius, cam.roller_radius)
     paths = {"pitch curve": trace.pitch, "inner flank": inner, "outer flank": outer}
     paths["cutter path"] = trace.parallel(cutter - cam.roller_radius)
-    depth, wide = (format_quantity(size, "mm") for size in (width, 2 * cam.roller_radius))
-    size, outline = f"round {format_quantity(2 * radius, 'mm')}", circle(0j, radius)
+    depth, wide = (in_mm(size) for size in (width, 2 * cam.roller_radius))
+    size, outline = round_size(2 * radius), circle(0j, radius)
     drawn = Plate(
         name="cam",
         title=title,

@@ -84,10 +84,7 @@ class FunctionFourBarParams(FourBarTaskParams):
         doc="direction of the crank at the start, from the ground link, or its opposite; default: free",
     )
     rocker_start: float | None = kind.angle(
-        None,
-        at_least=-turn,
-        at_most=turn,
-        doc="direction of the rocker at the start, or its opposite; default: free",
+        None, at_least=-turn, at_most=turn, doc="direction of the rocker at the start, or its opposite; default: free"
     )
     ground: float = kind.length(100 * mm, at_least=0.1 * mm, at_most=10.0, doc="distance of the pivots")
     error_max: float | None = kind.angle(None, above=0.0, at_most=turn, doc="greatest error of the rocker")

@@ -9,20 +9,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.four_bar_figures import drawn
 from ilmek.machines.function_four_bar.design import FunctionFourBar
-from ilmek.report import (
-    Animation,
-    Axis,
-    Check,
-    Drawing,
-    Figure,
-    Mark,
-    Plot,
-    Reading,
-    Series,
-    Table,
-    at_most,
-    columns,
-)
+from ilmek.report import Animation, Axis, Check, Drawing, Figure, Mark, Plot, Reading, Series, Table, at_most, columns
 from ilmek.synthesis import selection_report as shared
 from ilmek.synthesis.approximation.exchange import PROVEN
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation

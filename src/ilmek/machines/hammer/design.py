@@ -51,19 +51,18 @@ class Hammer:
     fell = computed(
         "mm", "elastic displacement of the fell", lambda it: float(it.fabric.fell(it.force)), name="fell_movement"
     )
-    comb_travel = computed(
-        "mm",
-        "travel of the comb from the laid row to its end",
-        lambda it: float(it.fabric.travel(it.force)),
-        name="comb_way",
-    )
+
+    @computed("mm", "travel of the comb from the laid row to its end", name="comb_way")
+    def comb_travel(self) -> float:
+        return float(self.fabric.travel(self.force))
+
     bump_force = computed("N", "force of a warp from which the cloth is slack", lambda it: it.fabric.bump)
     beat_energy = computed("J", "work of a beat on rows, warps and cloth", lambda it: it.energy * it.params.cloth.warps)
-    packing_energy = computed(
-        "J",
-        "part of it that packs the row and is not returned",
-        lambda it: it.fabric.packing_work(it.spacing) * it.params.cloth.warps,
-    )
+
+    @computed("J", "part of it that packs the row and is not returned")
+    def packing_energy(self) -> float:
+        return self.fabric.packing_work(self.spacing) * self.params.cloth.warps
+
     beat_power = computed("W", "mean power, two beats a turn", lambda it: 2 * it.beat_energy / it.params.turn_time)
 
     @computed("kg", "mass of all that moves: cams and comb, or the comb alone and its crank-rockers")

@@ -114,9 +114,7 @@ def _over_shuttles(task: LoomTask) -> tuple[Check, ...]:
             task.params.clearance,
             "mm",
             "parameter clearance; the carriage runs behind the warps, below the cams",
-            cure="set weft=rapier, or another beat",
-            parts=(part_id("shedding-cam"), CARRIAGE),
-        ),
+        ).with_cure("set weft=rapier, or another beat", part_id("shedding-cam"), CARRIAGE),
     )
 
 

@@ -80,21 +80,18 @@ class CombLinkage:
         "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
     )
     beat_speed = computed("rad/s", "speed of the crank", lambda it: it.one.params.speed)
-    frame_force = computed(
-        "N",
-        "greatest force of all crank-rockers on the frame, on an empty beat",
-        lambda it: it.number * frame_force(it.one.state),
-    )
+
+    @computed("N", "greatest force of all crank-rockers on the frame, on an empty beat")
+    def frame_force(self) -> float:
+        return self.number * frame_force(self.one.state)
 
 
 def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     """Whether comb, links, pins and motor bear the beat."""
     cure = "set more beaters, or a deeper comb"
     return (
-        at_most(
-            *("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength"),
-            cure=cure,
-            parts=(BAR_ID,),
+        at_most(*("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength")).with_cure(
+            cure, BAR_ID
         ),
         at_least(
             "end of the rocker in front of the comb's bar",
@@ -102,9 +99,7 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
             found.one.params.travel.bar_distance,
             "mm",
             "from the warps: leaf_reach and comb_thickness",
-            cure="set a smaller hammer.leaf_reach, or narrower links",
-            parts=(PART_IDS["rocker"], BAR_ID),
-        ),
+        ).with_cure("set a smaller hammer.leaf_reach, or narrower links", PART_IDS["rocker"], BAR_ID),
         *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
         *found.beam.checks,

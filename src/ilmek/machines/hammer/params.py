@@ -152,10 +152,7 @@ class HammerParams(Params):
         10_000 * hour, unit="h", at_least=1.0, at_most=1e10, doc="required life of the screws' nuts"
     )
     axis_speed_value: float = kind.speed(
-        100_000 * mm * rpm,
-        at_least=1e-3,
-        at_most=1e3,
-        doc="allowed product of a screw's diameter and angular speed",
+        100_000 * mm * rpm, at_least=1e-3, at_most=1e3, doc="allowed product of a screw's diameter and angular speed"
     )
     beat_speed: float | None = kind.angular_speed(
         None,

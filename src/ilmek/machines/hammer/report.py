@@ -25,17 +25,13 @@ def checks(design: Hammer) -> tuple[Check, ...]:
     deep, leaf = "set a deeper comb, or more supports", "set a higher leaf, or a shorter reach of it"
     bar, whole = (BAR_ID,), (BAR_ID, LEAF_ID)
     return (
-        at_most(
-            *("distance of the rows", design.spacing, params.cloth.row_distance, "mm", "row_pitch"),
-            cure=harder,
-            parts=whole,
+        at_most(*("distance of the rows", design.spacing, params.cloth.row_distance, "mm", "row_pitch")).with_cure(
+            harder, *whole
         ),
         at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw/kc)", cure=tight),
         at_least(
-            *("uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even"),
-            cure=deep,
-            parts=bar,
-        ),
+            *("uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even")
+        ).with_cure(deep, *bar),
         at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength", cure=deep, parts=bar),
         at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength", cure=leaf, parts=whole[1:]),
         *_drive_checks(design),
@@ -51,10 +47,8 @@ def _drive_checks(design: Hammer) -> tuple[Check, ...]:
         "set a higher beat_speed, or more ballast",
     )
     force = at_least(
-        *("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat"),
-        cure=cure,
-        parts=(BAR_ID, LEAF_ID),
-    )
+        *("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat")
+    ).with_cure(cure, BAR_ID, LEAF_ID)
     return (force, *linkage_checks(design.linkage))
 
 

@@ -81,8 +81,7 @@ def screw_checks(found: AxisScrew) -> tuple[Check, ...]:
             found.speed_limit,
             "m/s",
             "assumed by this project: parameter axis_speed_value",
-            cure=slower,
-        ),
+        ).with_cure(slower),
         at_least(
             "life of the screws", found.life, found.required_life, "h", f"ISO 3408-5, axis_life; {rated}", cure=more
         ),

@@ -138,11 +138,7 @@ def _on_crank_rockers(hammer: Hammer) -> Tree:
         (rocker_position(one),),
     )
     return Tree(
-        (
-            crank_frame(one, linkage.beam, linkage.start, stations),
-            *crank_rockers(one, CARRIAGE, stations),
-            comb,
-        ),
+        (crank_frame(one, linkage.beam, linkage.start, stations), *crank_rockers(one, CARRIAGE, stations), comb),
         (
             *loops(one),
             Closure(JointKind.FIXED, (COMB, PART_IDS["rocker"])),

@@ -30,7 +30,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import in_mm, mm, round_size, turn
 
 if TYPE_CHECKING:
     from ilmek.machines.knotting_dyad.drives import HeadMotion
@@ -207,7 +207,7 @@ def _plate(params: KnottingDyadParams, head: Head, levels: DriveLevels, hole: fl
         ARM_PLATE,
         "plate of the arms",
         "machined link",
-        f"{_mm(PLATE)} thick",
+        f"{in_mm(PLATE)} thick",
         Prism(drilled(outline, bores), PLATE),
         ALUMINIUM,
     )
@@ -220,7 +220,7 @@ def _belt(name: str, title: str, length: float) -> Part:
     section = Profile(rounded_hull(axes, OUTSIDE), (rounded_hull(axes, RADIUS - TOOTH),))
     whole = 2 * length + turn * RADIUS
     bought = Bought(PROFILE.name, BELT_MASS * BELT * whole, length=whole)
-    size = f"{PROFILE.name}, {_mm(BELT)} wide"
+    size = f"{PROFILE.name}, {in_mm(BELT)} wide"
     return Part(name, title, "belt and pulleys", size, Prism(section, BELT), purchase=bought)
 
 
@@ -230,8 +230,4 @@ def _pulley(bore: float) -> Shape:
 
 
 def _made(name: str, title: str, shape: Shape, size: float) -> Occurrence:
-    return Occurrence(Part(name, title, "turned part", f"round {_mm(size)}", shape, STEEL))
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")
+    return Occurrence(Part(name, title, "turned part", round_size(size), shape, STEEL))

@@ -62,22 +62,12 @@ def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
     longest, limits = longest_link(design.dyads[design.built]), design.params
     return (
         real,
-        at_most(
-            "longest link of the arm to build",
-            longest,
-            limits.link_limit,
-            "mm",
-            "link_limit",
-            cure="set a larger link_limit, a smaller pivot_room or bend_limit, or a shorter leg",
+        at_most("longest link of the arm to build", longest, limits.link_limit, "mm", "link_limit").with_cure(
+            "set a larger link_limit, a smaller pivot_room or bend_limit, or a shorter leg"
         ),
         at_least(
-            f"angle between its links, off straight, {where}",
-            off + ROUNDING,
-            limits.bend_limit,
-            "deg",
-            "bend_limit",
-            cure="set a smaller bend_limit, or a larger link_limit",
-        ),
+            f"angle between its links, off straight, {where}", off + ROUNDING, limits.bend_limit, "deg", "bend_limit"
+        ).with_cure("set a smaller bend_limit, or a larger link_limit"),
     )
 
 
@@ -87,38 +77,18 @@ def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
     apart = float(abs(head.arm.tip(np.array([1.0]))[0] - section.handover))
     pivots, tied = 2 * (section.middle - head.arm.pivot.real), 1.0 if head.knot_tied else 0.0
     return (
-        at_least(
-            "the required knot is tied",
-            tied,
-            1.0,
-            "",
-            "word of the yarn's path",
-            cure="leave depth, opening and leg to the design",
+        at_least("the required knot is tied", tied, 1.0, "", "word of the yarn's path").with_cure(
+            "leave depth, opening and leg to the design"
         ),
         at_least(
-            "clearance over the whole cycle",
-            head.clearance_min,
-            section.required - ROUNDING,
-            "mm",
-            "clearance",
-            cure=remedy(params, section),
-        ),
-        at_most(
-            "arm and centre gripper apart at the hand-over",
-            apart,
-            MISSED,
-            "um",
-            "grip of the tips",
-            cure="leave the arm to the design",
+            "clearance over the whole cycle", head.clearance_min, section.required - ROUNDING, "mm", "clearance"
+        ).with_cure(remedy(params, section)),
+        at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips").with_cure(
+            "leave the arm to the design"
         ),
         at_least(
-            "room of the motors between the pivots",
-            pivots,
-            params.pivot_room,
-            "mm",
-            "parameter pivot_room",
-            cure="set a larger link_limit, or a smaller pivot_room",
-        ),
+            "room of the motors between the pivots", pivots, params.pivot_room, "mm", "parameter pivot_room"
+        ).with_cure("set a larger link_limit, or a smaller pivot_room"),
     )
 
 
@@ -131,16 +101,14 @@ def _needle_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
             max(head.clearance_min, 0.0),
             "um",
             "clearance_min; pull of the yarn assumed by this project: parameter yarn_pull",
-            cure="set a broader or thicker needle, narrower links, or a larger opening",
-        ),
+        ).with_cure("set a broader or thicker needle, narrower links, or a larger opening"),
         at_least(
             "needle against buckling under the yarn's pull",
             head.buckling,
             params.buckling_safety * params.yarn_pull,
             "N",
             "Euler; assumed by this project: parameters buckling_safety, yarn_pull",
-            cure="set a broader or thicker needle, or narrower links",
-        ),
+        ).with_cure("set a broader or thicker needle, or narrower links"),
     )
 
 
@@ -166,12 +134,8 @@ def _gap_checks(head: Head) -> tuple[Check, ...]:
 
 def _motion_checks(params: KnottingDyadParams, head: Head, motion: HeadMotion) -> tuple[Check, ...]:
     return (
-        must(
-            "servos of the joints",
-            all(joint.motor for joint in motion.joints),
-            "servos of the table",
-            cure="set a lower joint_acceleration, or a gear_ratio",
-            parts=SERVOS,
+        must("servos of the joints", all(joint.motor for joint in motion.joints), "servos of the table").with_cure(
+            "set a lower joint_acceleration, or a gear_ratio", *SERVOS
         ),
         at_most(
             "pull of a belt of the arms",
@@ -179,9 +143,7 @@ def _motion_checks(params: KnottingDyadParams, head: Head, motion: HeadMotion) -
             (PROFILE.pull or 0.0) * BELT * (TEETH // 2),
             "N",
             f"{PROFILE.name}, {TEETH // 2} teeth in mesh, margin {MARGIN:g}",
-            cure="set a lower joint_acceleration",
-            parts=SERVO_BELTS,
-        ),
+        ).with_cure("set a lower joint_acceleration", *SERVO_BELTS),
         *arm_strength_checks(motion.strength, {**arm_parts(params, head, motion.hole).ids, "O": SLEEVE}),
     )
 

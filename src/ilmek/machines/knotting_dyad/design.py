@@ -84,12 +84,10 @@ class KnottingDyad:
         return [self._solution(dyad, float(bend)) for dyad, bend in zip(self.dyads, self.bends, strict=True)]
 
     roots = computed("", "kind of each of the task's three roots", lambda it: [kind.words for kind in it.kinds])
-    chosen = computed(
-        "",
-        "number of the arm to build, from 1",
-        lambda it: None if it.built is None else it.built + 1,
-        absent="no arm can be built",
-    )
+
+    @computed("", "number of the arm to build, from 1", absent="no arm can be built")
+    def chosen(self) -> int | None:
+        return None if self.built is None else self.built + 1
 
     @property
     def kinds(self) -> tuple[RootKind, ...]:

@@ -81,17 +81,16 @@ class HeadMotion:
         "ms", "of a knot, every motion as quick as the limits of the drives allow", lambda it: it.cycle.period
     )
     torque_max = computed("mN*m", "greatest torque at a joint", lambda it: max(one.torque_max for one in it.joints))
-    torque_rms = computed(
-        "mN*m",
-        "greatest root mean square of the torque at a joint, over the cycle",
-        lambda it: max(one.torque_rms for one in it.joints),
-    )
+
+    @computed("mN*m", "greatest root mean square of the torque at a joint, over the cycle")
+    def torque_rms(self) -> float:
+        return max(one.torque_rms for one in self.joints)
+
     joint_speed_max = computed("rad/s", "greatest speed of a joint", lambda it: max(one.speed_max for one in it.joints))
-    drives = computed(
-        "",
-        "of first and second link, for the worse arm: at the joint and at its servo, SI",
-        lambda it: [{one.name: one.value for one in results_of(joint)} for joint in it.joints],
-    )
+
+    @computed("", "of first and second link, for the worse arm: at the joint and at its servo, SI")
+    def drives(self) -> Json:
+        return [{one.name: one.value for one in results_of(joint)} for joint in self.joints]
 
     @computed("", "servo class that is enough for every joint", absent="a joint has none")
     def servo(self) -> str | None:

@@ -125,10 +125,7 @@ def _motions(params: KnottingDyadParams, head: Head) -> _Motions:
         path,
         _quickest(params, path.s, *of_one),
         _quickest(params, path.s, *together),
-        s_curve(
-            head.centre_stroke,
-            AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk),
-        ),
+        s_curve(head.centre_stroke, AxisLimits(params.centre_speed, params.centre_acceleration, params.centre_jerk)),
         np.linalg.inv(turned),
     )
 

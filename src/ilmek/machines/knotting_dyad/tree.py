@@ -30,15 +30,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     standing_drives,
     standing_servos,
 )
-from ilmek.machines.knotting_dyad.arms import (
-    SERVOS,
-    arm_mechanism,
-    arm_parts,
-    blade_part,
-    carried,
-    edgewise,
-    levels_of,
-)
+from ilmek.machines.knotting_dyad.arms import SERVOS, arm_mechanism, arm_parts, blade_part, carried, edgewise, levels_of
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head

@@ -98,12 +98,10 @@ class KnottingFourBar:
     def transmission_angle(self) -> float:
         return least_transmission_angle(self.moving.motion if self.working else self.at.motion, "O2'")
 
-    drive_torque_max = computed(
-        "N*m",
-        "greatest torque on the crank over the working range, moving or at rest",
-        lambda it: it.load_torque if it.working else None,
-        optional=True,
-    )
+    @computed("N*m", "greatest torque on the crank over the working range, moving or at rest", optional=True)
+    def drive_torque_max(self) -> float | None:
+        return self.load_torque if self.working else None
+
     at_crank_angle = computed(
         "",
         "motion of coupler and rocker at crank_angle, torque on the crank, forces in the pins as magnitudes and as "
@@ -114,12 +112,11 @@ class KnottingFourBar:
     drive_torque_static = computed(
         "N*m", "torque on the crank at rest, from weight and the yarn's force", lambda it: float(it.static.torque[0])
     )
-    drive_torque_dynamic = computed(
-        "N*m*s^2",
-        "torque that each (rad/s)² of the crank's speed adds to it",
-        lambda it: float(it.unit.torque[0]) - it.drive_torque_static,
-        least=-math.inf,
-    )
+
+    @computed("N*m*s^2", "torque that each (rad/s)² of the crank's speed adds to it", least=-math.inf)
+    def drive_torque_dynamic(self) -> float:
+        return float(self.unit.torque[0]) - self.drive_torque_static
+
     masses = computed(
         "",
         "of each link, SI: mass, mass centre from its first pin, moment of inertia about it; hand on the coupler",

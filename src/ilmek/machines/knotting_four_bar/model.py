@@ -80,12 +80,10 @@ class GearedServo:
     servo: Motor | None
 
     gear_ratio = computed("", "turns of the servo for one of the crank", lambda it: it.reducer.ratio)
-    servo_name = computed(
-        "",
-        "smallest servo that gives both",
-        lambda it: it.servo.name if it.servo else "none of the catalogue is enough",
-        name="servo",
-    )
+
+    @computed("", "smallest servo that gives both", name="servo")
+    def servo_name(self) -> str:
+        return self.servo.name if self.servo else "none of the catalogue is enough"
 
 
 def drive_for(params: KnottingFourBarParams, torque: float) -> GearedServo:

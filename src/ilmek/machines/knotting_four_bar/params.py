@@ -140,11 +140,7 @@ class KnottingFourBarParams(Params):
 
     @classmethod
     def read(
-        cls,
-        settings: Mapping[str, Setting],
-        *,
-        prefix: str = "",
-        default: "KnottingFourBarParams | None" = None,
+        cls, settings: Mapping[str, Setting], *, prefix: str = "", default: "KnottingFourBarParams | None" = None
     ) -> "KnottingFourBarParams":
         """Parameters from settings, see `Params.read`; beside poses no link may be set, not even to its default."""
         read = super(KnottingFourBarParams, cls).read(settings, prefix=prefix, default=default)

@@ -103,8 +103,7 @@ def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
         1.0,
         "1",
         f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}",
-        cure=cure,
-    )
+    ).with_cure(cure)
 
 
 def _side_tests(found: SidesAnalysis) -> tuple[Check, ...]:

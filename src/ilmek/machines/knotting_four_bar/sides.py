@@ -135,11 +135,10 @@ class SidesAnalysis:
     )
     wider: str
 
-    side_clearance_min = computed(
-        "mm",
-        "least of all bodies over the motion, each to its mirror image",
-        lambda it: min(one.least for one in it.clearances.values()),
-    )
+    @computed("mm", "least of all bodies over the motion, each to its mirror image")
+    def side_clearance_min(self) -> float:
+        return min(one.least for one in self.clearances.values())
+
     gripper_clearance_min = computed(
         "mm", "least of the couplers with their grippers", lambda it: it.clearances["coupler"].least
     )

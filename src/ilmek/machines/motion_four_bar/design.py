@@ -16,13 +16,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import computed, record, result
 from ilmek.report import Json
 from ilmek.synthesis.burmester.curve import BurmesterCurve, CurveBranch, burmester_curve
-from ilmek.synthesis.burmester.links import (
-    Guide,
-    arms_of_pins,
-    arms_of_pivots,
-    arms_through_five_poses,
-    pair,
-)
+from ilmek.synthesis.burmester.links import Guide, arms_of_pins, arms_of_pivots, arms_through_five_poses, pair
 from ilmek.synthesis.candidate import Candidate, judge
 from ilmek.synthesis.distinct import pins_of
 from ilmek.synthesis.four_bar import FourBar

@@ -106,10 +106,7 @@ def _proven(complete: CompleteSearch) -> tuple[FourBarOption, ...]:
     """The four-bars of complete synthesis that are judged."""
     found = []
     for one, candidate in complete.judged:
-        proof: dict[str, Json] = {
-            "within": one.distance if math.isfinite(one.distance) else None,
-            "curve": one.family,
-        }
+        proof: dict[str, Json] = {"within": one.distance if math.isfinite(one.distance) else None, "curve": one.family}
         details = errors(candidate) | proof
         found.append(FourBarOption(candidate, "complete", details, certified=one.certified))
     return tuple(found)

@@ -55,31 +55,24 @@ class SheddingDrive:
     shaft_torque_max = computed("Nm", "largest torque that lifts the warps", lambda it: it.torque_max.value)
     shaft_torque_min = computed("Nm", "largest torque of the warps on the return", lambda it: it.torque_min.value)
     motor_power = computed("W", "largest power of the motor", lambda it: it.motor_torque * it.motor_speed)
-    name = computed(
-        "",
-        "class of motor chosen; the strongest where none is enough",
-        lambda it: it.motor.name if it.motor else None,
-        name="motor",
-        absent="its torque is given",
+
+    @computed(
+        "", "class of motor chosen; the strongest where none is enough", name="motor", absent="its torque is given"
     )
-    motor_torque_rms = computed(
-        "Nm",
-        "rms of the motor's torque over the turn",
-        lambda it: it.duty.rms if it.duty else None,
-        absent="its torque is given",
-    )
-    motor_power_mean = computed(
-        "W",
-        "mean power, losses included",
-        lambda it: it.duty.power_mean if it.duty else None,
-        absent="its torque is given",
-    )
-    inertia_ratio = computed(
-        "1",
-        "load over rotor inertia",
-        lambda it: it.duty.inertia_ratio if it.duty else None,
-        absent="its torque is given",
-    )
+    def name(self) -> str | None:
+        return self.motor.name if self.motor else None
+
+    @computed("Nm", "rms of the motor's torque over the turn", absent="its torque is given")
+    def motor_torque_rms(self) -> float | None:
+        return self.duty.rms if self.duty else None
+
+    @computed("W", "mean power, losses included", absent="its torque is given")
+    def motor_power_mean(self) -> float | None:
+        return self.duty.power_mean if self.duty else None
+
+    @computed("1", "load over rotor inertia", absent="its torque is given")
+    def inertia_ratio(self) -> float | None:
+        return self.duty.inertia_ratio if self.duty else None
 
 
 @record

@@ -80,8 +80,7 @@ def _cam_checks(one: CamShaft) -> Iterator[Check]:
         cam.roller_radius,
         "mm",
         f"{norton}: rho > roller radius",
-        cure=larger,
-    )
+    ).with_cure(larger)
     bore = one.prime_radius_for_bore
     yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall", cure=larger)
 
@@ -105,13 +104,8 @@ def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
     )
     yield from _window_checks(found)
     yield at_most(
-        "one parity down while the other is up",
-        params.lifted_angle,
-        TURN / 2,
-        "deg",
-        f"{THESIS}, Fig. 3.19",
-        cure="set a shorter rise, dwell or fall",
-    )
+        "one parity down while the other is up", params.lifted_angle, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"
+    ).with_cure("set a shorter rise, dwell or fall")
     if params.guideway:
         yield at_most(
             "step of the shuttle's guideway on the tips",
@@ -119,8 +113,7 @@ def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
             params.guideway_tolerance,
             "mm",
             "Fig. 3.18 of the thesis; assumed by this project: parameter guideway_tolerance",
-            cure="set phase=together and more spans, or guideway=no where the shuttle has a guide of its own",
-        )
+        ).with_cure("set phase=together and more spans, or guideway=no where the shuttle has a guide of its own")
     yield from _span_checks(design)
     yield from _neighbour_checks(design)
 
@@ -147,13 +140,8 @@ def _span_checks(design: SheddingDesign) -> Iterator[Check]:
     ends = (("front", first, spans[0], "front_span"), ("back", last, spans[1], "back_span"))
     for name, shaft, span, parameter in ends:
         yield at_most(
-            f"guides and cams clear of the {name} hold",
-            shaft.reach,
-            span,
-            "mm",
-            f"{parameter} or half_span; shaft_gap",
-            cure=f"set a longer {parameter}, or a lower lift",
-        )
+            f"guides and cams clear of the {name} hold", shaft.reach, span, "mm", f"{parameter} or half_span; shaft_gap"
+        ).with_cure(f"set a longer {parameter}, or a lower lift")
     if len(design.shafts) > 1:
         yield line_check([one.params.lift for one in design.shafts], [spans[0] + one.beyond for one in design.shafts])
 

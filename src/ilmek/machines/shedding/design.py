@@ -33,7 +33,7 @@ from ilmek.machines.shedding.stack import CamStack
 from ilmek.machines.shedding.stack_choice import ChosenStack, chosen_stack
 from ilmek.machines.shedding.tolerance_chain import ToleranceChain, tolerance_chain
 from ilmek.machines.shedding.warp import lifting_work
-from ilmek.num.piecewise import Extremum, supremum
+from ilmek.num.piecewise import supremum
 from ilmek.records import computed, record
 from ilmek.report import Choice, Json
 from ilmek.weaving.shed import shed_lengthening
@@ -79,11 +79,6 @@ class SheddingDesign:
     def shed(self) -> Shed:
         """Cams of the first shaft."""
         return self.first.shed
-
-    @property
-    def across_max(self) -> Extremum:
-        """Largest force of the lifted warps across the first shaft [N]."""
-        return self.first.across_max
 
     @property
     def shaft(self) -> SquareShaft:
@@ -134,20 +129,19 @@ class SheddingDesign:
     guides_shown = computed(
         "", "what keeps the warps on their cams: guide cams, or a reed", lambda it: it.guides, name="guides"
     )
-    shaft_distances = computed(
-        "",
-        "distance of each shaft beyond the first [m]",
-        lambda it: [one.beyond for one in it.shafts],
-        name="shaft_positions",
-    )
+
+    @computed("", "distance of each shaft beyond the first [m]", name="shaft_positions")
+    def shaft_distances(self) -> list[float]:
+        return [one.beyond for one in self.shafts]
+
     lifts = computed("", "lift of the warps of each shaft [m]", lambda it: [one.params.lift for one in it.shafts])
     prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius, least=0.0)
     prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.first.smallest_prime.value)
-    prime_radius_for_bore = computed(
-        "mm",
-        "smallest that leaves the wall outside the corners of the square bore",
-        lambda it: it.first.prime_radius_for_bore,
-    )
+
+    @computed("mm", "smallest that leaves the wall outside the corners of the square bore")
+    def prime_radius_for_bore(self) -> float:
+        return self.first.prime_radius_for_bore
+
     pressure_angle_max = computed("deg", "largest pressure angle", lambda it: limits.pressure_angle_max(it.cam).value)
     pressure_angle_at = computed("deg", "cam angle of that maximum", lambda it: limits.pressure_angle_max(it.cam).at)
     curvature_radius_min = computed(
@@ -169,32 +163,31 @@ class SheddingDesign:
     shuttle_end = computed(
         "deg", "shaft angle at which it closes; the odd shed follows half a turn later", lambda it: it.shuttle_window[1]
     )
-    shuttle_window_angle = computed(
-        "deg",
-        "shaft angle for which a shed is open for the shuttle",
-        lambda it: it.shuttle_window[1] - it.shuttle_window[0],
-        name="shuttle_window",
-    )
+
+    @computed("deg", "shaft angle for which a shed is open for the shuttle", name="shuttle_window")
+    def shuttle_window_angle(self) -> float:
+        return self.shuttle_window[1] - self.shuttle_window[0]
+
     shuttle_time = computed("s", "time that each shed is open", lambda it: it.shuttle_window_angle / it.params.speed)
     turn_time = computed("s", "time of a turn: two sheds", lambda it: TURN / it.params.speed)
     phase_groups = computed("1", "groups of each parity's cams, staggered", lambda it: it.shed.groups)
     phase_spread = computed("deg", "angle from the first group to the last", lambda it: it.shed.spread)
-    shed_overlap = computed(
-        "deg",
-        "angle for which one parity falls while the other rises, at each change of the shed",
-        lambda it: max(0.0, it.params.lifted_angle + it.shed.spread - TURN / 2),
-    )
+
+    @computed("deg", "angle for which one parity falls while the other rises, at each change of the shed")
+    def shed_overlap(self) -> float:
+        return max(0.0, self.params.lifted_angle + self.shed.spread - TURN / 2)
+
     velocity_max = computed(
         "mm/s", "largest warp velocity", lambda it: it.params.speed * it.peak(lambda q: it.even.at(q).ds)
     )
     acceleration_max = computed(
         "mm/s^2", "largest warp acceleration", lambda it: it.params.speed**2 * it.peak(lambda q: it.even.at(q).dds)
     )
-    acceleration_jumps = computed(
-        "",
-        "jumps of the acceleration of the even warps, shaft angle [rad]",
-        lambda it: [{"angle": jump.angle, "place": jump.where} for jump in jumps(it.even)],
-    )
+
+    @computed("", "jumps of the acceleration of the even warps, shaft angle [rad]")
+    def acceleration_jumps(self) -> Json:
+        return [{"angle": jump.angle, "place": jump.where} for jump in jumps(self.even)]
+
     shaft_supports = computed("1", "supports of a shaft, both ends included", lambda it: it.params.spans + 1)
     warps_across = computed(
         "N", "largest force of the lifted warps across the shaft", lambda it: it.first.across_max.value
@@ -203,11 +196,10 @@ class SheddingDesign:
         "Nm", "largest torque of all shafts together", lambda it: supremum(it.torque, it.shed.knots).value
     )
     power_max = computed("W", "largest power of all shafts together", lambda it: it.torque_max * it.params.speed)
-    shed_work = computed(
-        "J",
-        "work of lifting the even warps once, returned when they fall",
-        lambda it: float(sum(one.numbers[0] * lifting_work(one.params) for one in it.shafts)),
-    )
+
+    @computed("J", "work of lifting the even warps once, returned when they fall")
+    def shed_work(self) -> float:
+        return float(sum(one.numbers[0] * lifting_work(one.params) for one in self.shafts))
 
     @computed("", "the cycle of even and odd warps, shaft angles [rad]")
     def phases(self) -> Json:

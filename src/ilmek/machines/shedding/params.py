@@ -151,11 +151,7 @@ class SheddingParams(Params):
     )
     speed: float = kind.angular_speed(5 * rpm, at_least=1e-6 * rpm, at_most=600 * rpm, doc="speed of the cam shaft")
     stop_time: float | None = kind.time(
-        None,
-        unit="s",
-        at_least=1e-3,
-        at_most=60.0,
-        doc="time in which the shaft stops or starts; default: it turns on",
+        None, unit="s", at_least=1e-3, at_most=60.0, doc="time in which the shaft stops or starts; default: it turns on"
     )
     shaft_length: float | None = kind.length(
         None, unit="m", at_least=1 * mm, at_most=20.0, doc="between its bearings; default: warps x pitch", symbol="l"

@@ -64,16 +64,14 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
             params.least_dent if reed else params.least_plate,
             "mm",
             "assumed by this project: parameter least_dent" if reed else cut,
-            cure=THICKER,
-        ),
+        ).with_cure(THICKER),
         at_most(
             "cam, guides and passing warps on a pitch of the shaft",
             shares.used,
             shares.pitch,
             "mm",
             "warp pitch, shafts, diameter and clearance of the warps",
-            cure="set a coarser pitch, or thinner warps",
-        ),
+        ).with_cure("set a coarser pitch, or thinner warps"),
         *chain_checks(params, shares),
         at_most(
             "lateral play of a warp",
@@ -81,8 +79,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
             params.play_limit * params.cloth.warp_pitch,
             "mm",
             "assumed by this project: parameter play_limit",
-            cure="set a thinner cam_thickness, or guides=reed",
-        ),
+        ).with_cure("set a thinner cam_thickness, or guides=reed"),
     )
 
 
@@ -90,13 +87,8 @@ def line_check(lifts: list[float], fronts: list[float]) -> Check:
     """That the lifted warps of all shafts lie on one line from the fell: their lifts' deviation at the first shaft."""
     aside = max(abs(lift * fronts[0] / front - lifts[0]) for lift, front in zip(lifts, fronts, strict=True))
     return at_most(
-        "deviation of the shafts' shed lines",
-        aside,
-        ONE_LINE,
-        "mm",
-        "one shed for the shuttle; a lift is 1 m at most",
-        cure="set fewer shafts, a longer front_span, or a lower lift",
-    )
+        "deviation of the shafts' shed lines", aside, ONE_LINE, "mm", "one shed for the shuttle; a lift is 1 m at most"
+    ).with_cure("set fewer shafts, a longer front_span, or a lower lift")
 
 
 ONE_LINE = 1e-4
@@ -126,17 +118,11 @@ def height_check(params: SheddingParams, last: float) -> Check:
         params.shafts_height,
         "m",
         "assumed by this project: parameter shafts_height",
-        cure="set fewer shafts, a longer front_span, or a lower lift",
-    )
+    ).with_cure("set fewer shafts, a longer front_span, or a lower lift")
 
 
 def buckling_check(force: float, critical: float) -> Check:
     """Buckling of a cam's nose: force with its safety against the critical force [N]."""
-    return at_most(
-        "buckling of a cam",
-        force,
-        critical,
-        "N",
-        BUCKLING,
-        cure="set more shafts for thicker cams, a lower tension, or a lower pressure_angle_limit",
+    return at_most("buckling of a cam", force, critical, "N", BUCKLING).with_cure(
+        "set more shafts for thicker cams, a lower tension, or a lower pressure_angle_limit"
     )

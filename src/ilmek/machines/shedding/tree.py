@@ -32,7 +32,7 @@ from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tre
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import in_mm, mm, round_size, turn
 
 NUT, _NUT_SHARE = 15 * mm, 1.0
 """Thickness of the clamping nuts at the ends of the cams [m], and their radius over the side of the bar."""
@@ -86,10 +86,7 @@ def _of_shaft(
         (position,),
     )
     return standing, RigidBody(
-        part_id("cam shaft", index),
-        _turning(design, index),
-        standing.id,
-        replace(pin, motor=part_id("motor", index)),
+        part_id("cam shaft", index), _turning(design, index), standing.id, replace(pin, motor=part_id("motor", index))
     )
 
 
@@ -184,7 +181,7 @@ def _bar(design: SheddingDesign, index: int) -> Part:
             Placed(catalogue.keyed_journal(end), (placement(z=-shaft.seat.through - end.length),)),
         )
     )
-    return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {_mm(bar)}")
+    return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {in_mm(bar)}")
 
 
 def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:
@@ -204,7 +201,7 @@ def _cam(design: SheddingDesign, index: int, group: int) -> Part:
     )
     bores = (_square(bar, float(shaft.shed.offsets[group])),) if _bored(shaft) else ()
     shape = Prism(Profile(polygon(outline), bores, smooth=True), shaft.stack.thickness)
-    made = _made(design, index, name, title, shape, _CUT, f"prime radius {_mm(shaft.cam.prime_radius)}")
+    made = _made(design, index, name, title, shape, _CUT, f"prime radius {in_mm(shaft.cam.prime_radius)}")
     pitch = shaft.cam.pitch(-np.arange(POINTS) * (TURN / POINTS)) if shaft.cam.roller_radius > 0 else None
     return replace(
         made,
@@ -219,7 +216,7 @@ def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: fl
     bar = shaft.shaft.bar
     bores = (_square(bar),) if _bored(shaft) else ()
     shape = Prism(Profile(circle(0j, radius), bores), thickness)
-    made = _made(design, index, *names, shape, _CUT, f"radius {_mm(radius)}, {_mm(thickness)} thick")
+    made = _made(design, index, *names, shape, _CUT, f"radius {in_mm(radius)}, {in_mm(thickness)} thick")
     return replace(made, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
 
 
@@ -239,13 +236,13 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     shaft, own = design.shafts[index], reed(design, index)
     if own is None:
         return
-    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT, f"round {_mm(own.outer)}")
+    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT, round_size(own.outer))
     x, pitch = warp_positions(design), design.params.cloth.warp_pitch
     yield Occurrence(made, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), shaft.stack.guide_thickness))
     shape = Prism(Profile(_square(own.side)), own.length)
-    baulk = _made(design, index, "reed-baulk", "baulk of the reed", shape, "steel bar", f"square {_mm(own.side)}")
+    baulk = _made(design, index, "reed-baulk", "baulk of the reed", shape, "steel bar", f"square {in_mm(own.side)}")
     yield Occurrence(baulk, tuple(placement(z.real, z.imag, -own.length / 2) for z in own.axes))
-    size = f"plate {_mm(catalogue.FLANGE)}"
+    size = f"plate {in_mm(catalogue.FLANGE)}"
     arm = _made(design, index, "reed-arm", "arm of the reed", own.arm, _CUT, size)
     yield Occurrence(arm, tuple(placement(z=z) for z in (own.length / 2, -own.length / 2 - catalogue.FLANGE)))
 
@@ -298,10 +295,6 @@ def _steel(design: SheddingDesign) -> Material:
 def _numbered(design: SheddingDesign, index: int, title: str) -> str:
     """A title with the number of the shaft where there are several."""
     return f"{title} {index + 1}" if len(design.shafts) > 1 else title
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")
 
 
 def _square(side: float, turned: float = 0.0) -> Contour:

@@ -27,7 +27,7 @@ from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm, round_size
 
 BRONZE = MATERIALS["tin bronze"]
 
@@ -162,7 +162,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
     """The parts for a synthesised lever and the members that were chosen."""
     supports = BarSupports(params, sprung, members)
     thick, pin, roller, section = params.lever_thickness, members.pin, members.roller, members.tube
-    flat, turned, plate = "machined link", "pin or bush", f"plate {_mm(thick)}"
+    flat, turned, plate = "machined link", "pin or bush", f"plate {in_mm(thick)}"
     pins = bar(roller.bore, thick + PLAY + roller.width)
     cylinder = tube(section.outer, section.wall, params.cloth.width)
     return CompensatorParts(
@@ -170,8 +170,8 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         bar=_made("bar", "bar of the compensator", "steel tube", cylinder, f"tube {section.name} mm"),
         rod=_made("rod", "rod of the compensator", "steel tube", cylinder, f"tube {section.name} mm"),
         lever=_made("lever", "lever of the compensator", flat, _lever(supports), _flat(members.lever, thick)),
-        bush=_made("bush", "bush of a lever", turned, _bush(pin), _round(pin + 2 * BUSH_WALL), BRONZE),
-        pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), _round(pin)),
+        bush=_made("bush", "bush of a lever", turned, _bush(pin), round_size(pin + 2 * BUSH_WALL), BRONZE),
+        pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), round_size(pin)),
         saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), plate),
         roller=Part(
             part_id("roller"),
@@ -182,10 +182,10 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
             purchase=Bought(roller.name, roller.mass),
             envelope=True,
         ),
-        roller_pin=_made("roller-pin", "pin of a roller", turned, pins, _round(roller.bore)),
-        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), _round(pin)),
+        roller_pin=_made("roller-pin", "pin of a roller", turned, pins, round_size(roller.bore)),
+        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), round_size(pin)),
         spring=_spring(supports),
-        eye=_made("eye", "eye of a spring", flat, _eye(supports), _mm(_eye_wide(sprung))),
+        eye=_made("eye", "eye of a spring", flat, _eye(supports), in_mm(_eye_wide(sprung))),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
         pivot_lug=_made("pivot-lug", "lug of a pivot", "laser-cut part", _lug(supports, supports.clear), plate),
         anchor_lug=_made("anchor-lug", "lug of the springs", "laser-cut part", _lug(supports, supports.apart), plate),
@@ -283,16 +283,8 @@ def _made(  # noqa: PLR0917
     return Part(part_id(name), title, process, size, shape, material)
 
 
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")
-
-
 def _flat(height: float, thick: float) -> str:
-    return f"{format_quantity(height / mm, '')} x {_mm(thick)}"
-
-
-def _round(diameter: float) -> str:
-    return f"round {_mm(diameter)}"
+    return f"{format_quantity(height / mm, '')} x {in_mm(thick)}"
 
 
 def _along(point: complex, z: float = 0.0) -> Placement:

@@ -106,16 +106,15 @@ class Tufting:
     )
     driven_shaft_torque_range = _ends("N*m", "least and greatest, with sign", "driven_torque")
     driven_shaft_torque_rms = computed("N*m", "root mean square of the same", lambda it: it.rms("driven_torque"))
-    pin_force_max = computed(
-        "N",
-        "greatest force in each joint; C is the whole load of the driven shaft's bearing",
-        lambda it: {name: it.peaks[name].value for name in JOINTS},
-    )
-    driven_shaft_force_max = computed(
-        "N",
-        "greatest force of the driven shaft on rocker and arm each",
-        lambda it: {name: it.peaks[f"C on {name}"].value for name in ("rocker", "arm")},
-    )
+
+    @computed("N", "greatest force in each joint; C is the whole load of the driven shaft's bearing")
+    def pin_force_max(self) -> dict[str, float]:
+        return {name: self.peaks[name].value for name in JOINTS}
+
+    @computed("N", "greatest force of the driven shaft on rocker and arm each")
+    def driven_shaft_force_max(self) -> dict[str, float]:
+        return {name: self.peaks[f"C on {name}"].value for name in ("rocker", "arm")}
+
     energy_per_revolution = computed("J", "work of the drive in a turn of the crank", lambda it: it.work["drive"])
     friction_work_per_revolution = computed("J", "part of it for the backing", lambda it: it.work["friction"])
     main_shaft_torque_mean = computed("N*m", "mean torque on the crank", lambda it: it.work["drive"] / turn)

@@ -26,7 +26,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.report import Contour
-from ilmek.units import format_quantity
+from ilmek.units import in_mm, round_size
 
 NAME = "tufting"
 LINKS = ("coupler", "rocker", "arm", "rod")
@@ -118,7 +118,7 @@ def driven_shaft(params: TuftingParams, sizes: NeedleSizes) -> Occurrence:
 
 def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A shaft about z from z = 0 [m]."""
-    size = f"round {format_quantity(diameter, 'mm')}, {format_quantity(length, 'mm')}"
+    size = f"{round_size(diameter)}, {in_mm(length)}"
     return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL)
 
 
@@ -131,7 +131,7 @@ def needle_bar(params: TuftingParams) -> Part:
     """The needle bar from E downwards, its lower side at z = 0."""
     diameter, length = needle_diameter(params), params.needle
     down = placement(z=diameter / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
-    size = f"round {format_quantity(diameter, 'mm')}, {format_quantity(length, 'mm')}"
+    size = f"{round_size(diameter)}, {in_mm(length)}"
     shape = Sum((Placed(bar(diameter, length), (down,)),))
     return Part(f"{NAME}/needle", "needle bar with its needles", "steel bar", size, shape, STEEL, envelope=True)
 
@@ -148,7 +148,7 @@ def _ring(params: TuftingParams, sizes: NeedleSizes) -> Contour:
 def _eccentric(params: TuftingParams, sizes: NeedleSizes, thickness: float) -> Part:
     """The crank: a disc about A with the bore of the main shaft at O, keyed."""
     radius = _eccentric_radius(params, sizes)
-    size = f"round {format_quantity(2 * radius, 'mm')}, {format_quantity(thickness, 'mm')}"
+    size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
     return Part(
         f"{NAME}/crank",
         "eccentric of the crank",
@@ -167,7 +167,7 @@ def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
     inner = float(abs(hole.points[0]))
     eyes = [max(width / 2, radius * (1 + 2 * WALL)) for radius in (inner, pin / 2)]
     cut = (hole, circle(complex(length), pin / 2))
-    section = f"{format_quantity(width, 'mm')} x {format_quantity(thickness, 'mm')}, {format_quantity(length, 'mm')}"
+    section = f"{in_mm(width)} x {in_mm(thickness)}, {in_mm(length)}"
     return Part(
         f"{NAME}/{link}",
         link,

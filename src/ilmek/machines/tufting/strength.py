@@ -21,13 +21,7 @@ from ilmek.elements.fatigue import NOTCHES, Loading, endurance_limit, goodman, n
 from ilmek.elements.motors import SERVO, Motor, geared_motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.elements.sections import round_section
-from ilmek.machines.linkage_strength import (
-    LinkageStrength,
-    bore_for,
-    linkage_loads,
-    linkage_strength,
-    strength_checks,
-)
+from ilmek.machines.linkage_strength import LinkageStrength, bore_for, linkage_loads, linkage_strength, strength_checks
 from ilmek.machines.tufting.design import Tufting, loaded, turn_with
 from ilmek.machines.tufting.links import LINKS, NAME, STEEL, NeedleSizes, link_sections
 from ilmek.machines.tufting.model import PINS, friction
@@ -191,9 +185,7 @@ def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Chec
                 limits.fatigue,
                 "1",
                 "Goodman, keyway, C45 +QT; parameter strength.fatigue",
-                cure=slower,
-                parts=(f"{NAME}/{name}-shaft",),
-            )
+            ).with_cure(slower, f"{NAME}/{name}-shaft")
             for name, shaft in shafts
         ),
         *(
@@ -203,16 +195,10 @@ def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Chec
                 limits.bearing_life,
                 "h",
                 f"ISO 281, {shaft.bearing.name}; parameter strength.bearing_life",
-                cure=slower,
-                parts=(f"{NAME}/{name}-bearing",),
-            )
+            ).with_cure(slower, f"{NAME}/{name}-bearing")
             for name, shaft in shafts
         ),
-        must(
-            "a servo turns the main shaft",
-            found.motor is not None,
-            "motor table, margin 1.25",
-            cure=slower,
-            parts=MOTOR,
+        must("a servo turns the main shaft", found.motor is not None, "motor table, margin 1.25").with_cure(
+            slower, *MOTOR
         ),
     )

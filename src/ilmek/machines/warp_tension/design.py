@@ -81,27 +81,22 @@ class WarpTensionDesign:
     reaction = computed("N", "force on each bearing", lambda it: float(uniform.reaction(it.load, it.params.span)))
     force = computed("kN", "pull of all warps", lambda it: it.load * it.params.span)
     self_weight = computed("N/m", "own weight", lambda it: tube_weight(it.params, it.inner_radius, it.outer_radius))
-    mass = computed(
-        "kg",
-        "mass of the tube between its bearings",
-        lambda it: math.pi * (it.outer_radius**2 - it.inner_radius**2) * it.params.span * it.params.density,
-    )
-    bearings = computed(
-        "",
-        "kinds of bearings that allow the slope, own weight included",
-        lambda it: [one.name for one in bearings_for(it.slope_loaded)],
-    )
+
+    @computed("kg", "mass of the tube between its bearings")
+    def mass(self) -> float:
+        return math.pi * (self.outer_radius**2 - self.inner_radius**2) * self.params.span * self.params.density
+
+    @computed("", "kinds of bearings that allow the slope, own weight included")
+    def bearings(self) -> list[str]:
+        return [one.name for one in bearings_for(self.slope_loaded)]
+
     ratio = computed("1", "ratio of the reducer", lambda it: it.reducer.ratio)
     self_locking = computed("", "whether the reducer holds the warps by itself", lambda it: it.reducer.self_locking)
     back_driving_efficiency = computed(
         "1", "2 - 1/efficiency; self-locking at 0 and below", lambda it: it.reducer.back_driving_efficiency
     )
     motor_name = computed(
-        "",
-        "class of motor chosen",
-        lambda it: it.motor.name if it.motor else None,
-        name="motor",
-        absent=NO_MOTOR,
+        "", "class of motor chosen", lambda it: it.motor.name if it.motor else None, name="motor", absent=NO_MOTOR
     )
     take_up_angle = computed(
         "deg", "rotation of the cylinder per row", lambda it: it.params.cloth.row_distance / it.outer_radius

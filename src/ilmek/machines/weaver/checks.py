@@ -17,28 +17,14 @@ from ilmek.machines.weaver.hub_keys import key_checks
 from ilmek.machines.weaver.knife import KNIFE, knife_checks
 from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_id, lever_stress
 from ilmek.machines.weaver.limits import HeadLimits
-from ilmek.machines.weaver.motions import (
-    CENTRE_GRASP,
-    CENTRE_MOTION,
-    HANDLER,
-    OPENER,
-    SIDE_GRASP,
-    SIDE_MOTION,
-    SLEY,
-)
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import opener_checks, room_checks
 from ilmek.machines.weaver.parts import BEARING, MOTOR, SHAFT, bearing_of, cam_id, case_plates
 from ilmek.machines.weaver.return_springs import spring_id, stress_of
 from ilmek.machines.weaver.rods import ROD_STRESS, ROD_TIME, rod_bend, rod_stress, rod_time_ratio
 from ilmek.machines.weaver.stations import sheet
-from ilmek.machines.weaver.tool_parts import (
-    CENTRE_GRIPPER,
-    OPENER_PLATE,
-    PILE_HANDLER,
-    SIDE_GRIPPER,
-    SLEY_BAR,
-)
+from ilmek.machines.weaver.tool_parts import CENTRE_GRIPPER, OPENER_PLATE, PILE_HANDLER, SIDE_GRIPPER, SLEY_BAR
 from ilmek.machines.weaver.widths import case_width
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.cyclogram import Relation, check_all
@@ -72,14 +58,8 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
         source, moved = ("parameter speed_limit", "acceleration_limit"), _moved(name)
         found += [
             at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER, parts=moved),
-            at_most(
-                f"{name}: acceleration",
-                acceleration,
-                params.acceleration_limit,
-                "m/s^2",
-                source[1],
-                cure=LONGER,
-                parts=moved,
+            at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1]).with_cure(
+                LONGER, *moved
             ),
         ]
     longer = "set a longer cycle (knot_cycle of a loom), or higher limits of speed and acceleration"
@@ -88,25 +68,13 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
     return (
         *found,
         at_most(
-            "carriage: step to the next knot",
-            weaver.carriage_step,
-            weaver.carriage_window,
-            "s",
-            "tools out",
-            cure=step,
-            parts=case,
-        ),
+            "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"
+        ).with_cure(step, *case),
         at_most(
             "knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand, parts=case
         ),
-        at_most(
-            "knot cycle, as required",
-            weaver.cycle,
-            weaver.params.cycle,
-            "s",
-            _cycle_source(weaver),
-            cure=longer,
-            parts=case,
+        at_most("knot cycle, as required", weaver.cycle, weaver.params.cycle, "s", _cycle_source(weaver)).with_cure(
+            longer, *case
         ),
     )
 
@@ -143,27 +111,21 @@ def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
             params.clearance,
             "mm",
             "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-            cure="set a thicker weaver.finger",
-            parts=(SIDE_GRIPPER,),
-        ),
+        ).with_cure("set a thicker weaver.finger", SIDE_GRIPPER),
         at_most(
             "stress of a side gripper's rod",
             rod_stress(params, by),
             ROD_STRESS,
             "MPa",
             "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-            cure="set a thicker weaver.finger",
-            parts=(SIDE_GRIPPER,),
-        ),
+        ).with_cure("set a thicker weaver.finger", SIDE_GRIPPER),
         at_least(
             "time of the side grippers' motion, over their rods' natural period",
             rod_time_ratio(params, by, weaver.cyclogram),
             ROD_TIME,
             "1",
             "residual vibration of about 1 %; assumed by this project",
-            cure="set a thicker weaver.finger, or a longer cycle",
-            parts=(SIDE_GRIPPER,),
-        ),
+        ).with_cure("set a thicker weaver.finger, or a longer cycle", SIDE_GRIPPER),
     )
 
 
@@ -176,32 +138,14 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     return (
         at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}", cure=cure, parts=grippers),
         at_most(
-            "yarn needed between the grippers",
-            by.yarn_taut_max,
-            by.apart + yarn,
-            "mm",
-            "yarn held between them",
-            cure="set a longer knot_yarn",
-            parts=(SIDE_GRIPPER,),
-        ),
+            "yarn needed between the grippers", by.yarn_taut_max, by.apart + yarn, "mm", "yarn held between them"
+        ).with_cure("set a longer knot_yarn", SIDE_GRIPPER),
         at_least(
-            "yarn drawn",
-            weaver.drawn + yarn,
-            params.billed,
-            "mm",
-            "yarn bill: carpet.pile, of this knot",
-            cure="leave knot_yarn to the bill",
-            parts=(PILE_HANDLER,),
-        ),
+            "yarn drawn", weaver.drawn + yarn, params.billed, "mm", "yarn bill: carpet.pile, of this knot"
+        ).with_cure("leave knot_yarn to the bill", PILE_HANDLER),
         at_least(
-            "room of the side grippers",
-            by.gripper_clearance + yarn,
-            params.clearance,
-            "mm",
-            "parameter clearance",
-            cure="leave crossing_turn to the design, or set thinner fingers",
-            parts=grippers,
-        ),
+            "room of the side grippers", by.gripper_clearance + yarn, params.clearance, "mm", "parameter clearance"
+        ).with_cure("leave crossing_turn to the design, or set thinner fingers", *grippers),
         *_rod_checks(weaver),
     )
 
@@ -219,36 +163,16 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
             params.pressure_angle_limit,
             "deg",
             "limit",
-            cure="shorter strokes",
-            parts=(cam_id(steep.name),),
-        ),
+        ).with_cure("shorter strokes", cam_id(steep.name)),
         at_most(
-            f"roller, {sharpest.name}",
-            params.roller_radius,
-            sharpest.convex_radius,
-            "mm",
-            "no undercut",
-            cure="set a smaller weaver.roller_radius",
-            parts=(cam_id(sharpest.name),),
-        ),
-        at_most(
-            f"Hertz pressure, {worst.name}",
-            worst.pressure_max,
-            PRESSURE_LIMIT,
-            "MPa",
-            STEEL.name,
-            cure="set a larger weaver.cam_thickness, or lighter tools",
-            parts=(cam_id(worst.name),),
+            f"roller, {sharpest.name}", params.roller_radius, sharpest.convex_radius, "mm", "no undercut"
+        ).with_cure("set a smaller weaver.roller_radius", cam_id(sharpest.name)),
+        at_most(f"Hertz pressure, {worst.name}", worst.pressure_max, PRESSURE_LIMIT, "MPa", STEEL.name).with_cure(
+            "set a larger weaver.cam_thickness, or lighter tools", cam_id(worst.name)
         ),
         _case_check(weaver),
-        at_most(
-            f"diameter, {widest.name}",
-            2 * widest.radius,
-            params.cam_room,
-            "mm",
-            "cam_room",
-            cure=larger,
-            parts=(cam_id(widest.name),),
+        at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room").with_cure(
+            larger, cam_id(widest.name)
         ),
         _mass_check(weaver),
         _fork_check(weaver),
@@ -267,9 +191,7 @@ def _fork_check(weaver: Weaver) -> Check:
         FORK_STRESS,
         "MPa",
         f"{STEEL.name}, fatigue limit over 2; assumed by this project",
-        cure="set a larger weaver.cam_gap, or lighter tools",
-        parts=(follower_id(worst.name),),
-    )
+    ).with_cure("set a larger weaver.cam_gap, or lighter tools", follower_id(worst.name))
 
 
 def _mass_check(weaver: Weaver) -> Check:
@@ -278,14 +200,8 @@ def _mass_check(weaver: Weaver) -> Check:
     masses = {cam.name: moved_mass(weaver, cam.name) for cam in weaver.cams}
     most = max(masses, key=lambda track: masses[track] / tools.moved(track))
     return at_most(
-        f"mass that a cam moves, {most}",
-        masses[most],
-        tools.moved(most),
-        "kg",
-        "parameter tool_mass",
-        cure="set a larger weaver.tool_mass",
-        parts=_moved(most),
-    )
+        f"mass that a cam moves, {most}", masses[most], tools.moved(most), "kg", "parameter tool_mass"
+    ).with_cure("set a larger weaver.tool_mass", *_moved(most))
 
 
 def _lever_check(weaver: Weaver) -> Check:
@@ -297,9 +213,7 @@ def _lever_check(weaver: Weaver) -> Check:
         LEVER_STRESS,
         "MPa",
         f"{STEEL.name}, fatigue limit over 2; assumed by this project",
-        cure="set a larger weaver.cam_thickness, or a lower tension of the warps",
-        parts=(lever_id(worst),),
-    )
+    ).with_cure("set a larger weaver.cam_thickness, or a lower tension of the warps", lever_id(worst))
 
 
 def _spring_check(weaver: Weaver) -> Check:
@@ -350,13 +264,7 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
     """The cutter within its time, a motor and bearings for the shaft."""
     return (
         at_most(
-            "cutter",
-            limits.cutting_time,
-            limits.cutting_window,
-            "s",
-            "draw to presenting",
-            cure=LONGER,
-            parts=(KNIFE,),
+            "cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER, parts=(KNIFE,)
         ),
         *knife_checks(weaver),
         *key_checks(weaver),
@@ -364,9 +272,7 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             "motor of the cam shaft",
             weaver.drive.servo is not None,
             f"motors of the table; {weaver.drive.torque_max:.3g} Nm",
-            cure="set lighter tools, a longer knot_cycle, or a lower tension",
-            parts=(MOTOR, SHAFT),
-        ),
+        ).with_cure("set lighter tools, a longer knot_cycle, or a lower tension", MOTOR, SHAFT),
         _belt_check(weaver),
         must(
             "bearings of the cam shaft",

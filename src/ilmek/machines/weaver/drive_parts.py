@@ -24,7 +24,7 @@ from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, 
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Occurrence
-from ilmek.units import format_quantity, mm
+from ilmek.units import in_mm, mm
 
 COLOUR_MOTOR, TIER_MOTOR = part_id("colour-motor"), part_id("tier-motor")
 CAM_BELT, CAM_PULLEY, SMALL_PULLEY, STUB = (
@@ -80,7 +80,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         STUB,
         "output of the angle reducer",
         "pin or bush",
-        _mm(OUTPUT),
+        in_mm(OUTPUT),
         grooved(OUTPUT, weaver.belt.width + 0.5 * mm),
         STEEL,
     )
@@ -94,7 +94,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     yield _belt(weaver, at, begin)
     left = -case_width(weaver.params) / 2
     plate = box(middle + face / 2 - left, long, MOTOR_PLATE)
-    carrier = Part(part_id("motor-plate"), "plate of the motor", "machined link", _mm(MOTOR_PLATE), plate, ALUMINIUM)
+    carrier = Part(part_id("motor-plate"), "plate of the motor", "machined link", in_mm(MOTOR_PLATE), plate, ALUMINIUM)
     yield Occurrence(carrier, (placement((left + middle + face / 2) / 2, at.imag, (shape.body + shape.size).real),))
 
 
@@ -109,7 +109,7 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
         CAM_BELT,
         "belt of the cam shaft",
         "belt and pulleys",
-        f"{PROFILE.name}, {_mm(weaver.belt.width)} wide",
+        f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide",
         Prism(Profile(outer, (inner,)), weaver.belt.width),
         purchase=Bought(PROFILE.name, BELT_MASS * weaver.belt.width * length, length=length),
     )
@@ -139,7 +139,3 @@ def _upright(x: float, height: float, front: float) -> Placement:
 
 def _teeth(number: int) -> str:
     return f"{PROFILE.name}, {number} teeth"
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

@@ -31,7 +31,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import in_mm, mm, round_size, turn
 
 FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam-roller"), part_id("roller-pin")
 LEVER_PIN = part_id("lever-pin")
@@ -66,11 +66,7 @@ def follower_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
             upright = rack_at(weaver, rack_top(weaver) + float(cam.motion.s[0]))
             parts = *parts, Occurrence(rack(weaver), (position.after(_DOWN).inverse.after(upright),))
         yield RigidBody(
-            follower_id(cam.name),
-            parts,
-            parent,
-            Joint(JointKind.CAM, (1.0, 0.0, 0.0)),
-            (position.after(_DOWN),),
+            follower_id(cam.name), parts, parent, Joint(JointKind.CAM, (1.0, 0.0, 0.0)), (position.after(_DOWN),)
         )
 
 
@@ -105,7 +101,7 @@ def lever_pin(weaver: Weaver) -> Part:
         LEVER_PIN,
         "pin of a lever of the head",
         "pin or bush",
-        _round(PIN),
+        round_size(PIN),
         bar(PIN, weaver.params.cam_thickness),
         STEEL,
     )
@@ -118,8 +114,8 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
     fork, pin = _sizes(weaver)
     ring = tube(2 * radius, radius - pin / 2, thick)
     return (
-        Part(CAM_ROLLER, "roller of a cam", "pin or bush", _round(2 * radius), ring, ROLLER),
-        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", _round(pin), bar(pin, thick + 2 * fork), STEEL),
+        Part(CAM_ROLLER, "roller of a cam", "pin or bush", round_size(2 * radius), ring, ROLLER),
+        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", round_size(pin), bar(pin, thick + 2 * fork), STEEL),
     )
 
 
@@ -134,7 +130,7 @@ def guide(weaver: Weaver) -> Occurrence:
     slots = tuple(_box(complex(-half, -high), complex(half, -low)) for low, high in ends)
     deep = HALF_GUIDE * params.roller_radius
     outline = _box(complex(-deep, -wide / 2), complex(deep, wide / 2))
-    size = f"{format_quantity(GUIDE, 'mm')} thick"
+    size = f"{in_mm(GUIDE)} thick"
     section = Profile(outline, slots)
     part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
     return Occurrence(part, (placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING),))
@@ -163,7 +159,7 @@ def _fork(weaver: Weaver, cam: LoadedPlateCam) -> Part:
     body = Placed(Prism(Profile(_bar(near, upper, half, weaver, cam)), thick))
     plate = Profile(_box(complex(-near - LAP, -half), complex(pin, half)), (circle(0j, pin / 2),))
     sides = Placed(Prism(plate, fork), (placement(z=-fork), placement(z=thick)))
-    title, size = f"follower of the {cam.name}", format_quantity(upper, "mm")
+    title, size = f"follower of the {cam.name}", in_mm(upper)
     return Part(follower_id(cam.name), title, "machined link", size, Sum((body, sides, *ends)), STEEL)
 
 
@@ -202,7 +198,3 @@ def _bar(near: float, upper: float, half: float, weaver: Weaver, cam: LoadedPlat
 def _box(low: complex, high: complex) -> Contour:
     middle, size = (low + high) / 2, high - low
     return polygon(middle + rectangle(size.real, size.imag).points)
-
-
-def _round(diameter: float) -> str:
-    return f"round {format_quantity(diameter, 'mm')}"

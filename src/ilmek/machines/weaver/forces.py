@@ -19,15 +19,7 @@ from collections.abc import Callable
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.machines.weaver.motions import (
-    CENTRE_GRASP,
-    CENTRE_MOTION,
-    HANDLER,
-    OPENER,
-    SIDE_GRASP,
-    SIDE_MOTION,
-    SLEY,
-)
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import Opener
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.records import record

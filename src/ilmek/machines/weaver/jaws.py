@@ -31,7 +31,7 @@ from ilmek.part.shapes import Prism, Turned, bar, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.units import format_quantity, mm
+from ilmek.units import in_mm, mm
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
 """Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
@@ -129,7 +129,12 @@ def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> 
     section = Profile(polygon(corners), (circle(0j, AXLE / 2),))
     name = "side" if track == SIDE_GRASP else "centre"
     part = Part(
-        part_id(f"{name}-lug"), f"lug of the {name} jaws' rocker", "machined link", _mm(LUG), Prism(section, LUG), STEEL
+        part_id(f"{name}-lug"),
+        f"lug of the {name} jaws' rocker",
+        "machined link",
+        in_mm(LUG),
+        Prism(section, LUG),
+        STEEL,
     )
     return Occurrence(part, tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
 
@@ -178,30 +183,23 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     near, name = side + towards * FACE / 2, "side" if by.track == SIDE_GRASP else "centre"
     left, right = min(near, *(rod - 2 * ARM for rod in rods)), max(near, *(rod + 2 * ARM for rod in rods))
     title = f"axle of the {name} jaws' rocker"
-    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", _mm(right - left), bar(AXLE, right - left), STEEL)
+    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", in_mm(right - left), bar(AXLE, right - left), STEEL)
     yield Occurrence(axle, (placement(z=-right),))
     hole = (circle(0j, AXLE / 2),)
     level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), hole), ARM)
     title = f"roller's arm of the {name} jaws"
-    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", _mm(arm), level, STEEL)
+    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
     for number, rod in enumerate(by.grippers):
         long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
-        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", _mm(long), shape, STEEL)
+        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", in_mm(long), shape, STEEL)
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
 
 
-_ROLLER_PART = Part(
-    part_id("jaw-roller"),
-    "roller of the jaws",
-    "pin or bush",
-    format_quantity(ROLLER, "mm"),
-    bar(ROLLER, FACE),
-    STEEL,
-)
+_ROLLER_PART = Part(part_id("jaw-roller"), "roller of the jaws", "pin or bush", in_mm(ROLLER), bar(ROLLER, FACE), STEEL)
 
 
 def _roller() -> Part:
@@ -231,15 +229,8 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
     wire, long = wire_of(params), rocker(weaver, track).axle.real - begin
     title = f"collar of the {kind} jaws"
     return (
-        Part(part_id(f"{kind}-collar"), title, "turned part", _mm(FLANGE), ring, STEEL),
-        Part(
-            wire_id(track),
-            f"wire of the {kind} jaws",
-            "pin or bush",
-            _mm(wire),
-            bar(wire - IN_BORE, long),
-            STEEL,
-        ),
+        Part(part_id(f"{kind}-collar"), title, "turned part", in_mm(FLANGE), ring, STEEL),
+        Part(wire_id(track), f"wire of the {kind} jaws", "pin or bush", in_mm(wire), bar(wire - IN_BORE, long), STEEL),
     )
 
 
@@ -273,7 +264,7 @@ def _finger_part(weaver: Weaver, side: bool) -> Part:
     finger = weaver.params.finger
     shape = box(weaver.tool_bodies.jaw, finger / 2, finger) if side else box(finger, finger / 2, JAW)
     kind = "side" if side else "centre"
-    return Part(part_id(f"{kind}-finger"), f"finger of the {kind} jaws", "machined link", _mm(finger), shape, STEEL)
+    return Part(part_id(f"{kind}-finger"), f"finger of the {kind} jaws", "machined link", in_mm(finger), shape, STEEL)
 
 
 def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:
@@ -284,7 +275,3 @@ def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:
     by = rocker(weaver, track)
     front = by.axle.real + _before(weaver, track) - shortest(weaver, track)
     return (Occurrence(part, tuple(placement(rod.real, rod.imag, front) for rod in by.grippers)),)
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

@@ -39,7 +39,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, in_mm, mm, turn
 
 KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
     part_id("knife"),
@@ -98,18 +98,10 @@ def knife_checks(weaver: Weaver) -> tuple[Check, ...]:
             MARGIN,
             "1",
             f"motors of the table; a cut of {format_quantity(params.strength, 'N', 3)} through all fibres at once",
-            cure="set a longer weaver.cutter_turn, or a lighter pile yarn",
-            parts=(CUTTER_MOTOR, KNIFE),
-        ),
+        ).with_cure("set a longer weaver.cutter_turn, or a lighter pile yarn", CUTTER_MOTOR, KNIFE),
         at_most(
-            "Hertz pressure of the cutter's eccentric",
-            float(pressed.pressure),
-            PRESSURE_LIMIT,
-            "MPa",
-            STEEL.name,
-            cure="set a lighter pile yarn",
-            parts=(ECCENTRIC, KNIFE),
-        ),
+            "Hertz pressure of the cutter's eccentric", float(pressed.pressure), PRESSURE_LIMIT, "MPa", STEEL.name
+        ).with_cure("set a lighter pile yarn", ECCENTRIC, KNIFE),
     )
 
 
@@ -117,12 +109,12 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     """The eye in the face, the guides on it, the motor behind it."""
     eye, front, wall = eye_at(weaver), weaver.shape.body.real, _wall(weaver)
     outer = eye_diameter(weaver)
-    bush = Part(EYE, "eye of the pile yarn", "pin or bush", _mm(outer), tube(outer, WALL, wall), STEEL)
+    bush = Part(EYE, "eye of the pile yarn", "pin or bush", in_mm(outer), tube(outer, WALL, wall), STEEL)
     yield Occurrence(bush, (placement(eye.real, eye.imag, front),))
     axis, (half, low, high) = shaft_at(weaver), _outline(weaver)
     strip = Placed(box(STRIP, high - low, BLADE + LIP), (placement(half + STRIP / 2),))
     lip = Placed(box(LIP, high - low, LIP), (placement(half - LIP / 2),))
-    guide = Part(GUIDE, "guide of the knife", "machined link", _mm(high - low), Sum((strip, lip)), STEEL)
+    guide = Part(GUIDE, "guide of the knife", "machined link", in_mm(high - low), Sum((strip, lip)), STEEL)
     middle = (low + high) / 2
     yield Occurrence(
         guide,
@@ -155,7 +147,7 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 
 
 def _eccentric(weaver: Weaver) -> Part:
-    shape, size = eccentric(weaver.params, _wall(weaver)), f"eccentricity {_mm(eccentricity(weaver.params.yarn))}"
+    shape, size = eccentric(weaver.params, _wall(weaver)), f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
     return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL)
 
 
@@ -165,7 +157,7 @@ def _blade(weaver: Weaver) -> Part:
     wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
-    size = f"{_mm(2 * half)} x {_mm(high - low)} x {_mm(BLADE)}"
+    size = f"{in_mm(2 * half)} x {in_mm(high - low)} x {in_mm(BLADE)}"
     return Part(KNIFE, "knife", "machined link", size, Prism(Profile(polygon(corners), (slot,)), BLADE), STEEL)
 
 
@@ -190,7 +182,3 @@ def _face(weaver: Weaver) -> float:
     """Side of the motor's flange [m]."""
     row = cutter_motor(weaver.params)
     return row.face if row else catalogue.SPECIAL_FACE
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

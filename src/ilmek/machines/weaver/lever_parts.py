@@ -19,7 +19,7 @@ from ilmek.part.shapes import Prism, bar, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, strip
 from ilmek.report import Contour
-from ilmek.units import format_quantity, mm
+from ilmek.units import in_mm, mm, round_size
 
 LEVER_STRESS = (STEEL.fatigue or 0.0) / 2
 """Allowed stress of a lever [Pa]: the fatigue limit over a safety of 2, assumed by this project."""
@@ -85,7 +85,12 @@ def axles(weaver: Weaver) -> Iterator[Occurrence]:
             ("sley-axle", "axle of the sley's lever") if straight else ("crank-axle", "axle of the bell cranks")
         )
         part = Part(
-            part_id(name), title, "pin or bush", f"round {_mm(LEVER_AXLE)}, {_mm(long)}", bar(LEVER_AXLE, long), STEEL
+            part_id(name),
+            title,
+            "pin or bush",
+            f"{round_size(LEVER_AXLE)}, {in_mm(long)}",
+            bar(LEVER_AXLE, long),
+            STEEL,
         )
         yield Occurrence(part, (placement(-inner, lever.pivot.imag, lever.pivot.real).after(ALONG_WIDTH),))
 
@@ -111,14 +116,10 @@ def pinned(weaver: Weaver, track: str, pin: complex, beyond: float) -> tuple[Occ
         part_id(name),
         f"drawbar of the {track}",
         "machined link",
-        f"{_mm(thick)} thick",
+        f"{in_mm(thick)} thick",
         Prism(Profile(outline, (circle(0j, PIN / 2),)), thick),
         STEEL,
     )
     at = placement(station(weaver, track) + plane / 2, pin.imag, pin.real).after(IN_SIDE_VIEW)
     places = tuple(at.after(placement(z=z)) for z in (0.0, plane - thick))
     return Occurrence(plate, places), Occurrence(lever_pin(weaver), (at,))
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

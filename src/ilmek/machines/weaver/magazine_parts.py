@@ -18,7 +18,7 @@ from ilmek.part.part import Bought, Part
 from ilmek.part.placement import UPRIGHT, placement
 from ilmek.part.shapes import bar, box, tube
 from ilmek.part.tree import Occurrence
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import in_mm, mm, round_size, turn
 
 TUBE_CARRIER, TUBE_AXLE, TUBE_FLAG = part_id("tube-carrier"), part_id("tube-axle"), part_id("tube-flag")
 INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
@@ -55,19 +55,19 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
         ),
     )
     kind = "drum" if magazine.kind == DRUM else "slide"
-    plate, size = magazine.carrier, f"{format_quantity(CARRIER, 'mm')} thick"
+    plate, size = magazine.carrier, f"{in_mm(CARRIER)} thick"
     carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", size, plate, ALUMINIUM)
     lying = UPRIGHT.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 4))
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
     flange = shape.magazine.imag - CARRIER - AXLE
-    size = f"round {format_quantity(AXLE_DIAMETER, 'mm')}"
+    size = round_size(AXLE_DIAMETER)
     axle = Part(
         TUBE_AXLE, f"axle of the {kind}", "pin or bush", size, bar(AXLE_DIAMETER, low - CARRIER - flange), STEEL
     )
     yield Occurrence(axle, (placement(0.0, flange, depth).after(UPRIGHT),))
     begin, end = AXLE_DIAMETER / 2, _index_at(weaver)
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
-    size = f"{format_quantity(FLAG[1], 'mm')} thick"
+    size = f"{in_mm(FLAG[1])} thick"
     flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL)
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))

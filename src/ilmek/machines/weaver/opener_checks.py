@@ -26,36 +26,28 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
             pitch - warp,
             "mm",
             "gap of the warps; assumed by this project: parameters opener.tip, opener.placing",
-            cure=FINER,
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure(FINER, OPENER_PLATE),
         at_most(
             "opener: tension of a displaced warp",
             opener.tension,
             own.strength_used * strength,
             "N",
             "breaking force of the warp; share assumed by this project: parameter opener.strength_used",
-            cure="set a lower tension, stronger warps, or longer spans of the warps",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("set a lower tension, stronger warps, or longer spans of the warps", OPENER_PLATE),
         at_most(
             "opener: wedge against friction",
             opener.wedge,
             1 - LEAST_ROOM,
             "1",
             "no self-locking: slope of its walls times the friction",
-            cure="set a longer weaver.opening",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("set a longer weaver.opening", OPENER_PLATE),
         at_most(
             "opener: bend of its teeth",
             opener.bend,
             own.bend_limit,
             "mm",
             "assumed by this project: parameter opener.bend_limit",
-            cure="set a wider weaver.opener.wall, or a lower tension",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("set a wider weaver.opener.wall, or a lower tension", OPENER_PLATE),
         *_opener_room_checks(weaver),
     )
 
@@ -70,36 +62,28 @@ def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
             opener.aside - opener.pair / 2 - opener.diameter,
             "mm",
             "from the pair's warps to their neighbours",
-            cure="set a larger opening of the arms, or a smaller weaver.opener.wall",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("set a larger opening of the arms, or a smaller weaver.opener.wall", OPENER_PLATE),
         at_least(
             "opener: room of the tools between its plates",
             own.height,
             tools_height(weaver),
             "mm",
             "height of the grippers, or of a needle, with their clearances",
-            cure="set a larger weaver.opener.height",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("set a larger weaver.opener.height", OPENER_PLATE),
         at_least(
             "sley: stroke from above the opener to the fell",
             params.sley_stroke,
             own.front_span + own.height + own.plate,
             "mm",
             "opener.front_span, height and plate",
-            cure="set a longer weaver.sley_stroke",
-            parts=(SLEY_BAR, OPENER_PLATE),
-        ),
+        ).with_cure("set a longer weaver.sley_stroke", SLEY_BAR, OPENER_PLATE),
         at_most(
             "opener: width of the warps that it displaces",
             opener.crowd,
             weaver.width,
             "mm",
             "head_width: the neighbouring head's warps stay where they are",
-            cure="leave head_width to the design, or set thinner warps",
-            parts=(OPENER_PLATE,),
-        ),
+        ).with_cure("leave head_width to the design, or set thinner warps", OPENER_PLATE),
     )
 
 
@@ -117,14 +101,8 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
     fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
     found = (
         at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width", cure=fewer, parts=(TUBE,)),
-        at_most(
-            "tiers of the tubes",
-            magazine.height,
-            params.magazine_room,
-            "mm",
-            "parameter magazine_room",
-            cure="set a larger weaver.magazine_room, or fewer colours",
-            parts=(TUBE,),
+        at_most("tiers of the tubes", magazine.height, params.magazine_room, "mm", "parameter magazine_room").with_cure(
+            "set a larger weaver.magazine_room, or fewer colours", TUBE
         ),
         at_most(
             "position of a tube",
@@ -132,9 +110,7 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
             (TUBE_BORE * magazine.pitch - params.yarn) / 2,
             "mm",
             "the yarn within the tube's bore; full steps of the selector's motor, and its index sensor",
-            cure="set a larger weaver.tube_pitch",
-            parts=(TUBE, COLOUR_MOTOR, INDEX_SENSOR),
-        ),
+        ).with_cure("set a larger weaver.tube_pitch", TUBE, COLOUR_MOTOR, INDEX_SENSOR),
     )
     if not params.with_arms:
         return found
@@ -148,7 +124,5 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
             max(params.billed, params.arms.yarn),
             "mm",
             "yarn bill, and need of the arms",
-            cure="set a longer knot_yarn",
-            parts=(PILE_HANDLER,),
-        ),
+        ).with_cure("set a longer knot_yarn", PILE_HANDLER),
     )

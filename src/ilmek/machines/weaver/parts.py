@@ -26,7 +26,7 @@ from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, in_mm, mm, round_size, turn
 
 BEARING_LIFE = 1e8
 """Turns of the cam shaft, one for each knot, that its bearings must last; assumed by this project."""
@@ -78,7 +78,7 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         deep, high = shape.size.real - flat, shape.size.imag
         hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
         outline = polygon(rectangle(deep, high).points + middle)
-        size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {_mm(plate)}"
+        size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {in_mm(plate)}"
         section = Profile(outline, hole)
         part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, Prism(section, plate), ALUMINIUM)
         yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
@@ -101,7 +101,7 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     journal, seats = wide / 2 - end, (placement(z=-wide / 2), placement(z=end))
     journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
     middle = Placed(grooved(params.shaft, 2 * end), (placement(z=-end),))
-    title, size = "cam shaft of the head", _round(params.shaft)
+    title, size = "cam shaft of the head", round_size(params.shaft)
     yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
@@ -125,8 +125,8 @@ def _spacers(outer: float, places: list[tuple[float, float]]) -> Iterator[Occurr
         if end - begin > LEAST_SPACER:
             gaps.setdefault(round(end - begin, 9), []).append(begin)
     for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
-        ring, title = tube(outer, SPACER_WALL, length), f"spacer of the cam shaft, {_mm(length)}"
-        part = Part(part_id(f"spacer-{number}"), title, "pin or bush", _round(outer), ring, STEEL)
+        ring, title = tube(outer, SPACER_WALL, length), f"spacer of the cam shaft, {in_mm(length)}"
+        part = Part(part_id(f"spacer-{number}"), title, "pin or bush", round_size(outer), ring, STEEL)
         yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 
@@ -134,7 +134,7 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
     """The plate of a cam; its room where no surface can guide the roller."""
     shaft, thickness = weaver.params.shaft, cam.thickness
     bore = round_bore(shaft)
-    title, size = f"cam of the {cam.name}", f"{cam.actuator}, lift {format_quantity(cam.lift, 'mm')}"
+    title, size = f"cam of the {cam.name}", f"{cam.actuator}, lift {in_mm(cam.lift)}"
     if cam.undercut:
         room = Prism(drilled(circle(0j, cam.radius), bore.holes, bore.cutouts), thickness)
         return Part(cam_id(cam.name), title, "cam plate", size, room, STEEL, envelope=True)
@@ -149,13 +149,5 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         STEEL,
         paths={"pitch curve": pitch, "cutter path": pitch},
         marks=zero_mark(float(np.abs(surface[-1]))),
-        notes=(*bore.notes, f"cutter of {format_quantity(2 * cam.cam.roller_radius, 'mm')}"),
+        notes=(*bore.notes, f"cutter of {in_mm(2 * cam.cam.roller_radius)}"),
     )
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")
-
-
-def _round(diameter: float) -> str:
-    return f"round {_mm(diameter)}"

@@ -20,19 +20,7 @@ from ilmek.machines.weaver.plan_view import animation, plan_view
 from ilmek.machines.weaver.tree import cam_masses
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.records import Computed, computed, group, record
-from ilmek.report import (
-    Axis,
-    CamTable,
-    Check,
-    Drawing,
-    Figure,
-    Plot,
-    Series,
-    Stroke,
-    Table,
-    Timing,
-    columns,
-)
+from ilmek.report import Axis, CamTable, Check, Drawing, Figure, Plot, Series, Stroke, Table, Timing, columns
 from ilmek.timing.figures import draw
 from ilmek.timing.track import sample
 from ilmek.units import format_quantity, turn
@@ -65,12 +53,7 @@ class CamResults:
     cam_hertz_max = _each("MPa", "greatest Hertz pressure", lambda cam: cam.pressure_max)
     spring_rate = _each("N/m", "rates of the return springs; 0: none", lambda cam: cam.rate)
     spring_preload = _each("N", "preloads of the return springs", lambda cam: cam.preload)
-    cam_stack_width = computed(
-        "mm",
-        "width of the cams on their shaft",
-        lambda it: stack_width(it.params),
-        least=0.0,
-    )
+    cam_stack_width = computed("mm", "width of the cams on their shaft", lambda it: stack_width(it.params), least=0.0)
 
 
 @record

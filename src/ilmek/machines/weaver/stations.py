@@ -6,15 +6,7 @@ beside the opener at the left, the pile handler turns at the right, the grippers
 
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import CASE
-from ilmek.machines.weaver.motions import (
-    CENTRE_GRASP,
-    CENTRE_MOTION,
-    HANDLER,
-    OPENER,
-    SIDE_GRASP,
-    SIDE_MOTION,
-    SLEY,
-)
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.units import mm
 

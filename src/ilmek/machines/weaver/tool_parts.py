@@ -38,7 +38,7 @@ from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBod
 from ilmek.plane.contours import bounds, circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm, round_size
 
 HANDLER_SHAFT = 4 * mm
 """Diameter of the pile handler's shaft [m]; assumed by this project."""
@@ -136,7 +136,7 @@ class ToolBodies:
             members.append(Placed(bar(by.finger, by.arm - jaw - half), (placement(half).after(ALONG_WIDTH),)))
         if jaw > 0:
             members.append(Placed(box(jaw, half, by.finger), (placement(by.arm - jaw / 2, -half / 2, -half),)))
-        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), _round(by.finger))
+        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), round_size(by.finger))
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
@@ -150,7 +150,7 @@ class ToolBodies:
         """A square tube to its carriage, at its tip half as thick, beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE)
-        size = f"square {format_quantity(by.finger, 'mm')}"
+        size = f"square {in_mm(by.finger)}"
         section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
         rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
@@ -166,7 +166,7 @@ class ToolBodies:
             "plate of the warp opener",
             "machined link",
             Prism(self._comb(low), thick),
-            f"{format_quantity(thick, 'mm')} thick",
+            f"{in_mm(thick)} thick",
         )
         return (Occurrence(part, tuple(_upright(tool) for tool in (low, high))),)
 
@@ -209,7 +209,7 @@ class ToolBodies:
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
         inner = outer - SLEY_ARM
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
-        size = f"{format_quantity((half + outer) / mm, '')} x {format_quantity(tool.size.imag, 'mm')}"
+        size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
         part = _made(SLEY_BAR, "sley", "machined link", shape, size)
         return Occurrence(part, (_upright(tool),))
@@ -239,7 +239,7 @@ class ToolBodies:
 
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
-    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{_mm(shape.length)} thick")
+    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{in_mm(shape.length)} thick")
 
 
 def wire_of(params: WeaverParams) -> float:
@@ -280,11 +280,3 @@ def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:
 
 def _made(name: str, title: str, process: str, shape: Shape, size: str) -> Part:
     return Part(name, title, process, size, shape, STEEL)
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")
-
-
-def _round(diameter: float) -> str:
-    return f"round {_mm(diameter)}"

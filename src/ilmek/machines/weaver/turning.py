@@ -27,7 +27,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, in_mm, mm, turn
 
 HANDLER_BODY, PINION_BODY = part_id("turning pile handler"), part_id("turning pinion")
 HANDLER_SHAFT, PINION, RACK, FREEWHEEL = (
@@ -139,7 +139,7 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         HANDLER_SHAFT,
         "shaft of the pile handler",
         "pin or bush",
-        _mm(SHAFT),
+        in_mm(SHAFT),
         bar(SHAFT, end - begin),
         STEEL,
         seats={"journal": Seat(placement(z=end - begin - FACE), SHAFT)},
@@ -180,7 +180,3 @@ def _meshing(weaver: Weaver) -> float:
     upper = rack_top(weaver) + float(weaver.cam(HANDLER).motion.s[0])
     above = (upper - pitch / 2 - pivot(weaver).imag) % pitch
     return turn / (2 * TEETH) + above / gear.pitch_radius
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

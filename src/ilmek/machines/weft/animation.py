@@ -69,10 +69,7 @@ def _rapier(made: Weft, length: float, motion: FloatArray, height: float) -> tup
     far = made.params.cloth.width + made.params.edge + 1j * height
     drawn = np.arange(FRAMES) * 2 >= FRAMES
     weft = np.stack([head, np.where(drawn, far, head)], axis=1)
-    return (
-        MovingStroke(weft, "path", "weft"),
-        MovingStroke(np.stack([head - length, head], axis=1), "link", "rapier"),
-    )
+    return (MovingStroke(weft, "path", "weft"), MovingStroke(np.stack([head - length, head], axis=1), "link", "rapier"))
 
 
 def _box(length: float, cells: tuple[float, float]) -> ComplexArray:

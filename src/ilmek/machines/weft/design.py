@@ -55,16 +55,15 @@ class Weft:
     alternatives: tuple["Weft", ...] = ()
 
     carrier = computed("", "what carries the weft", lambda it: it.params.carrier)
-    weft_length = computed(
-        "m",
-        "length of each weft for a row, with its turn",
-        lambda it: {"straight weft": it.lengths.straight, "sinuous weft": it.lengths.sinuous},
-    )
-    weft_need = computed(
-        "m",
-        "length of each weft for the carpet",
-        lambda it: {name: it.params.rows * length for name, length in it.weft_length.items()},
-    )
+
+    @computed("m", "length of each weft for a row, with its turn")
+    def weft_length(self) -> dict[str, float]:
+        return {"straight weft": self.lengths.straight, "sinuous weft": self.lengths.sinuous}
+
+    @computed("m", "length of each weft for the carpet")
+    def weft_need(self) -> dict[str, float]:
+        return {name: self.params.rows * length for name, length in self.weft_length.items()}
+
     stops = computed("1", "stops of the loom for new bobbins", lambda it: stop_count(it.bobbins, it.params.rows))
     stop_time = computed("min", "time of all stops", lambda it: stop_time(it.bobbins, it.params.rows))
 
@@ -203,9 +202,7 @@ def _room_check(made: Weft) -> Check:
         made.params.room,
         "m",
         "assumed by this project: parameter room",
-        cure="set more weft.room, or weft=shuttle",
-        parts=(CARRIAGE, AXIS),
-    )
+    ).with_cure("set more weft.room, or weft=shuttle", CARRIAGE, AXIS)
 
 
 def _tension_checks(made: Weft) -> tuple[Check, ...]:
@@ -215,14 +212,8 @@ def _tension_checks(made: Weft) -> tuple[Check, ...]:
     cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
     pulled = (BOBBIN,) if made.params.carrier == SHUTTLE else (GRIPPER,)
     return tuple(
-        at_most(
-            f"tension of the {name}",
-            tension,
-            made.params.tension_share * breaks[name],
-            "N",
-            source,
-            cure=cure,
-            parts=pulled,
+        at_most(f"tension of the {name}", tension, made.params.tension_share * breaks[name], "N", source).with_cure(
+            cure, *pulled
         )
         for name, tension in made.tension.items()
     )
@@ -235,20 +226,10 @@ def _axis_checks(made: Weft) -> tuple[Check, ...]:
     return (
         at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure, parts=moved),
         at_most(
-            "acceleration of the passage",
-            passage.acceleration,
-            params.acceleration,
-            "m/s^2",
-            "acceleration",
-            cure=cure,
-            parts=moved,
-        ),
-        must(
-            "belt of the axis",
-            not math.isnan(axis.width),
-            "pull of the teeth in mesh, widths of stock",
-            cure=cure,
-            parts=(AXIS,),
+            "acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration"
+        ).with_cure(cure, *moved),
+        must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock").with_cure(
+            cure, AXIS
         ),
         at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure, parts=(MOTOR,)),
     )

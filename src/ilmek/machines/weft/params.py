@@ -72,11 +72,7 @@ class WeftParams(Params):
         None, at_least=2 * mm, at_most=0.5, doc="height of the rapier's tube along the warps; default: chosen"
     )
     rapier_modulus: float = kind.pressure(
-        CARBON.modulus,
-        unit="GPa",
-        at_least=1e6,
-        at_most=1e13,
-        doc="Young's modulus of the rapier: carbon fibre",
+        CARBON.modulus, unit="GPa", at_least=1e6, at_most=1e13, doc="Young's modulus of the rapier: carbon fibre"
     )
     rapier_density: float = kind.density(CARBON.density, at_least=1.0, at_most=2e4, doc="density of the rapier")
     sag_limit: float = kind.length(8 * mm, at_least=1e-6, at_most=0.5, doc="allowed sag of the rapier's tip")

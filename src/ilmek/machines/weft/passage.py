@@ -30,17 +30,12 @@ class WeftPassage:
     stroke = computed("mm", "stroke of the carrier, from rest to rest", lambda it: it.move.distance)
     speed = computed("m/s", "largest speed of the carrier", lambda it: it.move.speed, name="speed_max")
     acceleration = computed(
-        "m/s^2",
-        "largest acceleration of the carrier",
-        lambda it: it.move.jerk * it.move.ramp,
-        name="acceleration_max",
+        "m/s^2", "largest acceleration of the carrier", lambda it: it.move.jerk * it.move.ramp, name="acceleration_max"
     )
-    time = computed(
-        "s",
-        "shortest time of a passage; a longer window of the shed stretches it",
-        lambda it: (2 * it.move.time + it.pause) if it.back else it.move.time,
-        name="passage_time",
-    )
+
+    @computed("s", "shortest time of a passage; a longer window of the shed stretches it", name="passage_time")
+    def time(self) -> float:
+        return (2 * self.move.time + self.pause) if self.back else self.move.time
 
     @property
     def law(self) -> Law:

@@ -31,6 +31,4 @@ def shed_check(params: WeftParams, opening: float, thinner: str, part: str) -> C
         HIGHEST_SHARE * params.open_share * params.lift,
         "mm",
         "0.8 of the opening at the cams, assumed by this project; parameters lift, open_share, play",
-        cure=f"set a higher lift, or {thinner}",
-        parts=(part,),
-    )
+    ).with_cure(f"set a higher lift, or {thinner}", part)

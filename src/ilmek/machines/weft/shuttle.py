@@ -121,14 +121,8 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
     return (
         at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure, parts=(BOBBIN,)),
         shed_check(params, made.opening, "a smaller weft.bobbin_diameter", SHUTTLE_WOOD),
-        at_least(
-            "lifted warps under the shuttle",
-            made.supports,
-            SUPPORTS,
-            "1",
-            supports,
-            cure="set a longer weft.bobbin_length",
-            parts=(SHUTTLE_WOOD,),
+        at_least("lifted warps under the shuttle", made.supports, SUPPORTS, "1", supports).with_cure(
+            "set a longer weft.bobbin_length", SHUTTLE_WOOD
         ),
         at_most(
             "gap that the shuttle bridges at the edge",
@@ -136,9 +130,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
             made.length / 2,
             "mm",
             "its middle is supported until its tip bears on the first lifted warp",
-            cure="set a smaller weft.edge or a longer bobbin",
-            parts=(SHUTTLE_WOOD,),
-        ),
+        ).with_cure("set a smaller weft.edge or a longer bobbin", SHUTTLE_WOOD),
     )
 
 

@@ -33,18 +33,7 @@ from ilmek.jobs.studio.figures.answers import (
     ShownTable,
     ShownTiming,
 )
-from ilmek.report import (
-    Animation,
-    Drawing,
-    Figure,
-    Gantt,
-    MovingStroke,
-    Plot,
-    StackedBars,
-    Stroke,
-    Table,
-    Timing,
-)
+from ilmek.report import Animation, Drawing, Figure, Gantt, MovingStroke, Plot, StackedBars, Stroke, Table, Timing
 from ilmek.viz.looks import COLOURED, looks_of, numbered
 from ilmek.viz.moving_parts import is_rigid
 from ilmek.viz.number_format import quiet_rows

@@ -10,14 +10,7 @@ from ilmek.io.output import disk
 from ilmek.io.rendered.kind import drawing_endings, rendered
 from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.project.folder import (
-    PICTURES,
-    ProjectFolder,
-    cannot,
-    check_name,
-    read_bytes,
-    write_bytes,
-)
+from ilmek.jobs.studio.project.folder import PICTURES, ProjectFolder, cannot, check_name, read_bytes, write_bytes
 from ilmek.jobs.studio.project.tasks import Changed, PathRequest, PictureSummary
 
 LARGEST_PICTURE = 45_000_000

@@ -119,7 +119,5 @@ def circuit_checks(loom: LoomDesign) -> tuple[Check, ...]:
             2 * _rail_length(control),
             "mm",
             f"two side walls of the cabinet; {signals.signal_count(loom.heads)} signals, two on a terminal",
-            cure="set fewer heads",
-            parts=(signals.TERMINAL, part_id("mounting-rail")),
-        ),
+        ).with_cure("set fewer heads", signals.TERMINAL, part_id("mounting-rail")),
     )

@@ -176,11 +176,7 @@ def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
     middles = ((first + then) / 2 for first, then in pairwise(front))
     return RigidBody(
         GUARDS[1],
-        (
-            Occurrence(leaf),
-            Occurrence(hinge, tuple(hinges)),
-            Occurrence(actuator, (placed(*inwards, UPWARDS),)),
-        ),
+        (Occurrence(leaf), Occurrence(hinge, tuple(hinges)), Occurrence(actuator, (placed(*inwards, UPWARDS),))),
         positions=tuple(placement(x, fence.floor + BOTTOM, fence.front + POST / 2 - WIRE) for x in middles),
     )
 

@@ -137,35 +137,23 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
             through(MESH - WIRE),
             "mm",
             f"ISO 13857, table 4: square openings of {opening}",
-            cure="set a larger margin",
-            parts=(PANEL,),
-        ),
+        ).with_cure("set a larger margin", PANEL),
         at_least(
             f"guards: reaching over, to the {_named(worst)}",
             fence.distance(worst),
             fence.needed(worst),
             "mm",
             f"ISO 13857, table 2, high risk: fence of {height}",
-            cure="set a narrower lift or a lower tension: the loom is to be lower",
-            parts=(PANEL,),
-        ),
+        ).with_cure("set a narrower lift or a lower tension: the loom is to be lower", PANEL),
         at_least(
             "guards: distance of the doors",
             fence.front - moved,
             door(fence.stopping.whole),
             "mm",
             f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after a door opens",
-            cure=_CURE,
-            parts=(DOOR, signals.INTERLOCK, signals.RELAY),
-        ),
-        at_most(
-            "guards: height",
-            fence.height,
-            FENCES[-1],
-            "m",
-            "highest fence of ISO 13857, table 2",
-            cure="set a lower tension or a smaller lift",
-            parts=(PANEL,),
+        ).with_cure(_CURE, DOOR, signals.INTERLOCK, signals.RELAY),
+        at_most("guards: height", fence.height, FENCES[-1], "m", "highest fence of ISO 13857, table 2").with_cure(
+            "set a lower tension or a smaller lift", PANEL
         ),
     )
 

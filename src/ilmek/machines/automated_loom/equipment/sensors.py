@@ -133,10 +133,7 @@ def _barriers(loom: LoomDesign, near: Surroundings) -> MountedSensor:
     lower = np.arange(0.0, upper.radius - BARRIER.size[1] / 2, _STEP).tolist()
     places = (begin + share * (end - begin) - 1j * y for y in lower for share in np.linspace(0.2, 0.9, 15).tolist())
     offered = (
-        (
-            placed(-upper.inner, at.imag, at.real, TO_THE_RIGHT),
-            placed(upper.inner, at.imag, at.real, TO_THE_LEFT),
-        )
+        (placed(-upper.inner, at.imag, at.real, TO_THE_RIGHT), placed(upper.inner, at.imag, at.real, TO_THE_LEFT))
         for at in places
     )
     return _first_free(near, part, GROUND, offered, part_id("upper-bracket"))
@@ -164,16 +161,12 @@ def sensor_checks(loom: LoomDesign) -> tuple[Check, ...]:
             0,
             "1",
             "; ".join(part.title for part in tight) or "beside all parts of the loom, over all motions",
-            cure="set a larger clearance",
-            parts=tuple(part.id for part in tight),
-        ),
+        ).with_cure("set a larger clearance", *tuple(part.id for part in tight)),
         at_least(
             "warp tension: strain of the back rest's beam",
             strain,
             LEAST_STRAIN,
             "1",
             "what the transducer tells well, assumed by this project",
-            cure="set a higher tension",
-            parts=(signals.TENSION, part_id("back-rest-beam")),
-        ),
+        ).with_cure("set a higher tension", signals.TENSION, part_id("back-rest-beam")),
     )

@@ -6,14 +6,7 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.beat_motion import beat_displacement, beat_joints
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import (
-    COARSE,
-    COARSEST,
-    FINE,
-    ROW,
-    MachineTree,
-    track_angles,
-)
+from ilmek.machines.automated_loom.in_space.maker import COARSE, COARSEST, FINE, ROW, MachineTree, track_angles
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import tree
 from ilmek.machines.shedding.tree import warp_positions as positions_of

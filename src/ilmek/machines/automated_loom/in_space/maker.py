@@ -59,14 +59,11 @@ def track_angles(*tracks: Track) -> FloatArray:
     return np.unique(np.concatenate([[0.0, turn], *spans]))
 
 
-def along_track(
-    cyclogram: Cyclogram, name: str, direction: tuple[float, float, float], limit: float = np.inf
-) -> SceneMotion:
-    """A motion along a direction (x, y, z) by a track, up to a limit of its position [m]."""
+def along_track(cyclogram: Cyclogram, name: str, direction: tuple[float, float, float]) -> SceneMotion:
+    """A motion along a direction (x, y, z) by a track."""
     track = cyclogram.track(name)
     angle = track_angles(track)
-    position = np.minimum(sample(track, angle).position, limit)
-    return motion(cyclogram, angle, shift=position[:, None] * np.array(direction))
+    return motion(cyclogram, angle, shift=np.outer(sample(track, angle).position, direction))
 
 
 def motion(
@@ -80,8 +77,5 @@ def motion(
     drive = ROW if cyclogram.name == "row" else KNOT
     still = np.zeros(len(angle))
     return SceneMotion(
-        drive,
-        angle,
-        np.zeros((len(angle), 3)) if shift is None else shift,
-        still if rotation is None else rotation,
+        drive, angle, np.zeros((len(angle), 3)) if shift is None else shift, still if rotation is None else rotation
     )
