@@ -13,11 +13,13 @@ from collections.abc import Iterator
 from functools import lru_cache
 from itertools import pairwise
 
+from ilmek.elements.field_devices import ENCODER
 from ilmek.elements.safety_distances import FENCES, door, least_fence, over_span, through
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.sensors import ROW_MOTORS
 from ilmek.machines.automated_loom.equipment.stopping import StoppingTime, stopping_time
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Hazard, Surroundings, surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Hazard, Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -91,7 +93,9 @@ def fence_of(loom: LoomDesign) -> Fence:
     # A post stands on each side of the cabinet, beside those of the corners.
     ends = float(control.low[0]) - 2 * POST, float(control.high[0]) + 2 * POST
     left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach, ends[0])
-    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1])
+    behind = max((float(one.high[0]) for one in near.extents if one.part in ROW_MOTORS), default=0.0)  # their encoders
+    encoders = behind + ENCODER.size[2] + GAP
+    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
     front = max(float(stands_high[2]) + BESIDE, float(moves_high[2]) + door(stopping.whole))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)

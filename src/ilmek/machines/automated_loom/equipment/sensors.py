@@ -36,7 +36,10 @@ from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
 
-_BEAT_MOTORS = ("beat-up/motor", "hammer/motor")
+_BEAT_MOTORS, _SHED_MOTOR = ("beat-up/motor", "hammer/motor"), shedding_part("motor")
+ROW_MOTORS = (*_BEAT_MOTORS, _SHED_MOTOR)
+"""Motors of beat and shedding, each with an encoder behind it."""
+
 _STEP = 10 * mm
 """Between places that are tried [m]."""
 
@@ -61,7 +64,7 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     return (
         _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)),
         _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", _BEAT_MOTORS),
-        _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (shedding_part("motor"),)),
+        _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (_SHED_MOTOR,)),
         _on_the_axis(near),
         _strain(near),
         _barriers(loom, near),
