@@ -33,9 +33,13 @@ _SAMPLES, _LARGEST, _STEP = 181, 2.0, 0.005
 _SLOPE = -cmath.phase(RETREAT)
 
 
-def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> float:
+def ground_beside_heads(
+    linkage: BeatUp, side: SideView | None, clearance: float, bar: ComplexArray | None = None
+) -> float:
     """The ground with which a linkage keeps a clearance [m] from the heads; its own where it does, or without a side
     view.
+
+    bar  corners of a comb's bar on the rocker, at the fell in the side view [m]
     """
     ground = linkage.params.ground
     if side is None:
@@ -45,8 +49,12 @@ def ground_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
         *((clearance - gap) / math.sin(_SLOPE) for gap in _before(linkage, side)),
     )
     grown = 1 + max(longer, 0.0) / linkage.lengths["beater"]
-    scales = grown * np.arange(1.0, _LARGEST, _STEP)
-    return ground * next((one for one in scales.tolist() if _before_cams(linkage, side, one) >= clearance), grown)
+
+    def clear(scale: float) -> bool:
+        free = bar is None or _before_bar(linkage, bar, scale) >= clearance
+        return free and _before_cams(linkage, side, scale) >= clearance
+
+    return ground * next((one for one in (grown * np.arange(1.0, _LARGEST, _STEP)).tolist() if clear(one)), grown)
 
 
 def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> tuple[Check, ...]:
@@ -96,13 +104,27 @@ def _before_cams(linkage: BeatUp, side: SideView, scale: float = 1.0) -> float:
     return min(gaps) - half
 
 
-@lru_cache(maxsize=4)
-def _coupler(linkage: BeatUp) -> ComplexArray:
-    """Points of the coupler's middle line over a turn in the side view [m]."""
+def _before_bar(linkage: BeatUp, bar: ComplexArray, scale: float) -> float:
+    """Least gap between the coupler of a linkage of a scale and the bar that turns with its rocker, over a turn [m]."""
+    points = scale * (_coupler(linkage, on_rocker=True) + linkage.lengths["beater"])
+    aside = np.maximum(np.maximum(bar.real.min() - points.real, points.real - bar.real.max()), 0.0)
+    over = np.maximum(np.maximum(bar.imag.min() - points.imag, points.imag - bar.imag.max()), 0.0)
+    return float(np.hypot(aside, over).min()) - linkage.params.width / 2
+
+
+@lru_cache(maxsize=8)
+def _coupler(linkage: BeatUp, *, on_rocker: bool = False) -> ComplexArray:
+    """Points of the coupler's middle line over a turn in the side view [m], or from the pivot as seen on the rocker,
+    which points to the warps.
+    """
     motion, lengths = solve(linkage.plan, np.linspace(0.0, turn, _SAMPLES)), linkage.lengths
     crank, rocker = (lengths[name] * np.exp(1j * motion.angle(name)) for name in ("crank", "rocker"))
     first, last = _in_side_view(linkage, crank), _in_side_view(linkage, lengths["ground"] + rocker)
-    return np.asarray(first + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (last - first))
+    points = np.asarray(first + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (last - first))
+    if not on_rocker:
+        return points
+    pivot = _in_side_view(linkage, np.asarray(complex(lengths["ground"])))
+    return np.asarray((points - pivot) * -lengths["rocker"] / (last - pivot))
 
 
 def _in_side_view(linkage: BeatUp, pin: ComplexArray) -> ComplexArray:

@@ -198,7 +198,7 @@ def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     chosen, linkage, choices = chosen_linkage(params, fabric, needed)
     for _ in range(_ROUNDS):
         # A longer linkage may need other links, and these more room.
-        ground = ground_beside_heads(linkage.one, task.side, clearance)
+        ground = ground_beside_heads(linkage.one, task.side, clearance, outline(chosen)[1])
         params = task.parameters("hammer", replace(_of_carpet(task, kind), ground=ground))
         if params.ground == chosen.ground:
             break
