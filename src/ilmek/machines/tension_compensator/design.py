@@ -112,8 +112,18 @@ class TensionCompensator:
 
     @property
     def swing(self) -> float:
-        """Length of the warps' run that it takes, from rod to rod [m]."""
-        return 2 * self.span
+        """Length of the warps' run that it takes [m]: from rod to rod, and its cross-pieces and saddles behind a back
+        rest of the bars' radius.
+        """
+        at, path, radius = self.parts.supports, self.one.lever.path, self.radius
+        roller, corner, _ = at.saddle(complex(-path.radius), -1)
+        saddle = roller + np.linspace(0.0, 1.0, STEPS) * (corner - roller)
+        apart = radius + max(at.strip, at.members.roller.outer / 2) + CLEARANCE
+        over = self.half_depth + saddle.real + radius  # the axis of the back rest
+        behind = np.abs(saddle.imag) + np.sqrt(np.maximum(apart**2 - over**2, 0.0)) - radius
+        return 2 * max(
+            self.span, path.half + max(at.strip + CLEARANCE, float(behind.max(where=over < apart, initial=0.0)))
+        )
 
     @property
     def rear(self) -> float:
