@@ -188,11 +188,9 @@ class HammerParams(Params):
         fabric, rows = self.fabric, self.cloth.row_distance
         if not fabric.jammed < rows < fabric.laid:
             given, least, most = (format_quantity(value, "mm") for value in (rows, fabric.jammed, fabric.laid))
-            raise ParameterError(
-                f"rows {given} apart",
-                allowed=f"between jammed_pitch={least} and laid_pitch={most}",
-                do="set jammed_pitch below and laid_pitch above cloth.row_pitch",
-            )
+            allowed = f"between jammed_pitch={least} and laid_pitch={most}"
+            do = "set jammed_pitch below and laid_pitch above cloth.row_pitch"
+            raise ParameterError(f"rows {given} apart", allowed=allowed, do=do)
         if self.leaf >= self.cloth.warp_pitch:
             leaf, pitch = format_quantity(self.leaf, "mm"), format_quantity(self.cloth.warp_pitch, "mm")
             raise ParameterError(

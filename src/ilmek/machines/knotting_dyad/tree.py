@@ -193,15 +193,8 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
     """The axis of the centre gripper under its bar, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
     under, long = middle + params.link_thickness / 2, 2 * head.centre_stroke
-    axis = Part(
-        f"{NAME}/centre-axis",
-        "axis of the centre gripper",
-        "linear axis",
-        "straight",
-        box(AXIS, long, AXIS),
-        purchase=Bought("linear axis", length=stroke),
-        envelope=True,
-    )
+    title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
+    axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
     begin = params.room.depth - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))
     moved = RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth

@@ -185,12 +185,9 @@ def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
 def _fork_check(weaver: Weaver) -> Check:
     """The most loaded fork of a follower bears its roller's force."""
     worst = max(weaver.cams, key=lambda cam: cam.contact_max)
+    source = f"{STEEL.name}, fatigue limit over 2; assumed by this project"
     return at_most(
-        f"stress of the follower, {worst.name}",
-        fork_stress(weaver, worst),
-        FORK_STRESS,
-        "MPa",
-        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        f"stress of the follower, {worst.name}", fork_stress(weaver, worst), FORK_STRESS, "MPa", source
     ).with_cure("set a larger weaver.cam_gap, or lighter tools", follower_id(worst.name))
 
 
@@ -207,12 +204,9 @@ def _mass_check(weaver: Weaver) -> Check:
 def _lever_check(weaver: Weaver) -> Check:
     """The most loaded lever bears its cam's force at its axle."""
     worst = max(weaver.shape.levers, key=lambda track: lever_stress(weaver, weaver.cam(track)))
+    source = f"{STEEL.name}, fatigue limit over 2; assumed by this project"
     return at_most(
-        f"stress of the lever, {worst}",
-        lever_stress(weaver, weaver.cam(worst)),
-        LEVER_STRESS,
-        "MPa",
-        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        f"stress of the lever, {worst}", lever_stress(weaver, weaver.cam(worst)), LEVER_STRESS, "MPa", source
     ).with_cure("set a larger weaver.cam_thickness, or a lower tension of the warps", lever_id(worst))
 
 
