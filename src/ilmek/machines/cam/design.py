@@ -204,11 +204,9 @@ def _check_ring(params: CamParams, inner: float, hub: Hub) -> None:
         allowed = f"a face narrower by {format_quantity(-2 * inner, 'mm')}"
         raise ParameterError(given, allowed=allowed, do="set a smaller face_width, or a larger prime_radius")
     if params.bore is not None and hub.reach >= inner:
-        raise ParameterError(
-            f"bore={format_quantity(params.bore, 'mm')} does not fit into the {params.kind} cam",
-            allowed=f"less than {format_quantity(inner, 'mm')} from the axis, keyway included",
-            do="set a smaller bore, or a larger prime_radius",
-        )
+        given = f"bore={format_quantity(params.bore, 'mm')} does not fit into the {params.kind} cam"
+        allowed = f"less than {format_quantity(inner, 'mm')} from the axis, keyway included"
+        raise ParameterError(given, allowed=allowed, do="set a smaller bore, or a larger prime_radius")
 
 
 def contact_of(params: CamParams) -> FollowerContact:

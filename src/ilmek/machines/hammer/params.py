@@ -193,17 +193,12 @@ class HammerParams(Params):
             raise ParameterError(f"rows {given} apart", allowed=allowed, do=do)
         if self.leaf >= self.cloth.warp_pitch:
             leaf, pitch = format_quantity(self.leaf, "mm"), format_quantity(self.cloth.warp_pitch, "mm")
-            raise ParameterError(
-                f"leaf_thickness={leaf} on a warp pitch of {pitch}",
-                allowed=f"below {pitch}, less the warp's own thickness",
-                do="leave it out for 0.4 of the pitch",
-            )
+            given, do = f"leaf_thickness={leaf} on a warp pitch of {pitch}", "leave it out for 0.4 of the pitch"
+            raise ParameterError(given, allowed=f"below {pitch}, less the warp's own thickness", do=do)
         if self.inset * 2 > self.cloth.width * (1 + 1e-9):
-            raise ParameterError(
-                f"support_inset={format_quantity(self.inset, 'mm')} on both sides",
-                allowed=f"at most half of the width, {format_quantity(self.cloth.width / 2, 'mm')}",
-                do="set a smaller one",
-            )
+            given = f"support_inset={format_quantity(self.inset, 'mm')} on both sides"
+            allowed = f"at most half of the width, {format_quantity(self.cloth.width / 2, 'mm')}"
+            raise ParameterError(given, allowed=allowed, do="set a smaller one")
 
     @property
     def fabric(self) -> Fabric:

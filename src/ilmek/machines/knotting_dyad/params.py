@@ -148,8 +148,6 @@ class KnottingDyadParams(Params):
             given = f"ends taken {format_quantity(self.leg, 'mm')} above the warps' axes are among the warps"
             raise ParameterError(given, allowed=f"a leg of {format_quantity(least + self.clearance, 'mm')} or more")
         if self.depth is not None and self.depth < least:
-            raise ParameterError(
-                f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps",
-                allowed=f"a depth of {format_quantity(least, 'mm')} or more",
-                do="leave depth out to have it chosen",
-            )
+            given = f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps"
+            allowed = f"a depth of {format_quantity(least, 'mm')} or more"
+            raise ParameterError(given, allowed=allowed, do="leave depth out to have it chosen")

@@ -120,13 +120,7 @@ def _span(span: tuple[float, float]) -> str:
 
 def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
     heads = columns(
-        "joint",
-        "torque [mN*m]",
-        "root mean square [mN*m]",
-        "speed [rad/s]",
-        "gears",
-        "servo's torque [mN*m]",
-        "servo",
+        "joint", "torque [mN*m]", "root mean square [mN*m]", "speed [rad/s]", "gears", "servo's torque [mN*m]", "servo"
     )
     rows = tuple(
         (

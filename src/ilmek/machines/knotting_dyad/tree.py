@@ -203,13 +203,9 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
     upright = placement(across, begin + long / 2, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
     yield Occurrence(motor, (upright,))
+    title, size = "hanger of the centre gripper's axis", f"{format_quantity(HANGER, 'mm')} thick"
     hanger = Part(
-        f"{NAME}/centre-hanger",
-        "hanger of the centre gripper's axis",
-        "machined link",
-        f"{format_quantity(HANGER, 'mm')} thick",
-        box(AXIS, HANGER, under + AXIS - level),
-        ALUMINIUM,
+        f"{NAME}/centre-hanger", title, "machined link", size, box(AXIS, HANGER, under + AXIS - level), ALUMINIUM
     )
     yield Occurrence(hanger, (placement(across, begin + long + HANGER / 2, level),))
 

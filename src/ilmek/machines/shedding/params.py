@@ -194,11 +194,9 @@ class SheddingParams(Params):
         self._check_thickness()
         self._check_spans()
         if self.phase != "together" and self.stagger_groups > self.cloth.warps // 2:
-            raise ParameterError(
-                f"stagger_groups={self.stagger_groups} of {self.cloth.warps} warps",
-                allowed=f"at most {self.cloth.warps // 2}: half of the warps are of a parity",
-                do="set fewer groups",
-            )
+            given = f"stagger_groups={self.stagger_groups} of {self.cloth.warps} warps"
+            allowed = f"at most {self.cloth.warps // 2}: half of the warps are of a parity"
+            raise ParameterError(given, allowed=allowed, do="set fewer groups")
 
     def _check_thickness(self) -> None:
         """Raise ParameterError where a given cam does not fit the pitch of its shaft, the warps of all shafts on it."""

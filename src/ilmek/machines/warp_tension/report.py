@@ -93,13 +93,7 @@ def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
     larger = "set a larger bearing, or a lower tension"
     yield from _slope_checks(found)
     yield at_least(
-        *(
-            f"static safety, {tired.bearing.name}",
-            tired.static_safety,
-            params.static_safety,
-            "1",
-            f"ISO 76; {case}",
-        )
+        *(f"static safety, {tired.bearing.name}", tired.static_safety, params.static_safety, "1", f"ISO 76; {case}")
     ).with_cure(larger, part_id(f"{tired.name}-bearing"))
     yield at_least(
         *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),

@@ -107,12 +107,7 @@ def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
     weaver = found.weaver
     tracks = weaver.tools
     heads = columns(
-        "track",
-        "driven by",
-        "stroke [mm]",
-        "largest speed [m/s]",
-        "largest acceleration [m/s^2]",
-        "shortest cycle [s]",
+        "track", "driven by", "stroke [mm]", "largest speed [m/s]", "largest acceleration [m/s^2]", "shortest cycle [s]"
     )
     rows = tuple(
         (track.name, track.actuator, peak.stroke, peak.speed, peak.acceleration, peak.shortest)

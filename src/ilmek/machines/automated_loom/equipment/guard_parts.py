@@ -65,12 +65,7 @@ def guards(loom: LoomDesign) -> Tree:
     fence, near = fence_of(loom), surroundings(loom)
     lines = _Lines(fence, near)
     parts = (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front))
-    return Tree(
-        (
-            RigidBody(GUARDS[0], parts),
-            _doors(fence, lines.front),
-        )
-    )
+    return Tree((RigidBody(GUARDS[0], parts), _doors(fence, lines.front)))
 
 
 class _Lines:
