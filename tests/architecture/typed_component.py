@@ -42,12 +42,8 @@ def checks_of_light(_: Light) -> tuple[Check, ...]:
     return ()
 
 
-PLAIN = Component(
-    name="lamp", title="", summary="", params=LampParams, design=Lamp, analysis=itself, checks=checks_of_lamp
-)
-ANALYSED = Component(
-    name="lamp", title="", summary="", params=LampParams, design=Lamp, analysis=Light, checks=checks_of_light
-)
+PLAIN = Component(name="lamp", title="", params=LampParams, design=Lamp, analysis=itself, checks=checks_of_lamp)
+ANALYSED = Component(name="lamp", title="", params=LampParams, design=Lamp, analysis=Light, checks=checks_of_light)
 assert_type(PLAIN, Component[LampParams, Lamp, Lamp])
 assert_type(ANALYSED, Component[LampParams, Lamp, Light])
 assert_type(LOOM.designed(AutomatedLoomParams()), LoomDesign)
@@ -58,7 +54,6 @@ def mistakes() -> None:
     Component(  # type: ignore[misc]
         name="lamp",
         title="",
-        summary="",
         params=LampParams,
         design=Lamp,
         analysis=Light,
@@ -67,7 +62,6 @@ def mistakes() -> None:
     Component(  # type: ignore[misc]
         name="lamp",
         title="",
-        summary="",
         params=LampParams,
         design=Lamp,
         analysis=itself,

@@ -146,7 +146,6 @@ def test_a_programme_is_inspected_by_its_row(tmp_path: Path, monkeypatch: pytest
 
 def test_machines_are_listed_and_described() -> None:
     assert list(machine_list()) == list(MACHINES)
-    assert all(machine_list()[name] == machine.summary for name, machine in MACHINES.items())
     form = machine_form("warp-tension").as_json()
     assert {"name", "default", "unit", "doc"} <= form["parameters"][0].keys()
 

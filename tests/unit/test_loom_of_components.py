@@ -47,7 +47,6 @@ class Lamp:
 MACHINE = Component(
     name="lamp",
     title="Lamp",
-    summary="light over the fell",
     params=LampParams,
     design=Lamp,
     analysis=itself,

@@ -44,7 +44,7 @@ class Lamp:
 def checks(lamp):
     return (at_most("mass of the shade", lamp.shade.mass, 0.5, "kg", "hook", parts=("lamp/shade",)),)
 MACHINE = Component(
-    name="lamp", title="Lamp", summary="light", params=LampParams, design=Lamp, analysis=itself, results=lambda _: (),
+    name="lamp", title="Lamp", params=LampParams, design=Lamp, analysis=itself, results=lambda _: (),
     checks=checks, tree=lambda lamp: lamp.tree, fit=lambda task: LampParams(width=task.params.width),
 )
 '''

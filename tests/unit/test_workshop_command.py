@@ -154,7 +154,6 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> None:
     machine = Component(
         name="made-up",
         title="Made up",
-        summary="for this test",
         params=Made,
         design=lambda params: params,
         analysis=itself,

@@ -66,11 +66,9 @@ class JournalFolder(Closable):
         except FileExistsError:
             foreign = sorted({one.name for one in self.path.iterdir()} - _NAMES)
             if foreign and not (self.path / JOURNAL).exists():
-                raise LoomError(
-                    f"{self.path} is a folder of something else: it has {foreign[0]}",
-                    allowed="a new folder, or one of a journal",
-                    do="give another --journal",
-                ) from None
+                given = f"{self.path} is a folder of something else: it has {foreign[0]}"
+                allowed = "a new folder, or one of a journal"
+                raise LoomError(given, allowed=allowed, do="give another --journal") from None
         else:
             disk.sync(self.path.parent)
 
@@ -145,11 +143,9 @@ def _locked(path: Path) -> int:
     handle = os.open(path / LOCK, os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
     try:
         if not _taken(handle):
-            raise LoomError(
-                f"{path} is in use: process {_number(os.read(handle, 32))} weaves with this journal",
-                allowed="one controller",
-                do=f"stop it with `ilmek stop --journal {path}`, or give another --journal",
-            )
+            given = f"{path} is in use: process {_number(os.read(handle, 32))} weaves with this journal"
+            do = f"stop it with `ilmek stop --journal {path}`, or give another --journal"
+            raise LoomError(given, allowed="one controller", do=do)
         os.ftruncate(handle, 0)
         os.write(handle, f"{os.getpid()}\n".encode())
     except BaseException:

@@ -55,11 +55,9 @@ def _chosen(header: list[str], columns: tuple[str, str] | None) -> list[int]:
     for name in chosen:
         count = names.count(name) + (0 if name in names else header.count(name))
         if count != 1:
-            raise CarpetError(
-                f"{'no' if not count else 'more than one'} column {name!r}",
-                allowed=f"columns: {', '.join(header[:12])}{', …' if len(header) > 12 else ''}",
-                do="choose two with --columns X Y" if columns is None else "",
-            )
+            given = f"{'no' if not count else 'more than one'} column {name!r}"
+            allowed = f"columns: {', '.join(header[:12])}{', …' if len(header) > 12 else ''}"
+            raise CarpetError(given, allowed=allowed, do="choose two with --columns X Y" if columns is None else "")
     return [names.index(name) if name in names else header.index(name) for name in chosen]
 
 

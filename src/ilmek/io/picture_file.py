@@ -106,11 +106,8 @@ def read_bytes(path: Path, progress: Progress = SILENT) -> bytes:
         file, size = open_regular(path)
         with file:
             if size > MOST_BYTES:
-                raise PictureError(
-                    f"{path} has {size / 1e6:,.0f} MB",
-                    allowed=f"at most {MOST_BYTES // 1_000_000} MB",
-                    do="scale the picture down, or save it as PNG or JPEG",
-                )
+                given, allowed = f"{path} has {size / 1e6:,.0f} MB", f"at most {MOST_BYTES // 1_000_000} MB"
+                raise PictureError(given, allowed=allowed, do="scale the picture down, or save it as PNG or JPEG")
             data = _read_up_to(file, size, progress)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)

@@ -249,11 +249,9 @@ def _check_header(path: Path) -> None:
     """Raise LoomError unless the file exists, is a programme of a known version, and is complete."""
     header = SqliteHeader(path)
     if header.application != APPLICATION:
-        raise LoomError(
-            f"{path} is no loom programme",
-            allowed="a file that `ilmek weave` wrote: programme.ilmek",
-            do="give that file" if header.length else "the file is empty; write it again",
-        )
+        given = f"{path} is no loom programme"
+        do = "give that file" if header.length else "the file is empty; write it again"
+        raise LoomError(given, allowed="a file that `ilmek weave` wrote: programme.ilmek", do=do)
     if header.version > VERSION:
         newer = f"{path} has format {header.version}"
         raise LoomError(newer, allowed=f"this ilmek reads up to format {VERSION}", do="use a newer ilmek")

@@ -68,11 +68,8 @@ def _inside(path: Path, folder: Path) -> str:
     """The path of a file as a recipe in a folder names it. Raises CarpetError for a file outside the folder."""
     file, base = path.resolve(), folder.resolve()
     if not file.is_relative_to(base):
-        raise CarpetError(
-            f"{path} does not lie in the folder of the recipe, {folder}",
-            allowed="a recipe's files lie in its folder",
-            do=f"save the recipe in {file.parent}",
-        )
+        given = f"{path} does not lie in the folder of the recipe, {folder}"
+        raise CarpetError(given, allowed="a recipe's files lie in its folder", do=f"save the recipe in {file.parent}")
     return file.relative_to(base).as_posix()
 
 

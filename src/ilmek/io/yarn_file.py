@@ -201,11 +201,8 @@ def _numbered(yarns: tuple[Yarn, ...], called: Sequence[str]) -> tuple[Yarn, ...
         other = first.setdefault(yarn.number, place)
         if other != place:
             both = f"{called[other]} ({shortened(yarns[other].name)}) and {called[place]} ({shortened(yarn.name)})"
-            raise YarnError(
-                f"{both} have the number {yarn.number}",
-                allowed="a number each; a yarn without one has its place in the list",
-                do="give every yarn a number, or none",
-            )
+            given, do = f"{both} have the number {yarn.number}", "give every yarn a number, or none"
+            raise YarnError(given, allowed="a number each; a yarn without one has its place in the list", do=do)
     return found
 
 
@@ -234,11 +231,8 @@ def _yarn(record: Record, numbered: str) -> Yarn:
 
 
 def _no_count(called: str) -> YarnError:
-    return YarnError(
-        f"{called} has no nm",
-        allowed="the metric count, m/g of one strand, of every yarn or of none",
-        do="like nm = 2.5; without any nm and ply the count follows from the quality",
-    )
+    given, do = f"{called} has no nm", "like nm = 2.5; without any nm and ply the count follows from the quality"
+    return YarnError(given, allowed="the metric count, m/g of one strand, of every yarn or of none", do=do)
 
 
 _BOUNDS: Mapping[str, tuple[float, float]] = {
@@ -297,8 +291,5 @@ def _lab(colour: object, called: str) -> _Lab:
         lightness, a, b = numbers
         if 0 <= lightness <= 100 and max(abs(a), abs(b)) <= 160:
             return lightness, a, b
-    raise YarnError(
-        f"{called}: lab {colour!r} is no colour",
-        allowed="L 0 to 100, a and b -160 to 160",
-        do="like lab = [35, 50, 30]",
-    )
+    given = f"{called}: lab {colour!r} is no colour"
+    raise YarnError(given, allowed="L 0 to 100, a and b -160 to 160", do="like lab = [35, 50, 30]")

@@ -17,6 +17,7 @@ from functools import lru_cache
 from typing import Any, Generic, Protocol, TypeAlias, TypeVar
 
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.machines import ENTRIES
 from ilmek.machines.beat import PlannedBeat
 from ilmek.machines.invariants import broken
 from ilmek.machines.loom_task import LoomTask, MachineDesign, P
@@ -82,7 +83,7 @@ class Component(Generic[P, D, A]):
     """A machine of the catalogue, or of a loom.
 
     name        as typed on the command line: `beat-up`          title    heading of its report
-    summary     one line for `ilmek machines`                    params   its declared parameters
+    params      its declared parameters
     design      parameters -> design, a frozen record of the machine's own
     long_design parameters, progress -> the same design, for one that can take more than 2 s
     analysis    design -> what is computed for its report only; `itself`: the design is
@@ -110,7 +111,6 @@ class Component(Generic[P, D, A]):
 
     name: str
     title: str
-    summary: str
     params: type[P]
     design: Callable[[P], D]
     analysis: Callable[[D], A]
@@ -151,7 +151,12 @@ class Component(Generic[P, D, A]):
             object.__setattr__(self, "pieces", lambda design: pieces_of(tree(design)))
 
     def __repr__(self) -> str:
-        return f"<Component {self.name}: {self.summary[:200]}>"
+        return f"<Component {self.name}>"
+
+    @property
+    def summary(self) -> str:
+        """One line for `ilmek machines`: that of the catalogue."""
+        return ENTRIES[self.name].summary
 
     def designed(self, params: P, progress: Progress = SILENT) -> D:
         """The design for parameters. Raises any IlmekError, and Cancelled."""

@@ -113,15 +113,9 @@ def link_part(name: str, title: str, pins: Mapping[str, complex], size: LinkSize
     holes = [Hole(point, size.hole / 2) for point in bored(pins, BRIDGE * size.hole).values()]
     reach = float(np.max(np.abs(points[:, None] - points[None, :])))
     section = f"{in_mm(size.width)} x {in_mm(size.thickness)}"
-    return Part(
-        name,
-        title,
-        "machined link",
-        f"{section}, {in_mm(reach)}",
-        Prism(drilled(rounded_hull(points, size.width / 2), holes), size.thickness),
-        size.material,
-        seats={pin: Seat(placement(point.real, point.imag), size.hole) for pin, point in pins.items()},
-    )
+    shape = Prism(drilled(rounded_hull(points, size.width / 2), holes), size.thickness)
+    seats = {pin: Seat(placement(point.real, point.imag), size.hole) for pin, point in pins.items()}
+    return Part(name, title, "machined link", f"{section}, {in_mm(reach)}", shape, size.material, seats=seats)
 
 
 def pin_part(name: str, title: str, diameter: float, length: float) -> Part:

@@ -333,13 +333,10 @@ def _hole_check(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check
     """Whether the pins leave enough of their links."""
     if not found.sections:
         return ()
+    value = max(one.hole / one.width for one in found.sections.values())
     return (
         at_most(
-            "diameter of the pins, over the width of their links",
-            max(one.hole / one.width for one in found.sections.values()),
-            WIDEST_PIN,
-            "1",
-            "assumed by this project",
+            "diameter of the pins, over the width of their links", value, WIDEST_PIN, "1", "assumed by this project"
         ).with_cure("set wider links, or leave the pins' diameter open", *_ids(parts, *found.sections, *found.pins)),
     )
 

@@ -108,10 +108,8 @@ def sample(table: CamTable, rule: SamplingRule, tolerance: float) -> SampledTabl
 def _require_closed(table: CamTable, tolerance: float) -> None:
     gap = _position(table, turn - _SIDE) - _position(table, 0.0) - table.revolves
     if abs(gap) > max(tolerance, 1e-9 * stroke(table)):
-        raise OutputError(
-            f"{table.name} ends a turn {format_quantity(gap, table.unit)} from its beginning",
-            allowed="a cam table continues into its next turn without a jump",
-        )
+        given = f"{table.name} ends a turn {format_quantity(gap, table.unit)} from its beginning"
+        raise OutputError(given, allowed="a cam table continues into its next turn without a jump")
 
 
 def _position(table: CamTable, angle: float) -> float:

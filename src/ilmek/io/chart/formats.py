@@ -80,11 +80,8 @@ class ChartFormat:
     def require(self, knots: int) -> None:
         """Raise CarpetError for more knots than a file can have."""
         if self.most is not None and knots > self.most:
-            raise CarpetError(
-                f"--{self.name}: the chart has {knots:,} knots",
-                allowed=f"at most {self.most:,}",
-                do="chart.png has everything, and --bmp any number of knots",
-            )
+            do = "chart.png has everything, and --bmp any number of knots"
+            raise CarpetError(f"--{self.name}: the chart has {knots:,} knots", allowed=f"at most {self.most:,}", do=do)
 
 
 def _read_png(

@@ -110,8 +110,5 @@ def _tens(room: float, total: int) -> int:
 def require_wall(knots: int) -> None:
     """Raise CarpetError for a chart of more than MOST_WALL_KNOTS knots, which makes no wall.pdf."""
     if knots > MOST_WALL_KNOTS:
-        raise CarpetError(
-            f"--wall: the chart has {knots:,} knots",
-            allowed=f"at most {MOST_WALL_KNOTS:,}",
-            do="leave --wall out; chart.pdf has many sheets",
-        )
+        do = "leave --wall out; chart.pdf has many sheets"
+        raise CarpetError(f"--wall: the chart has {knots:,} knots", allowed=f"at most {MOST_WALL_KNOTS:,}", do=do)

@@ -70,10 +70,8 @@ def _ends(body: str, table: Table, free: list[str], source: SourceText) -> tuple
     ends = tuple(table.get("between", free))
     if len(ends) != 2 or ends[0] == ends[1]:
         names = ", ".join(ends) or "none"
-        error = MechanismError(
-            f"a length is between two joints, and {body!r} has {len(ends)} without a point of its own: {names}",
-            do="give `between`, or the other points",
-        )
+        given = f"a length is between two joints, and {body!r} has {len(ends)} without a point of its own: {names}"
+        error = MechanismError(given, do="give `between`, or the other points")
         source.refuse(("bodies", body, "length"), error)
     return ends
 

@@ -183,10 +183,8 @@ class Outputs:
         for label, path in self._inputs.items():
             if target.meets(path) and (target.contains or not self.force):
                 allowed = "" if target.contains else ", or replace the input with --force"
-                raise OutputError(
-                    f"{target.label} {target.path} would replace the input {label} {path}",
-                    do=f"choose another path{allowed}",
-                )
+                do = f"choose another path{allowed}"
+                raise OutputError(f"{target.label} {target.path} would replace the input {label} {path}", do=do)
 
     def _put(self, staged: Sequence[Target]) -> None:
         """Put targets in place one by one; on a failure undo all."""

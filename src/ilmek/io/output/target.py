@@ -170,10 +170,8 @@ class FolderTarget(Target):
             raise OutputError(f"output folder {self.path} cannot be read ({error})", do="choose another") from None
         if foreign:
             shown = ", ".join(foreign[:3]) + (" ..." if len(foreign) > 3 else "")
-            raise OutputError(
-                f"output folder {self.path} contains files that ilmek did not write: {shown}",
-                do="choose another; --force would lose them",
-            )
+            given = f"output folder {self.path} contains files that ilmek did not write: {shown}"
+            raise OutputError(given, do="choose another; --force would lose them")
 
     def seal(self) -> None:
         """Copy the modes of the old result, write the manifest, sync every file and the folder."""
@@ -237,10 +235,8 @@ class FileTarget(Target):
         if not os.access(folder, os.W_OK | os.X_OK) or (self.existed and not os.access(self.target, os.W_OK)):
             raise OutputError(f"{self.path} cannot be written: it is not writable", do="choose another path")
         if self.existed and not self.force and not self._replaceable():
-            raise OutputError(
-                f"{self.path} exists, and ilmek did not write it, or it was changed since",
-                do="choose another path, or replace it with --force",
-            )
+            given = f"{self.path} exists, and ilmek did not write it, or it was changed since"
+            raise OutputError(given, do="choose another path, or replace it with --force")
 
     def _replaceable(self) -> bool:
         return self.target.stat().st_size == 0 or manifest.is_marked(self.target)

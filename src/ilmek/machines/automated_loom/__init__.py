@@ -9,7 +9,6 @@ Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing
 from dataclasses import replace
 
 from ilmek.loom.production import Production, production_time
-from ilmek.machines import SUMMARIES
 from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
 from ilmek.machines.automated_loom.cost import CarpetCost
@@ -62,7 +61,6 @@ def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
 MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     name="automated-loom",
     title="Automated loom",
-    summary=SUMMARIES["automated-loom"],
     params=AutomatedLoomParams,
     design=design,
     analysis=analyse,

@@ -155,13 +155,10 @@ def _joints(loom: LoomDesign) -> Check:
     """Every body is held by a joint, and what moves by one that lets it move."""
     without = [body for body in loom_tree(loom).bodies if _is_without_joint(body)]
     parts = (occurrence.part.id for body in without for occurrence in body.occurrences)
-    return at_most(
-        "bodies without a joint",
-        len(without),
-        0,
-        "1",
-        ", ".join(body.id for body in without) or "joints of all bodies to what carries them",
-    ).with_cure("give the bodies named bearings, guides or fasteners", *dict.fromkeys(parts))
+    source = ", ".join(body.id for body in without) or "joints of all bodies to what carries them"
+    return at_most("bodies without a joint", len(without), 0, "1", source).with_cure(
+        "give the bodies named bearings, guides or fasteners", *dict.fromkeys(parts)
+    )
 
 
 def _is_without_joint(body: RigidBody) -> bool:

@@ -35,10 +35,7 @@ def _power(tree: Tree) -> Check:
     motors = [(part, number) for part, number in counted if part.purchase is not None and part.purchase.drives]
     weak = tuple(part.id for part, _ in motors if part.purchase is not None and not part.purchase.power > 0)
     amplifiers = sum(number for part, number in counted if part.id == AMPLIFIER)
+    source = f"no power: {', '.join(weak)}" if weak else "amplifiers in the cabinet, one for each motor"
     return at_least(
-        "motors with power",
-        0 if weak else amplifiers,
-        sum(number for _, number in motors),
-        "1",
-        f"no power: {', '.join(weak)}" if weak else "amplifiers in the cabinet, one for each motor",
+        "motors with power", 0 if weak else amplifiers, sum(number for _, number in motors), "1", source
     ).with_cure("give each motor its power and an amplifier", AMPLIFIER, *weak)

@@ -103,10 +103,7 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:
     height = corner.imag - loom.side.floor
     pushes = sum(own.push * len(own.stations) * (own.height + FOOT) for own in rail_supports(loom, frame))
     moment = (loom.beat.frame_force * height if held.across else 0.0) + pushes
-    return at_least(
-        "frame: against tipping over its feet",
-        weight * lever / moment,
-        TIPPING,
-        "1",
-        "weight at the columns against the beat at its beam; assumed by this project",
-    ).with_cure("set a lower speed of the crank, or bolt the feet to the floor", part_id("levelling-foot"))
+    source = "weight at the columns against the beat at its beam; assumed by this project"
+    return at_least("frame: against tipping over its feet", weight * lever / moment, TIPPING, "1", source).with_cure(
+        "set a lower speed of the crank, or bolt the feet to the floor", part_id("levelling-foot")
+    )

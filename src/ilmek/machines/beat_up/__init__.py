@@ -8,7 +8,6 @@ The force on the beater is that of the rocker, m_E (a_E - g), which its bolts tr
 It is greatest near the extended dead centre, where the beater reverses at the fell.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
 from ilmek.machines.beat_up.in_loom import fit, planned_beat, work
 from ilmek.machines.beat_up.params import BeatUpParams
@@ -22,7 +21,6 @@ __all__ = ["MACHINE", "BeatUp", "BeatUpParams", "design", "ground_for"]
 MACHINE = Component(
     name="beat-up",
     title="Beat-up",
-    summary=SUMMARIES["beat-up"],
     params=BeatUpParams,
     design=design,
     analysis=analyse,

@@ -149,13 +149,10 @@ def plate_check(found: Beater, acceleration: float) -> tuple[Check, ...]:
     """Whether the plate bears the bar at an acceleration of the striking edge [m/s²]; none without a bar."""
     if found.plate is None:
         return ()
+    title, value = "stress of the beater's plate", found.plate_stress * acceleration
     return (
         at_most(
-            "stress of the beater's plate",
-            found.plate_stress * acceleration,
-            STEEL.strength / PLATE_SAFETY,
-            "MPa",
-            "yield of S235 over 3, assumed by this project",
+            title, value, STEEL.strength / PLATE_SAFETY, "MPa", "yield of S235 over 3, assumed by this project"
         ).with_cure("set wider or thicker links, or a lighter beater_mass", found.plate.id),
     )
 

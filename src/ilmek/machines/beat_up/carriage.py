@@ -92,14 +92,8 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     if shared:
         holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
     thickness = linkage.params.thickness
-    return Part(
-        PLATE,
-        "plate of crank and rocker",
-        "laser-cut part",
-        in_mm(thickness),
-        Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness),
-        STEEL,
-    )
+    shape = Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness)
+    return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL)
 
 
 def shared_axis(linkage: BeatUp) -> complex:
@@ -124,14 +118,10 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> t
     shared = Part("beat-up/shared-shaft", "shaft of all cranks", "turned part", size, bar(diameter, length), PIN_STEEL)
     pulley = max(linkage.params.width / 2, diameter / 2 + _AROUND)
     ring = rounded_hull(np.array([0, axis]), pulley)
-    belt = Part(
-        "beat-up/shared-belt",
-        "belt and pulleys of a crank",
-        "belt and pulleys",
-        shape=Prism(drilled(ring, [Hole(axis, diameter / 2)]), BELT_WIDTH),
-        purchase=Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley),
-        envelope=True,
-    )
+    title = "belt and pulleys of a crank"
+    shape = Prism(drilled(ring, [Hole(axis, diameter / 2)]), BELT_WIDTH)
+    bought = Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley)
+    belt = Part("beat-up/shared-belt", title, "belt and pulleys", shape=shape, purchase=bought, envelope=True)
     places = tuple(placement(z=station + belt_begin) for station in stations)
     return Occurrence(shared, (placement(axis.real, axis.imag, begin),)), Occurrence(belt, places)
 

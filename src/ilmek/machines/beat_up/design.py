@@ -321,14 +321,10 @@ def _require_swing(links: LinkRatios) -> None:
     shown = ", ".join(f"{name} {format_quantity(float(ratio), '1')}" for name, ratio in links._asdict().items())
     margin = float(grashof_margin(links))
     if margin < TOGGLE:
-        raise MechanismError(
-            f"beat-up stands in a toggle: {shown} (ground 1) are {margin:.2g} from a change point",
-            allowed="shortest + longest link must be less than the sum of the other two",
-            do="shorten the crank",
-        )
+        given = f"beat-up stands in a toggle: {shown} (ground 1) are {margin:.2g} from a change point"
+        allowed = "shortest + longest link must be less than the sum of the other two"
+        raise MechanismError(given, allowed=allowed, do="shorten the crank")
     if grashof(1.0, *(float(link) for link in links)).kind != "crank-rocker":
-        raise MechanismError(
-            f"the rocker of beat-up turns right round instead of swinging: {shown} (ground 1)",
-            allowed="the crank must be the shortest link",
-            do="lengthen ground, or shorten the crank",
-        )
+        given = f"the rocker of beat-up turns right round instead of swinging: {shown} (ground 1)"
+        allowed = "the crank must be the shortest link"
+        raise MechanismError(given, allowed=allowed, do="lengthen ground, or shorten the crank")

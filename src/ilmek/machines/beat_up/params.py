@@ -189,10 +189,8 @@ class BeatUpParams(Params):
         given = [name for name in links if getattr(self, name) is not None]
         if 0 < len(given) < len(links):
             missing = [name for name in links if name not in given]
-            raise ParameterError(
-                f"{' and '.join(given)} given without {' and '.join(missing)}",
-                do="give crank, coupler and rocker, or none of them",
-            )
+            do = "give crank, coupler and rocker, or none of them"
+            raise ParameterError(f"{' and '.join(given)} given without {' and '.join(missing)}", do=do)
         front_objectives(self.front)
         if not 0 < self.rocker_swing < math.pi:
             raise ParameterError(
@@ -246,9 +244,6 @@ def front_objectives(text: str) -> tuple[str, ...]:
             hint = f"did you mean {near[0]}?" if near else ""
             raise ParameterError(f"front={text!r}: {name!r} is unknown", allowed=f"of {' '.join(OBJECTIVES)}", do=hint)
     if len(set(names)) < max(2, len(names)):
-        raise ParameterError(
-            f"front={text!r} does not name two different objectives",
-            allowed=f"two or more different ones of {' '.join(OBJECTIVES)}",
-            do="name the objectives of the front",
-        )
+        given, do = f"front={text!r} does not name two different objectives", "name the objectives of the front"
+        raise ParameterError(given, allowed=f"two or more different ones of {' '.join(OBJECTIVES)}", do=do)
     return names

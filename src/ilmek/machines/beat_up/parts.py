@@ -39,12 +39,5 @@ def link_parts(linkage: BeatUp) -> dict[str, Part]:
 def pin_part(linkage: BeatUp) -> Part:
     """The pin of every joint."""
     diameter = linkage.pin
-    return Part(
-        PART_IDS["B"],
-        "pin of the beat-up",
-        "pin or bush",
-        round_size(diameter),
-        bar(diameter, pin_length(linkage.params.thickness)),
-        PIN_STEEL,
-        seats={JOURNAL: Seat(placement(), diameter)},
-    )
+    shape, seats = bar(diameter, pin_length(linkage.params.thickness)), {JOURNAL: Seat(placement(), diameter)}
+    return Part(PART_IDS["B"], "pin of the beat-up", "pin or bush", round_size(diameter), shape, PIN_STEEL, seats=seats)

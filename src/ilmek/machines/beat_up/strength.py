@@ -78,15 +78,12 @@ def beat_up_strength(
 
 def beat_up_strength_checks(found: BeatUpStrength) -> tuple[Check, ...]:
     """Whether links and pins bear a beat, and the holes of each link are apart."""
+    title = "distance of the pins of a link, over their diameter"
     return (
         *strength_checks(found.found, name=found.duty.limits, stronger=WIDER, parts=PART_IDS),
-        at_least(
-            "distance of the pins of a link, over their diameter",
-            found.bridge,
-            BRIDGE,
-            "1",
-            "bridge between the holes, assumed by this project",
-        ).with_cure("set a longer ground, thinner pins, or other links", *tuple(PART_IDS[name] for name in LINKS)),
+        at_least(title, found.bridge, BRIDGE, "1", "bridge between the holes, assumed by this project").with_cure(
+            "set a longer ground, thinner pins, or other links", *tuple(PART_IDS[name] for name in LINKS)
+        ),
     )
 
 

@@ -175,16 +175,11 @@ def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
         if found.slide and found.slide.reducer.ratio != 1
         else ()
     )
+    size = "belt drive along the carpet"
+    shape = box(AXIS_SIDE, AXIS_SIDE, length)
+    bought = Bought("belt axis", length=length)
     return (
-        Part(
-            AXIS,
-            "slide of the beater",
-            "linear axis",
-            "belt drive along the carpet",
-            box(AXIS_SIDE, AXIS_SIDE, length),
-            purchase=Bought("belt axis", length=length),
-            envelope=True,
-        ),
+        Part(AXIS, "slide of the beater", "linear axis", size, shape, purchase=bought, envelope=True),
         *reducers,
         catalogue.motor(MOTOR, "motor of the slide", row, found.thrust * PULLEY, speed),
     )

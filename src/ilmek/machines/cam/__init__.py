@@ -5,7 +5,6 @@ flat-faced and spherical followers.
 """
 
 from ilmek.cams.loaded_cam import CamExtremes
-from ilmek.machines import SUMMARIES
 from ilmek.machines.cam.analysis import CamAnalysis, analyse, results
 from ilmek.machines.cam.compliant_follower import CompliantFollower
 from ilmek.machines.cam.design import CamDesign, design
@@ -21,7 +20,6 @@ __all__ = ["MACHINE", "CamDesign", "CamParams", "design"]
 MACHINE = Component(
     name="cam",
     title="Cam",
-    summary=SUMMARIES["cam"],
     params=CamParams,
     design=design,
     analysis=analyse,

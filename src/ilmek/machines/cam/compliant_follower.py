@@ -112,14 +112,9 @@ def vibration_figures(made: CompliantFollower) -> tuple[Figure, ...]:
     """Lag over the turn, and residual vibration over the speed."""
     response = made.response
     lag = Series("mass", response.at, made.arc * response.lag[0])
-    over_turn = Plot(
-        "cam-lag",
-        "Lag of the mass: below 0 behind the cam, above 0 ahead of it",
-        Axis("cam angle", "deg"),
-        Axis("mass less cam", "mm"),
-        (lag,),
-        note=f"natural frequency {made.natural_frequency:.4g} Hz, damping {100 * made.params.linkage_damping:g} %",
-    )
+    title = "Lag of the mass: below 0 behind the cam, above 0 ahead of it"
+    note = f"natural frequency {made.natural_frequency:.4g} Hz, damping {100 * made.params.linkage_damping:g} %"
+    over_turn = Plot("cam-lag", title, Axis("cam angle", "deg"), Axis("mass less cam", "mm"), (lag,), note=note)
     return (over_turn,) if made.params.linkage_damping >= 1 else (over_turn, _over_speed(made))
 
 

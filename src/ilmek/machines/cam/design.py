@@ -200,17 +200,13 @@ def design(params: CamParams) -> CamDesign:
 def _check_ring(params: CamParams, inner: float, hub: Hub) -> None:
     """Raise ParameterError where the face of a barrel or end cam reaches its axis, or a given bore the face."""
     if inner <= 0:
-        raise ParameterError(
-            f"the face of the {params.kind} cam reaches its axis",
-            allowed=f"a face narrower by {format_quantity(-2 * inner, 'mm')}",
-            do="set a smaller face_width, or a larger prime_radius",
-        )
+        given = f"the face of the {params.kind} cam reaches its axis"
+        allowed = f"a face narrower by {format_quantity(-2 * inner, 'mm')}"
+        raise ParameterError(given, allowed=allowed, do="set a smaller face_width, or a larger prime_radius")
     if params.bore is not None and hub.reach >= inner:
-        raise ParameterError(
-            f"bore={format_quantity(params.bore, 'mm')} does not fit into the {params.kind} cam",
-            allowed=f"less than {format_quantity(inner, 'mm')} from the axis, keyway included",
-            do="set a smaller bore, or a larger prime_radius",
-        )
+        given = f"bore={format_quantity(params.bore, 'mm')} does not fit into the {params.kind} cam"
+        allowed = f"less than {format_quantity(inner, 'mm')} from the axis, keyway included"
+        raise ParameterError(given, allowed=allowed, do="set a smaller bore, or a larger prime_radius")
 
 
 def contact_of(params: CamParams) -> FollowerContact:

@@ -56,13 +56,9 @@ def tree(design: CamDesign) -> Tree:
     wedge = design.params.kind == "wedge"
     angle = np.linspace(0.0, TURN, POSES)
     over = float(design.cam.knots[-1]) * (1 - np.abs(angle / np.pi - 1)) if wedge else angle
-    cam = RigidBody(
-        CAM,
-        placed,
-        standing.id,
-        Joint(JointKind.SLIDE if wedge else JointKind.PIN, _Z, _of_cam(design, angle, over)),
-        (placement(about=_Z, angle=0.0 if design.params.laid_flat else float(np.angle(upright(design)))),),
-    )
+    joint = Joint(JointKind.SLIDE if wedge else JointKind.PIN, _Z, _of_cam(design, angle, over))
+    positions = (placement(about=_Z, angle=0.0 if design.params.laid_flat else float(np.angle(upright(design)))),)
+    cam = RigidBody(CAM, placed, standing.id, joint, positions)
     return Tree((standing, cam, _follower(design, angle, over)))
 
 

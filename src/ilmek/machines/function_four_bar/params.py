@@ -132,11 +132,8 @@ class FunctionFourBarParams(FourBarTaskParams):
         if end is None:
             return float(getattr(through, name))
         if not through.start <= end <= through.stop:
-            raise ParameterError(
-                f"{name}={end:g} is outside of the samples",
-                allowed=f"{through.start:g} to {through.stop:g}",
-                do="give more samples",
-            )
+            given = f"{name}={end:g} is outside of the samples"
+            raise ParameterError(given, allowed=f"{through.start:g} to {through.stop:g}", do="give more samples")
         return float(end)
 
 
@@ -146,11 +143,9 @@ def _check_turn(function: Function) -> None:
     turned = function.rocker(x)
     if np.isfinite(turned).all() and np.ptp(turned) > turn:
         at = int(np.argmax(np.abs(turned)))
-        raise ParameterError(
-            f"between its ends the function goes to {float(function.f(x[at : at + 1])[0]):.4g}, at x = {x[at]:.4g}",
-            allowed="the rocker turns by less than once",
-            do="choose a range without this x, or less swing",
-        )
+        given = f"between its ends the function goes to {float(function.f(x[at : at + 1])[0]):.4g}, at x = {x[at]:.4g}"
+        allowed = "the rocker turns by less than once"
+        raise ParameterError(given, allowed=allowed, do="choose a range without this x, or less swing")
 
 
 def named(text: str) -> F:

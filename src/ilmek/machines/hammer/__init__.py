@@ -4,7 +4,6 @@ Either leaves on the guide cams, which a vertical axis pulls down with the whole
 (`beat_up`). The fabric's resistance states where the row ends up, the comb as a beam on the fell how evenly.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component, itself
 from ilmek.machines.hammer.axis import CombDrive
 from ilmek.machines.hammer.comb import Comb
@@ -21,7 +20,6 @@ __all__ = ["MACHINE", "Hammer", "HammerParams", "design"]
 MACHINE = Component(
     name="hammer",
     title="Hammer",
-    summary=SUMMARIES["hammer"],
     params=HammerParams,
     design=design,
     analysis=itself,

@@ -107,13 +107,10 @@ def _over_shuttles(task: LoomTask) -> tuple[Check, ...]:
         return ()
     lowest = min(cam.at.imag - cam.guide_radius for cam in side.cams) - stroke_needed(task)
     highest = (side.carrier.corner + side.carrier.size).imag
+    value, source = lowest - highest, "parameter clearance; the carriage runs behind the warps, below the cams"
     return (
         at_least(
-            "clearance: guide cams that sink and carriage of the shuttle",
-            lowest - highest,
-            task.params.clearance,
-            "mm",
-            "parameter clearance; the carriage runs behind the warps, below the cams",
+            "clearance: guide cams that sink and carriage of the shuttle", value, task.params.clearance, "mm", source
         ).with_cure("set weft=rapier, or another beat", part_id("shedding-cam"), CARRIAGE),
     )
 

@@ -188,24 +188,17 @@ class HammerParams(Params):
         fabric, rows = self.fabric, self.cloth.row_distance
         if not fabric.jammed < rows < fabric.laid:
             given, least, most = (format_quantity(value, "mm") for value in (rows, fabric.jammed, fabric.laid))
-            raise ParameterError(
-                f"rows {given} apart",
-                allowed=f"between jammed_pitch={least} and laid_pitch={most}",
-                do="set jammed_pitch below and laid_pitch above cloth.row_pitch",
-            )
+            allowed = f"between jammed_pitch={least} and laid_pitch={most}"
+            do = "set jammed_pitch below and laid_pitch above cloth.row_pitch"
+            raise ParameterError(f"rows {given} apart", allowed=allowed, do=do)
         if self.leaf >= self.cloth.warp_pitch:
             leaf, pitch = format_quantity(self.leaf, "mm"), format_quantity(self.cloth.warp_pitch, "mm")
-            raise ParameterError(
-                f"leaf_thickness={leaf} on a warp pitch of {pitch}",
-                allowed=f"below {pitch}, less the warp's own thickness",
-                do="leave it out for 0.4 of the pitch",
-            )
+            given, do = f"leaf_thickness={leaf} on a warp pitch of {pitch}", "leave it out for 0.4 of the pitch"
+            raise ParameterError(given, allowed=f"below {pitch}, less the warp's own thickness", do=do)
         if self.inset * 2 > self.cloth.width * (1 + 1e-9):
-            raise ParameterError(
-                f"support_inset={format_quantity(self.inset, 'mm')} on both sides",
-                allowed=f"at most half of the width, {format_quantity(self.cloth.width / 2, 'mm')}",
-                do="set a smaller one",
-            )
+            given = f"support_inset={format_quantity(self.inset, 'mm')} on both sides"
+            allowed = f"at most half of the width, {format_quantity(self.cloth.width / 2, 'mm')}"
+            raise ParameterError(given, allowed=allowed, do="set a smaller one")
 
     @property
     def fabric(self) -> Fabric:

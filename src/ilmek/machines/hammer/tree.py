@@ -130,12 +130,9 @@ def _on_crank_rockers(hammer: Hammer) -> Tree:
     one = linkage.one
     stations = rocker_stations(hammer.params)
     parts = (*_comb(hammer), _brackets(hammer, stations))
+    joint, positions = Joint(JointKind.PIN), (rocker_position(one),)
     comb = RigidBody(
-        COMB,
-        tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in parts),
-        CARRIAGE,
-        Joint(JointKind.PIN),
-        (rocker_position(one),),
+        COMB, tuple(on_rocker(occurrence, one.lengths["beater"]) for occurrence in parts), CARRIAGE, joint, positions
     )
     return Tree(
         (crank_frame(one, linkage.beam, linkage.start, stations), *crank_rockers(one, CARRIAGE, stations), comb),
@@ -196,15 +193,8 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
 def _on_axes(hammer: Hammer) -> Tree:
     params, (*geared, motor) = hammer.params, _driving(hammer)
     number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
-    axis = Part(
-        "hammer/axis",
-        "vertical axis",
-        "linear axis",
-        params.axis,
-        box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT),
-        purchase=Bought(params.axis, length=params.stroke),
-        envelope=True,
-    )
+    shape, bought = box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT), Bought(params.axis, length=params.stroke)
+    axis = Part("hammer/axis", "vertical axis", "linear axis", params.axis, shape, purchase=bought, envelope=True)
     edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
@@ -226,14 +216,12 @@ def _on_axes(hammer: Hammer) -> Tree:
     def standing(height: float) -> tuple[Placement, ...]:
         return tuple(placement(front, height, float(z)).after(upright) for z in stations)
 
-    axes = RigidBody(
-        "hammer/axes",
-        (
-            *_beam_before_axes(hammer),
-            Occurrence(axis, standing(low)),
-            *(Occurrence(part, standing(end)) for part in geared),
-            Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
-        ),
+    parts = (
+        *_beam_before_axes(hammer),
+        Occurrence(axis, standing(low)),
+        *(Occurrence(part, standing(end)) for part in geared),
+        Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
     )
+    axes = RigidBody("hammer/axes", parts)
     comb = (*_comb(hammer), Occurrence(block, blocks))
     return Tree((axes, RigidBody(COMB, comb, axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0), motor=_MOTOR))))

@@ -5,7 +5,6 @@ cycle and drives. Its links follow from four points of the path and the angles t
 thesis, 2.1.3, by all real roots at once: none to three arms. Four points that are given are solved alike.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.knotting_dyad.design import KnottingDyad, design
 from ilmek.machines.knotting_dyad.in_loom import params_for, work
@@ -18,7 +17,6 @@ __all__ = ["MACHINE", "KnottingDyad", "KnottingDyadParams", "design"]
 MACHINE = Component(
     name="knotting-dyad",
     title="Knotting dyad",
-    summary=SUMMARIES["knotting-dyad"],
     params=KnottingDyadParams,
     design=design,
     analysis=analyse,

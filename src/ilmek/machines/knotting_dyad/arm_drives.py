@@ -162,13 +162,10 @@ def standing_drives(
         way = servo - pivot
         belt = _belt(name, f"belt of the {('first', 'second')[number]} links", abs(way))
         turned = [(pivot, way), (complex(2 * middle - pivot.real, pivot.imag), complex(-way.real, way.imag))]
-        yield Occurrence(
-            belt,
-            tuple(
-                placement(at.real, at.imag, z, about=(0.0, 0.0, 1.0), angle=float(np.angle(along)))
-                for at, along in turned
-            ),
+        positions = tuple(
+            placement(at.real, at.imag, z, about=(0.0, 0.0, 1.0), angle=float(np.angle(along))) for at, along in turned
         )
+        yield Occurrence(belt, positions)
         stub = bar(SERVO_SHAFT, levels.plate - z)
         pulley = Sum((Placed(stub), Placed(_pulley(SERVO_SHAFT))))
         own = _made(f"{NAME}/servo-pulley-{number + 1}", "pulley on the shaft of a servo", pulley, SERVO_SHAFT)
@@ -203,14 +200,8 @@ def _plate(params: KnottingDyadParams, head: Head, levels: DriveLevels, hole: fl
     half = middle - pivot.real + outer / 2 + EDGE
     outline = polygon(rectangle(2 * half, far - near).points + complex(middle, (near + far) / 2))
     bores = [Hole(at, outer / 2) for at in both(head, pivot)]
-    part = Part(
-        ARM_PLATE,
-        "plate of the arms",
-        "machined link",
-        f"{in_mm(PLATE)} thick",
-        Prism(drilled(outline, bores), PLATE),
-        ALUMINIUM,
-    )
+    size = f"{in_mm(PLATE)} thick"
+    part = Part(ARM_PLATE, "plate of the arms", "machined link", size, Prism(drilled(outline, bores), PLATE), ALUMINIUM)
     return Occurrence(part, (placement(z=levels.covered),))
 
 

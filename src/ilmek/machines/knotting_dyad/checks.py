@@ -1,6 +1,7 @@
 """The checks of a knotting dyad: arms, knot, needle and yarn in the gaps, drives."""
 
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -92,24 +93,16 @@ def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
     )
 
 
-def _needle_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
+def _needle_checks(params: KnottingDyadParams, head: Head) -> Iterator[Check]:
     """The needle neither bends into the warps nor buckles."""
-    return (
-        at_most(
-            "needle bent aside by the yarn",
-            head.bent,
-            max(head.clearance_min, 0.0),
-            "um",
-            "clearance_min; pull of the yarn assumed by this project: parameter yarn_pull",
-        ).with_cure("set a broader or thicker needle, narrower links, or a larger opening"),
-        at_least(
-            "needle against buckling under the yarn's pull",
-            head.buckling,
-            params.buckling_safety * params.yarn_pull,
-            "N",
-            "Euler; assumed by this project: parameters buckling_safety, yarn_pull",
-        ).with_cure("set a broader or thicker needle, or narrower links"),
+    source = "clearance_min; pull of the yarn assumed by this project: parameter yarn_pull"
+    yield at_most("needle bent aside by the yarn", head.bent, max(head.clearance_min, 0.0), "um", source).with_cure(
+        "set a broader or thicker needle, narrower links, or a larger opening"
     )
+    title, limit = "needle against buckling under the yarn's pull", params.buckling_safety * params.yarn_pull
+    yield at_least(
+        title, head.buckling, limit, "N", "Euler; assumed by this project: parameters buckling_safety, yarn_pull"
+    ).with_cure("set a broader or thicker needle, or narrower links")
 
 
 def _gap_checks(head: Head) -> tuple[Check, ...]:

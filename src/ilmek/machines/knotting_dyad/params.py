@@ -145,13 +145,9 @@ class KnottingDyadParams(Params):
     def _check_section(self) -> None:
         least = (self.warp + self.needle_diameter) / 2
         if self.leg < least + self.clearance:
-            raise ParameterError(
-                f"ends taken {format_quantity(self.leg, 'mm')} above the warps' axes are among the warps",
-                allowed=f"a leg of {format_quantity(least + self.clearance, 'mm')} or more",
-            )
+            given = f"ends taken {format_quantity(self.leg, 'mm')} above the warps' axes are among the warps"
+            raise ParameterError(given, allowed=f"a leg of {format_quantity(least + self.clearance, 'mm')} or more")
         if self.depth is not None and self.depth < least:
-            raise ParameterError(
-                f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps",
-                allowed=f"a depth of {format_quantity(least, 'mm')} or more",
-                do="leave depth out to have it chosen",
-            )
+            given = f"a hand-over {format_quantity(self.depth, 'mm')} behind the warps' axes is among the warps"
+            allowed = f"a depth of {format_quantity(least, 'mm')} or more"
+            raise ParameterError(given, allowed=allowed, do="leave depth out to have it chosen")

@@ -94,12 +94,8 @@ def tables(found: DyadAnalysis) -> tuple[Table, ...]:
 
 
 def _head_tables(head: Head) -> tuple[Table, Table]:
-    distances = Table(
-        "knotting-dyad-clearances",
-        "Least distances over the cycle",
-        columns("of", "distance [mm]", "tolerance [um]"),
-        tuple((one.name, one.value, one.sure) for one in head.least),
-    )
+    title, rows = "Least distances over the cycle", tuple((one.name, one.value, one.sure) for one in head.least)
+    distances = Table("knotting-dyad-clearances", title, columns("of", "distance [mm]", "tolerance [um]"), rows)
     phases = Table(
         "knotting-dyad-phases",
         "Phases of a cycle",
@@ -123,31 +119,22 @@ def _span(span: tuple[float, float]) -> str:
 
 
 def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
-    drives = Table(
-        "knotting-dyad-drives",
-        "Drives, for the worse arm; servos with their rotors",
-        columns(
-            "joint",
-            "torque [mN*m]",
-            "root mean square [mN*m]",
-            "speed [rad/s]",
-            "gears",
-            "servo's torque [mN*m]",
-            "servo",
-        ),
-        tuple(
-            (
-                one.joint,
-                one.torque_max,
-                one.torque_rms,
-                one.speed_max,
-                one.gear_ratio,
-                one.servo_torque_max,
-                one.servo or "none is enough",
-            )
-            for one in motion.joints
-        ),
+    heads = columns(
+        "joint", "torque [mN*m]", "root mean square [mN*m]", "speed [rad/s]", "gears", "servo's torque [mN*m]", "servo"
     )
+    rows = tuple(
+        (
+            one.joint,
+            one.torque_max,
+            one.torque_rms,
+            one.speed_max,
+            one.gear_ratio,
+            one.servo_torque_max,
+            one.servo or "none is enough",
+        )
+        for one in motion.joints
+    )
+    drives = Table("knotting-dyad-drives", "Drives, for the worse arm; servos with their rotors", heads, rows)
     cycle = Table(
         "knotting-dyad-cycle",
         "The cycle in time",
@@ -159,15 +146,12 @@ def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
 
 def _arm_tables(design: KnottingDyad) -> tuple[Table, Table]:
     task, words = design.task, {-1: "out of reach", 0: "on both sides"}
-    points = Table(
-        "knotting-dyad-points",
-        "Timed points",
-        columns("point", "x [mm]", "y [mm]", "angle of the first link [deg]"),
-        tuple(
-            (f"P{at}", float(point.real), float(point.imag), float(angle))
-            for at, (point, angle) in enumerate(zip(task.points, task.angles, strict=True), 1)
-        ),
+    heads = columns("point", "x [mm]", "y [mm]", "angle of the first link [deg]")
+    rows = tuple(
+        (f"P{at}", float(point.real), float(point.imag), float(angle))
+        for at, (point, angle) in enumerate(zip(task.points, task.angles, strict=True), 1)
     )
+    points = Table("knotting-dyad-points", "Timed points", heads, rows)
     arms = Table(
         "knotting-dyad-arms",
         "Arms, and their least angle off straight",

@@ -151,7 +151,5 @@ def _own_side(
 
 
 def _none(params: KnottingDyadParams, why: str) -> ParameterError:
-    return ParameterError(
-        f"no arm with links of {format_quantity(params.link_limit, 'mm')} or less ties this knot: {why}",
-        do="allow longer links, less pivot_room or bend_limit, or a shorter leg",
-    )
+    given = f"no arm with links of {format_quantity(params.link_limit, 'mm')} or less ties this knot: {why}"
+    return ParameterError(given, do="allow longer links, less pivot_room or bend_limit, or a shorter leg")

@@ -193,15 +193,8 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
     """The axis of the centre gripper under its bar, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
     under, long = middle + params.link_thickness / 2, 2 * head.centre_stroke
-    axis = Part(
-        f"{NAME}/centre-axis",
-        "axis of the centre gripper",
-        "linear axis",
-        "straight",
-        box(AXIS, long, AXIS),
-        purchase=Bought("linear axis", length=stroke),
-        envelope=True,
-    )
+    title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
+    axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
     begin = params.room.depth - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))
     moved = RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth
@@ -210,13 +203,9 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
     upright = placement(across, begin + long / 2, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
     yield Occurrence(motor, (upright,))
+    title, size = "hanger of the centre gripper's axis", f"{format_quantity(HANGER, 'mm')} thick"
     hanger = Part(
-        f"{NAME}/centre-hanger",
-        "hanger of the centre gripper's axis",
-        "machined link",
-        f"{format_quantity(HANGER, 'mm')} thick",
-        box(AXIS, HANGER, under + AXIS - level),
-        ALUMINIUM,
+        f"{NAME}/centre-hanger", title, "machined link", size, box(AXIS, HANGER, under + AXIS - level), ALUMINIUM
     )
     yield Occurrence(hanger, (placement(across, begin + long + HANGER / 2, level),))
 

@@ -8,7 +8,6 @@ means nothing: `instead` is the four-bar of both arms of its own synthesis. With
 machine; with `sides=2` the mirrored four-bar stands beside it, and gears couple both cranks.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design, parameters
 from ilmek.machines.knotting_four_bar.figures import figures
@@ -28,7 +27,6 @@ __all__ = ["MACHINE", "KnottingFourBar", "KnottingFourBarParams", "design"]
 MACHINE = Component(
     name="knotting-four-bar",
     title="Knotting four-bar",
-    summary=SUMMARIES["knotting-four-bar"],
     params=KnottingFourBarParams,
     design=design,
     analysis=analyse,

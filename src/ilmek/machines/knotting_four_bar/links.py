@@ -83,14 +83,10 @@ def made_parts(params: KnottingFourBarParams, hole: float, ground_angle: float =
 def gear_part(params: KnottingFourBarParams, gears: EqualGears, bore: float) -> Part:
     """A gear on a crank's pivot as a disc of its pitch circle; bore [m], 0: none."""
     holes = (circle(0j, bore / 2),) if bore > 0 else ()
+    size = f"module {format_quantity(gears.module, 'mm')}, {gears.teeth} teeth"
+    shape = Prism(disc(gears.pitch_radius, *holes), gears.width)
     return Part(
-        f"{MACHINE_NAME}/gear",
-        "gear of a crank",
-        "turned part",
-        f"module {format_quantity(gears.module, 'mm')}, {gears.teeth} teeth",
-        Prism(disc(gears.pitch_radius, *holes), gears.width),
-        material_of(params),
-        envelope=True,
+        f"{MACHINE_NAME}/gear", "gear of a crank", "turned part", size, shape, material_of(params), envelope=True
     )
 
 

@@ -154,11 +154,8 @@ class KnottingFourBarParams(Params):
 def _refuse_links(given: Iterable[str]) -> None:
     names = ", ".join(given)
     if names:
-        raise ParameterError(
-            f"poses are given together with {names}",
-            allowed="either poses, from which links, hand and branch follow, or these",
-            do=f"leave out poses, or {names}",
-        )
+        allowed, do = "either poses, from which links, hand and branch follow, or these", f"leave out poses, or {names}"
+        raise ParameterError(f"poses are given together with {names}", allowed=allowed, do=do)
 
 
 @dataclass(frozen=True, slots=True)

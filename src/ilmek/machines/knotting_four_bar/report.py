@@ -97,13 +97,9 @@ def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
     if found.knot_pitches is not None:
         least, most = (format_quantity(end, "mm") for end in found.knot_pitches)
         cure = f"set warp_pitch to {least} to {most}: there the hands tie a {found.wider}; or set other poses"
-    return at_least(
-        "knots tied on the two warps",
-        float(found.proof.tied is not None),
-        1.0,
-        "1",
-        f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}",
-    ).with_cure(cure)
+    title = "knots tied on the two warps"
+    source = f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}"
+    return at_least(title, float(found.proof.tied is not None), 1.0, "1", source).with_cure(cure)
 
 
 def _side_tests(found: SidesAnalysis) -> tuple[Check, ...]:

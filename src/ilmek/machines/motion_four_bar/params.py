@@ -78,11 +78,9 @@ class MotionFourBarParams(FourBarTaskParams):
                 )
             self.both(given[0])
         elif self.driven != "either":
-            raise ParameterError(
-                f"driven={self.driven}, and neither pivots nor pins are given",
-                allowed="the first or second of them",
-                do="give pivots, or crank_region to state where the driven link is",
-            )
+            allowed = "the first or second of them"
+            do = "give pivots, or crank_region to state where the driven link is"
+            raise ParameterError(f"driven={self.driven}, and neither pivots nor pins are given", allowed=allowed, do=do)
         self.limits()
 
     def task(self) -> BodyPoses:

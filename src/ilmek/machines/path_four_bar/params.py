@@ -87,10 +87,8 @@ class PathFourBarParams(FourBarTaskParams):
     def check_together(self) -> None:
         """Raise ParameterError where the task cannot be read, or its method does not take it."""
         if self.coupler_angles is not None and (self.timing is not None or not self.exact):
-            raise ParameterError(
-                "coupler_angles are for points that are met exactly without timing",
-                do="set exact=yes, leave timing out",
-            )
+            given = "coupler_angles are for points that are met exactly without timing"
+            raise ParameterError(given, do="set exact=yes, leave timing out")
         if self.exact:
             _check_exact(self)
         else:
@@ -122,11 +120,8 @@ class PathFourBarParams(FourBarTaskParams):
         """The tasks of the search, one for each class. Raises ParameterError where the search does not take them."""
         points = self.positions()
         if not FEWEST <= len(points) <= MOST:
-            raise ParameterError(
-                f"a path of {counted(len(points), 'point')}",
-                allowed=f"{FEWEST} to {MOST} are searched",
-                do=_instead(len(points)),
-            )
+            given = f"a path of {counted(len(points), 'point')}"
+            raise ParameterError(given, allowed=f"{FEWEST} to {MOST} are searched", do=_instead(len(points)))
         if self.pivots is not None:
             raise ParameterError(
                 "pivots are for 3 timed points with exact=yes", do="fix the crank's with pivot_x=5mm, pivot_y=…"
@@ -178,11 +173,8 @@ def _check_exact(params: PathFourBarParams) -> None:
         return
     if len(points) not in EXACT:
         more = f"{FEWEST} to {MOST} points are searched for the nearest four-bar: leave exact out"
-        raise ParameterError(
-            f"exact=yes with {counted(len(points), 'point')}",
-            allowed="3 to 5 timed points are met exactly",
-            do=more if len(points) > max(EXACT) else "give more points",
-        )
+        given, allowed = f"exact=yes with {counted(len(points), 'point')}", "3 to 5 timed points are met exactly"
+        raise ParameterError(given, allowed=allowed, do=more if len(points) > max(EXACT) else "give more points")
     if len(timing) != len(points):
         raise ParameterError(
             f"{counted(len(points), 'point')} and {counted(len(timing), 'angle')}", allowed="one angle for each point"
@@ -199,11 +191,9 @@ def _check_complete(params: PathFourBarParams) -> None:
         raise ParameterError("pivots are for 3 timed points with exact=yes", do="leave pivots out, or set timing")
     count = len(params.positions())
     if params.coupler_angles is None and count != NINE:
-        raise ParameterError(
-            f"exact=yes without a timing, with {counted(count, 'point')}",
-            allowed="nine points, fewer with coupler_angles, or 3 to 5 points with a timing",
-            do="give nine points; or set coupler_angles, 0deg free 20deg …; or timing, 30deg 45deg …",
-        )
+        allowed = "nine points, fewer with coupler_angles, or 3 to 5 points with a timing"
+        do = "give nine points; or set coupler_angles, 0deg free 20deg …; or timing, 30deg 45deg …"
+        raise ParameterError(f"exact=yes without a timing, with {counted(count, 'point')}", allowed=allowed, do=do)
     params.poses_and_points()
 
 

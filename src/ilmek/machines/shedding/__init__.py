@@ -9,7 +9,6 @@ time, so that 600 x 10 N never act together.
 """
 
 from ilmek.elements.square_shaft import SquareShaft
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.shedding.analysis import SheddingAnalysis, analyse, results
 from ilmek.machines.shedding.cam_shaft import SheddingDrive
@@ -30,7 +29,6 @@ __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "shed_length
 MACHINE = Component(
     name="shedding",
     title="Shedding cams",
-    summary=SUMMARIES["shedding"],
     params=SheddingParams,
     design=design,
     analysis=analyse,

@@ -74,13 +74,8 @@ def _cam_checks(one: CamShaft) -> Iterator[Check]:
     larger = "set a larger prime_radius"
     mu = pressure_angle_max(cam).value
     yield at_most("pressure angle", mu, params.pressure_angle_limit, "deg", buckling, cure=larger)
-    yield at_least(
-        "convex radius of the pitch curve (no undercut)",
-        convex_radius_min(cam).value,
-        cam.roller_radius,
-        "mm",
-        f"{norton}: rho > roller radius",
-    ).with_cure(larger)
+    title, value = "convex radius of the pitch curve (no undercut)", convex_radius_min(cam).value
+    yield at_least(title, value, cam.roller_radius, "mm", f"{norton}: rho > roller radius").with_cure(larger)
     bore = one.prime_radius_for_bore
     yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall", cure=larger)
 
@@ -107,12 +102,9 @@ def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
         "one parity down while the other is up", params.lifted_angle, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"
     ).with_cure("set a shorter rise, dwell or fall")
     if params.guideway:
+        source = "Fig. 3.18 of the thesis; assumed by this project: parameter guideway_tolerance"
         yield at_most(
-            "step of the shuttle's guideway on the tips",
-            design.guideway.step,
-            params.guideway_tolerance,
-            "mm",
-            "Fig. 3.18 of the thesis; assumed by this project: parameter guideway_tolerance",
+            "step of the shuttle's guideway on the tips", design.guideway.step, params.guideway_tolerance, "mm", source
         ).with_cure("set phase=together and more spans, or guideway=no where the shuttle has a guide of its own")
     yield from _span_checks(design)
     yield from _neighbour_checks(design)

@@ -194,11 +194,9 @@ class SheddingParams(Params):
         self._check_thickness()
         self._check_spans()
         if self.phase != "together" and self.stagger_groups > self.cloth.warps // 2:
-            raise ParameterError(
-                f"stagger_groups={self.stagger_groups} of {self.cloth.warps} warps",
-                allowed=f"at most {self.cloth.warps // 2}: half of the warps are of a parity",
-                do="set fewer groups",
-            )
+            given = f"stagger_groups={self.stagger_groups} of {self.cloth.warps} warps"
+            allowed = f"at most {self.cloth.warps // 2}: half of the warps are of a parity"
+            raise ParameterError(given, allowed=allowed, do="set fewer groups")
 
     def _check_thickness(self) -> None:
         """Raise ParameterError where a given cam does not fit the pitch of its shaft, the warps of all shafts on it."""
@@ -226,11 +224,9 @@ class SheddingParams(Params):
             if value is not None and self.spans_of_warp is None:
                 raise ParameterError(f"{name} without half_span", do="give half_span too, or warp_force alone")
         if self.warp_length is not None and self.warp_length < sum(self.spans_of_warp or ()) * (1 - 1e-9):
-            raise ParameterError(
-                f"warp_length={format_quantity(self.warp_length, 'm')} is shorter than the spans",
-                allowed=f"at least {format_quantity(sum(self.spans_of_warp or ()), 'm')}",
-                do="give the whole length from fell to beam",
-            )
+            given = f"warp_length={format_quantity(self.warp_length, 'm')} is shorter than the spans"
+            allowed = f"at least {format_quantity(sum(self.spans_of_warp or ()), 'm')}"
+            raise ParameterError(given, allowed=allowed, do="give the whole length from fell to beam")
 
     @property
     def spans_of_warp(self) -> tuple[float, float] | None:

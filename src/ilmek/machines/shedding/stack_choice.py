@@ -112,12 +112,9 @@ def _standing_checks(params: SheddingParams, shafts: int, shares: PitchShares, s
 
 def height_check(params: SheddingParams, last: float) -> Check:
     """Distance of the last shaft beyond the first [m] against the room for the shafts."""
+    title = "distance of the first and the last cam shaft"
     return at_most(
-        "distance of the first and the last cam shaft",
-        last,
-        params.shafts_height,
-        "m",
-        "assumed by this project: parameter shafts_height",
+        title, last, params.shafts_height, "m", "assumed by this project: parameter shafts_height"
     ).with_cure("set fewer shafts, a longer front_span, or a lower lift")
 
 

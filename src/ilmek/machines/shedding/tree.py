@@ -78,13 +78,9 @@ def _of_shaft(
     """What carries a shaft, and the shaft with all that turns on it. Its bearings stand on
     brackets of the frame.
     """
-    standing = RigidBody(
-        part_id("stand", index),
-        (*_reed(design, index), *_bearings(design, index), *_drive(design, index)),
-        GROUND,
-        Joint(motion=sinking) if sinking is None else Joint(JointKind.SLIDE, motion=sinking),
-        (position,),
-    )
+    parts = (*_reed(design, index), *_bearings(design, index), *_drive(design, index))
+    joint = Joint(motion=sinking) if sinking is None else Joint(JointKind.SLIDE, motion=sinking)
+    standing = RigidBody(part_id("stand", index), parts, GROUND, joint, (position,))
     return standing, RigidBody(
         part_id("cam shaft", index), _turning(design, index), standing.id, replace(pin, motor=part_id("motor", index))
     )

@@ -7,7 +7,6 @@ half as much and slackens those that are not lifted.
 Source: derived here (`synthesis`); a back rest on springs is usual on weaving machines.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.tension_compensator.analysis import CompensatorAnalysis, analyse
 from ilmek.machines.tension_compensator.design import TensionCompensator, design
@@ -22,7 +21,6 @@ __all__ = ["MACHINE", "TensionCompensator", "TensionCompensatorParams", "design"
 MACHINE = Component(
     name="tension-compensator",
     title="Tension compensator",
-    summary=SUMMARIES["tension-compensator"],
     params=TensionCompensatorParams,
     design=design,
     analysis=analyse,

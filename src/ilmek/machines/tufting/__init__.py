@@ -7,7 +7,6 @@ tufting machine's driving system", Fibres and Textiles in Eastern Europe; moved 
 287 deg.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.figures import figures
@@ -21,7 +20,6 @@ __all__ = ["MACHINE", "Tufting", "TuftingParams", "design"]
 MACHINE = Component(
     name="tufting",
     title="Tufting needle mechanism",
-    summary=SUMMARIES["tufting"],
     params=TuftingParams,
     design=design,
     analysis=analyse,

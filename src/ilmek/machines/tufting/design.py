@@ -222,11 +222,9 @@ def _ranges(params: TuftingParams, moved: Moved) -> dict[str, tuple[float, float
     mean = {name: complex(np.mean(motion.direction(body))) for name, body in LINKS.items()}
     for name, body in LINKS.items():
         if np.any(np.real(np.conj(mean[name]) * motion.direction(body)) <= 0):
-            raise MechanismError(
-                f"the {body} of tufting turns right round or swings by more than half a turn",
-                allowed=f"{name} must swing, for the needle to go up and down",
-                do="shorten crank",
-            )
+            given = f"the {body} of tufting turns right round or swings by more than half a turn"
+            allowed = f"{name} must swing, for the needle to go up and down"
+            raise MechanismError(given, allowed=allowed, do="shorten crank")
 
     def about_mean(angle: FloatArray, _: FloatArray) -> dict[str, FloatArray]:
         motion = moved(angle)

@@ -149,14 +149,10 @@ def _eccentric(params: TuftingParams, sizes: NeedleSizes, thickness: float) -> P
     """The crank: a disc about A with the bore of the main shaft at O, keyed."""
     radius = _eccentric_radius(params, sizes)
     size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
+    shape = Prism(Profile(circle(complex(params.crank), radius), (hub_for(sizes.main).contour,)), thickness)
+    seats = {"O": Seat(placement(), sizes.main), "A": Seat(placement(params.crank), 2 * radius)}
     return Part(
-        f"{NAME}/crank",
-        "eccentric of the crank",
-        "machined link",
-        size,
-        Prism(Profile(circle(complex(params.crank), radius), (hub_for(sizes.main).contour,)), thickness),
-        params.strength.of_links,
-        seats={"O": Seat(placement(), sizes.main), "A": Seat(placement(params.crank), 2 * radius)},
+        f"{NAME}/crank", "eccentric of the crank", "machined link", size, shape, params.strength.of_links, seats=seats
     )
 
 
@@ -168,12 +164,6 @@ def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
     eyes = [max(width / 2, radius * (1 + 2 * WALL)) for radius in (inner, pin / 2)]
     cut = (hole, circle(complex(length), pin / 2))
     section = f"{in_mm(width)} x {in_mm(thickness)}, {in_mm(length)}"
-    return Part(
-        f"{NAME}/{link}",
-        link,
-        "machined link",
-        section,
-        Prism(Profile(eyed_link(length, *eyes), cut), thickness),
-        params.strength.of_links,
-        seats={ends[0]: Seat(placement(), 2 * inner), ends[1]: Seat(placement(length), pin)},
-    )
+    shape = Prism(Profile(eyed_link(length, *eyes), cut), thickness)
+    seats = {ends[0]: Seat(placement(), 2 * inner), ends[1]: Seat(placement(length), pin)}
+    return Part(f"{NAME}/{link}", link, "machined link", section, shape, params.strength.of_links, seats=seats)

@@ -8,7 +8,6 @@ of 5.3e-4 (not 5.2e-5); and a reducer that locks itself cannot bring 630 N m out
 takes an efficiency of 0.9 where self-locking allows one half.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, analyse
 from ilmek.machines.warp_tension.choices import choices
@@ -24,7 +23,6 @@ __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design"]
 MACHINE = Component(
     name="warp-tension",
     title="Warp tension",
-    summary=SUMMARIES["warp-tension"],
     params=WarpTensionParams,
     design=design,
     analysis=analyse,

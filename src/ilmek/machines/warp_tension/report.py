@@ -1,5 +1,7 @@
 """The report of the warp tension: checks against the thesis' limits, warnings, tables."""
 
+from collections.abc import Iterator
+
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
@@ -82,42 +84,34 @@ def _slope_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     )
 
 
-def _end_checks(found: WarpTensionAnalysis, case: str) -> tuple[Check, ...]:
+def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
     """Bearings, shaft ends and keys of the cylinders."""
     params = found.design.params
     tired = min(found.cylinders, key=lambda one: one.static_safety)
     weak = min(found.cylinders, key=lambda one: one.stub_safety)
     notched = min(found.cylinders, key=lambda one: one.end.safety)
     larger = "set a larger bearing, or a lower tension"
-    return (
-        *_slope_checks(found),
-        at_least(
-            *(
-                f"static safety, {tired.bearing.name}",
-                tired.static_safety,
-                params.static_safety,
-                "1",
-                f"ISO 76; {case}",
-            )
-        ).with_cure(larger, part_id(f"{tired.name}-bearing")),
-        at_least(
-            *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
-            f"yield of {STUB.name}; {case}",
-        ).with_cure(f"{larger}, or a shorter stub", part_id(f"{weak.name}-end")),
-        at_least(
-            *(
-                f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder",
-                notched.end.safety,
-                LEAST_SAFETY,
-                "1",
-            ),
-            f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
-        ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end")),
+    yield from _slope_checks(found)
+    yield at_least(
+        *(f"static safety, {tired.bearing.name}", tired.static_safety, params.static_safety, "1", f"ISO 76; {case}")
+    ).with_cure(larger, part_id(f"{tired.name}-bearing"))
+    yield at_least(
+        *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
+        f"yield of {STUB.name}; {case}",
+    ).with_cure(f"{larger}, or a shorter stub", part_id(f"{weak.name}-end"))
+    yield at_least(
         *(
-            one.driven_end.check(f"{one.name} cylinder", larger, (part_id(f"{one.name}-key"),))
-            for one in found.cylinders
-            if one.torque > 0
+            f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder",
+            notched.end.safety,
+            LEAST_SAFETY,
+            "1",
         ),
+        f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
+    ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end"))
+    yield from (
+        one.driven_end.check(f"{one.name} cylinder", larger, (part_id(f"{one.name}-key"),))
+        for one in found.cylinders
+        if one.torque > 0
     )
 
 

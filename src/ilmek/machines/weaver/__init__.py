@@ -6,7 +6,6 @@ limits are parameters, since the thesis prints none.
 
 from dataclasses import replace
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component
 from ilmek.machines.weaver.choices import choices
 from ilmek.machines.weaver.design import Weaver, design, head_relations
@@ -44,7 +43,6 @@ def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:
 MACHINE = Component(
     name="weaver",
     title="Knotting head",
-    summary=SUMMARIES["weaver"],
     params=WeaverParams,
     design=design,
     analysis=analyse,

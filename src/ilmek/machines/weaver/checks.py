@@ -1,6 +1,6 @@
 """The checks of a knotting head: tools, knot, cams, opener, magazine, drive."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
@@ -101,31 +101,21 @@ def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
     )
 
 
-def _rod_checks(weaver: Weaver) -> tuple[Check, ...]:
+def _rod_checks(weaver: Weaver) -> Iterator[Check]:
     """The side grippers' rods bear the yarn's pull, and their motion leaves little vibration."""
     by, params = weaver.grippers, weaver.params
-    return (
-        at_most(
-            "bend of a side gripper by the yarn",
-            rod_bend(params, by),
-            params.clearance,
-            "mm",
-            "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-        ).with_cure("set a thicker weaver.finger", SIDE_GRIPPER),
-        at_most(
-            "stress of a side gripper's rod",
-            rod_stress(params, by),
-            ROD_STRESS,
-            "MPa",
-            "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull",
-        ).with_cure("set a thicker weaver.finger", SIDE_GRIPPER),
-        at_least(
-            "time of the side grippers' motion, over their rods' natural period",
-            rod_time_ratio(params, by, weaver.cyclogram),
-            ROD_TIME,
-            "1",
-            "residual vibration of about 1 %; assumed by this project",
-        ).with_cure("set a thicker weaver.finger, or a longer cycle", SIDE_GRIPPER),
+    source = "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull"
+    yield at_most("bend of a side gripper by the yarn", rod_bend(params, by), params.clearance, "mm", source).with_cure(
+        "set a thicker weaver.finger", SIDE_GRIPPER
+    )
+    source = "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull"
+    yield at_most("stress of a side gripper's rod", rod_stress(params, by), ROD_STRESS, "MPa", source).with_cure(
+        "set a thicker weaver.finger", SIDE_GRIPPER
+    )
+    title = "time of the side grippers' motion, over their rods' natural period"
+    value = rod_time_ratio(params, by, weaver.cyclogram)
+    yield at_least(title, value, ROD_TIME, "1", "residual vibration of about 1 %; assumed by this project").with_cure(
+        "set a thicker weaver.finger, or a longer cycle", SIDE_GRIPPER
     )
 
 
@@ -150,47 +140,37 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     )
 
 
-def cam_checks(weaver: Weaver) -> tuple[Check, ...]:
+def cam_checks(weaver: Weaver) -> Iterator[Check]:
     """Cams within their limits and the head."""
     params, cams = weaver.params, weaver.cams
     worst, widest = max(cams, key=lambda cam: cam.pressure_max), max(cams, key=lambda cam: cam.radius)
     sharpest, steep = min(cams, key=lambda cam: cam.convex_radius), max(cams, key=lambda cam: cam.pressure_angle)
     larger = "set a larger weaver.cam_room, shorter strokes, or a larger weaver.lever"
-    return (
-        at_most(
-            f"pressure angle, {steep.name}",
-            rounded(steep.pressure_angle, 9),
-            params.pressure_angle_limit,
-            "deg",
-            "limit",
-        ).with_cure("shorter strokes", cam_id(steep.name)),
-        at_most(
-            f"roller, {sharpest.name}", params.roller_radius, sharpest.convex_radius, "mm", "no undercut"
-        ).with_cure("set a smaller weaver.roller_radius", cam_id(sharpest.name)),
-        at_most(f"Hertz pressure, {worst.name}", worst.pressure_max, PRESSURE_LIMIT, "MPa", STEEL.name).with_cure(
-            "set a larger weaver.cam_thickness, or lighter tools", cam_id(worst.name)
-        ),
-        _case_check(weaver),
-        at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room").with_cure(
-            larger, cam_id(widest.name)
-        ),
-        _mass_check(weaver),
-        _fork_check(weaver),
-        _lever_check(weaver),
-        _spring_check(weaver),
-        _closure_check(weaver),
+    title, value, limit = f"pressure angle, {steep.name}", rounded(steep.pressure_angle, 9), params.pressure_angle_limit
+    yield at_most(title, value, limit, "deg", "limit").with_cure("shorter strokes", cam_id(steep.name))
+    yield at_most(
+        f"roller, {sharpest.name}", params.roller_radius, sharpest.convex_radius, "mm", "no undercut"
+    ).with_cure("set a smaller weaver.roller_radius", cam_id(sharpest.name))
+    yield at_most(f"Hertz pressure, {worst.name}", worst.pressure_max, PRESSURE_LIMIT, "MPa", STEEL.name).with_cure(
+        "set a larger weaver.cam_thickness, or lighter tools", cam_id(worst.name)
     )
+    yield _case_check(weaver)
+    yield at_most(f"diameter, {widest.name}", 2 * widest.radius, params.cam_room, "mm", "cam_room").with_cure(
+        larger, cam_id(widest.name)
+    )
+    yield _mass_check(weaver)
+    yield _fork_check(weaver)
+    yield _lever_check(weaver)
+    yield _spring_check(weaver)
+    yield _closure_check(weaver)
 
 
 def _fork_check(weaver: Weaver) -> Check:
     """The most loaded fork of a follower bears its roller's force."""
     worst = max(weaver.cams, key=lambda cam: cam.contact_max)
+    source = f"{STEEL.name}, fatigue limit over 2; assumed by this project"
     return at_most(
-        f"stress of the follower, {worst.name}",
-        fork_stress(weaver, worst),
-        FORK_STRESS,
-        "MPa",
-        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        f"stress of the follower, {worst.name}", fork_stress(weaver, worst), FORK_STRESS, "MPa", source
     ).with_cure("set a larger weaver.cam_gap, or lighter tools", follower_id(worst.name))
 
 
@@ -207,12 +187,9 @@ def _mass_check(weaver: Weaver) -> Check:
 def _lever_check(weaver: Weaver) -> Check:
     """The most loaded lever bears its cam's force at its axle."""
     worst = max(weaver.shape.levers, key=lambda track: lever_stress(weaver, weaver.cam(track)))
+    source = f"{STEEL.name}, fatigue limit over 2; assumed by this project"
     return at_most(
-        f"stress of the lever, {worst}",
-        lever_stress(weaver, weaver.cam(worst)),
-        LEVER_STRESS,
-        "MPa",
-        f"{STEEL.name}, fatigue limit over 2; assumed by this project",
+        f"stress of the lever, {worst}", lever_stress(weaver, weaver.cam(worst)), LEVER_STRESS, "MPa", source
     ).with_cure("set a larger weaver.cam_thickness, or a lower tension of the warps", lever_id(worst))
 
 

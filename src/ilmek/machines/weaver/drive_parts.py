@@ -76,14 +76,8 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
     part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
-    stub = Part(
-        STUB,
-        "output of the angle reducer",
-        "pin or bush",
-        in_mm(OUTPUT),
-        grooved(OUTPUT, weaver.belt.width + 0.5 * mm),
-        STEEL,
-    )
+    title = "output of the angle reducer"
+    stub = Part(STUB, title, "pin or bush", in_mm(OUTPUT), grooved(OUTPUT, weaver.belt.width + 0.5 * mm), STEEL)
     yield Occurrence(stub, (placement(begin - 0.5 * mm, at.imag, at.real).after(ALONG_WIDTH),))
     radius = weaver.belt.radii[1] - TEETH - ON_PULLEY
     ring = keyed_disc(radius, OUTPUT, weaver.belt.width)
@@ -105,14 +99,10 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
     outer = hull_of_circles(large + BACK, small + BACK, at - axis)
     inner = hull_of_circles(large - TEETH, small - TEETH, at - axis)
     length = float(abs(at - axis)) * 2 + 3.2 * (large + small)
-    part = Part(
-        CAM_BELT,
-        "belt of the cam shaft",
-        "belt and pulleys",
-        f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide",
-        Prism(Profile(outer, (inner,)), weaver.belt.width),
-        purchase=Bought(PROFILE.name, BELT_MASS * weaver.belt.width * length, length=length),
-    )
+    size = f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide"
+    shape = Prism(Profile(outer, (inner,)), weaver.belt.width)
+    bought = Bought(PROFILE.name, BELT_MASS * weaver.belt.width * length, length=length)
+    part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", size, shape, purchase=bought)
     return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
 
 

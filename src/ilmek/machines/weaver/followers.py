@@ -97,14 +97,8 @@ def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
 @lru_cache(maxsize=8)
 def lever_pin(weaver: Weaver) -> Part:
     """The pin of a follower or a drawbar in the slot of its lever, across both cheeks."""
-    return Part(
-        LEVER_PIN,
-        "pin of a lever of the head",
-        "pin or bush",
-        round_size(PIN),
-        bar(PIN, weaver.params.cam_thickness),
-        STEEL,
-    )
+    title = "pin of a lever of the head"
+    return Part(LEVER_PIN, title, "pin or bush", round_size(PIN), bar(PIN, weaver.params.cam_thickness), STEEL)
 
 
 @lru_cache(maxsize=8)

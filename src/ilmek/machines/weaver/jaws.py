@@ -128,14 +128,8 @@ def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> 
     corners = np.array([-EYE - 1j * EYE, deep - 1j * EYE, deep + 1j * EYE, -EYE + 1j * EYE])
     section = Profile(polygon(corners), (circle(0j, AXLE / 2),))
     name = "side" if track == SIDE_GRASP else "centre"
-    part = Part(
-        part_id(f"{name}-lug"),
-        f"lug of the {name} jaws' rocker",
-        "machined link",
-        in_mm(LUG),
-        Prism(section, LUG),
-        STEEL,
-    )
+    title = f"lug of the {name} jaws' rocker"
+    part = Part(part_id(f"{name}-lug"), title, "machined link", in_mm(LUG), Prism(section, LUG), STEEL)
     return Occurrence(part, tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
 
 

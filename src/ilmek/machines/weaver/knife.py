@@ -116,13 +116,11 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     lip = Placed(box(LIP, high - low, LIP), (placement(half - LIP / 2),))
     guide = Part(GUIDE, "guide of the knife", "machined link", in_mm(high - low), Sum((strip, lip)), STEEL)
     middle = (low + high) / 2
-    yield Occurrence(
-        guide,
-        tuple(
-            placement(axis.real, middle, front - BLADE - LIP, about=(0.0, 0.0, 1.0), angle=angle)
-            for angle in (0.0, turn / 2)
-        ),
+    positions = tuple(
+        placement(axis.real, middle, front - BLADE - LIP, about=(0.0, 0.0, 1.0), angle=angle)
+        for angle in (0.0, turn / 2)
     )
+    yield Occurrence(guide, positions)
     params = weaver.params
     cycle = cut(params.yarn, params.strength, params.cutter_turn, 0.0)
     torque, speed, row = float(cycle.torque.max()), float(cycle.speed.max()), cutter_motor(params)

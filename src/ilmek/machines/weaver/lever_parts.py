@@ -41,14 +41,8 @@ def lever_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         at = placement(station(weaver, track) + thick / 2, lever.pivot.imag, lever.pivot.real).after(IN_SIDE_VIEW)
         angle = float(lever.turned(float(cam.motion.s[0])))
         rest = at.after(placement(about=(0.0, 0.0, 1.0), angle=angle))
-        part = Part(
-            lever_id(track),
-            f"lever of the {track}",
-            "machined link",
-            f"ratio {lever.ratio:.3g}",
-            Prism(_section(lever), thick),
-            STEEL,
-        )
+        shape = Prism(_section(lever), thick)
+        part = Part(lever_id(track), f"lever of the {track}", "machined link", f"ratio {lever.ratio:.3g}", shape, STEEL)
         yield RigidBody(lever_id(track), (Occurrence(part),), parent, Joint(JointKind.PIN), (rest,))
 
 
@@ -84,14 +78,8 @@ def axles(weaver: Weaver) -> Iterator[Occurrence]:
         name, title = (
             ("sley-axle", "axle of the sley's lever") if straight else ("crank-axle", "axle of the bell cranks")
         )
-        part = Part(
-            part_id(name),
-            title,
-            "pin or bush",
-            f"{round_size(LEVER_AXLE)}, {in_mm(long)}",
-            bar(LEVER_AXLE, long),
-            STEEL,
-        )
+        size = f"{round_size(LEVER_AXLE)}, {in_mm(long)}"
+        part = Part(part_id(name), title, "pin or bush", size, bar(LEVER_AXLE, long), STEEL)
         yield Occurrence(part, (placement(-inner, lever.pivot.imag, lever.pivot.real).after(ALONG_WIDTH),))
 
 
@@ -112,14 +100,8 @@ def pinned(weaver: Weaver, track: str, pin: complex, beyond: float) -> tuple[Occ
     middle = (low + high) / 2
     outline = polygon(rectangle(high - low, 2 * DRAWBAR).points + middle)
     name = f"{track.replace(' ', '-')}-drawbar"
-    plate = Part(
-        part_id(name),
-        f"drawbar of the {track}",
-        "machined link",
-        f"{in_mm(thick)} thick",
-        Prism(Profile(outline, (circle(0j, PIN / 2),)), thick),
-        STEEL,
-    )
+    shape = Prism(Profile(outline, (circle(0j, PIN / 2),)), thick)
+    plate = Part(part_id(name), f"drawbar of the {track}", "machined link", f"{in_mm(thick)} thick", shape, STEEL)
     at = placement(station(weaver, track) + plane / 2, pin.imag, pin.real).after(IN_SIDE_VIEW)
     places = tuple(at.after(placement(z=z)) for z in (0.0, plane - thick))
     return Occurrence(plate, places), Occurrence(lever_pin(weaver), (at,))

@@ -47,13 +47,11 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
         envelope=True,
     )
     cells = (divmod(cell, magazine.per_tier) for cell in range(magazine.tubes))
-    yield Occurrence(
-        part,
-        tuple(
-            placement(float(flat[column].real), low + tier * pitch, depth + float(flat[column].imag)).after(UPRIGHT)
-            for tier, column in cells
-        ),
+    positions = tuple(
+        placement(float(flat[column].real), low + tier * pitch, depth + float(flat[column].imag)).after(UPRIGHT)
+        for tier, column in cells
     )
+    yield Occurrence(part, positions)
     kind = "drum" if magazine.kind == DRUM else "slide"
     plate, size = magazine.carrier, f"{in_mm(CARRIER)} thick"
     carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", size, plate, ALUMINIUM)

@@ -134,8 +134,5 @@ def require_order(tool: str, track: str, steps: CycleSteps, angles: ToolAngles) 
             do=f"set {tool}.return_start later, or {tool}.rise smaller",
         )
     if last > turn + ROUNDING:
-        raise ParameterError(
-            f"{given}: the motions back end at {shown[2]}",
-            allowed="at most 360 deg",
-            do=f"set {tool}.return_start earlier, or {tool}.fall smaller",
-        )
+        do = f"set {tool}.return_start earlier, or {tool}.fall smaller"
+        raise ParameterError(f"{given}: the motions back end at {shown[2]}", allowed="at most 360 deg", do=do)

@@ -1,5 +1,7 @@
 """The checks of the opener and of what has room in a head: tools between its plates, tubes, arms."""
 
+from collections.abc import Iterator
+
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
@@ -52,39 +54,25 @@ def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
     )
 
 
-def _opener_room_checks(weaver: Weaver) -> tuple[Check, ...]:
+def _opener_room_checks(weaver: Weaver) -> Iterator[Check]:
     """The tools fit between the opener's plates, the sley reaches the fell, the neighbouring head's warps stand."""
     params, own, opener = weaver.params, weaver.params.opener, weaver.opener
-    return (
-        at_most(
-            "opener: teeth in the gap beside the pair",
-            opener.wall,
-            opener.aside - opener.pair / 2 - opener.diameter,
-            "mm",
-            "from the pair's warps to their neighbours",
-        ).with_cure("set a larger opening of the arms, or a smaller weaver.opener.wall", OPENER_PLATE),
-        at_least(
-            "opener: room of the tools between its plates",
-            own.height,
-            tools_height(weaver),
-            "mm",
-            "height of the grippers, or of a needle, with their clearances",
-        ).with_cure("set a larger weaver.opener.height", OPENER_PLATE),
-        at_least(
-            "sley: stroke from above the opener to the fell",
-            params.sley_stroke,
-            own.front_span + own.height + own.plate,
-            "mm",
-            "opener.front_span, height and plate",
-        ).with_cure("set a longer weaver.sley_stroke", SLEY_BAR, OPENER_PLATE),
-        at_most(
-            "opener: width of the warps that it displaces",
-            opener.crowd,
-            weaver.width,
-            "mm",
-            "head_width: the neighbouring head's warps stay where they are",
-        ).with_cure("leave head_width to the design, or set thinner warps", OPENER_PLATE),
+    title, limit = "opener: teeth in the gap beside the pair", opener.aside - opener.pair / 2 - opener.diameter
+    yield at_most(title, opener.wall, limit, "mm", "from the pair's warps to their neighbours").with_cure(
+        "set a larger opening of the arms, or a smaller weaver.opener.wall", OPENER_PLATE
     )
+    title = "opener: room of the tools between its plates"
+    yield at_least(
+        title, own.height, tools_height(weaver), "mm", "height of the grippers, or of a needle, with their clearances"
+    ).with_cure("set a larger weaver.opener.height", OPENER_PLATE)
+    title = "sley: stroke from above the opener to the fell"
+    yield at_least(
+        title, params.sley_stroke, own.front_span + own.height + own.plate, "mm", "opener.front_span, height and plate"
+    ).with_cure("set a longer weaver.sley_stroke", SLEY_BAR, OPENER_PLATE)
+    title = "opener: width of the warps that it displaces"
+    yield at_most(
+        title, opener.crowd, weaver.width, "mm", "head_width: the neighbouring head's warps stay where they are"
+    ).with_cure("leave head_width to the design, or set thinner warps", OPENER_PLATE)
 
 
 def tools_height(weaver: Weaver) -> float:

@@ -57,12 +57,8 @@ def animation(weaver: Weaver) -> Animation:
         MovingStroke(np.stack([tip, tip + 1j * 2 * ROD], -1), "outline", "centre gripper"),
     )
     dots = tuple(MovingDot(ends, "", "point") for ends in (bars[:, -1], _mirrored(bars)[:, -1]))
-    still = Drawing(
-        "weaver-moving",
-        "A knot in plan view",
-        (),
-        note="The yarn lies where its ends went, not yet tightened; the pile is upwards.",
-    )
+    note = "The yarn lies where its ends went, not yet tightened; the pile is upwards."
+    still = Drawing("weaver-moving", "A knot in plan view", (), note=note)
     readings = (Reading("screw", by.turned(side), "deg"), Reading("side grippers", side, "mm"))
     return Animation(still, Axis("cam angle", "deg"), angle, strokes, dots, period=weaver.cycle, readings=readings)
 

@@ -106,23 +106,15 @@ def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
     """Greatest values of the tracks, cams, motions."""
     weaver = found.weaver
     tracks = weaver.tools
-    peaks = Table(
-        "tracks",
-        "Tracks of the head; the handler at its tip",
-        columns(
-            "track",
-            "driven by",
-            "stroke [mm]",
-            "largest speed [m/s]",
-            "largest acceleration [m/s^2]",
-            "shortest cycle [s]",
-        ),
-        tuple(
-            (track.name, track.actuator, peak.stroke, peak.speed, peak.acceleration, peak.shortest)
-            for track in tracks
-            for peak in (weaver.peaks[track.name],)
-        ),
+    heads = columns(
+        "track", "driven by", "stroke [mm]", "largest speed [m/s]", "largest acceleration [m/s^2]", "shortest cycle [s]"
     )
+    rows = tuple(
+        (track.name, track.actuator, peak.stroke, peak.speed, peak.acceleration, peak.shortest)
+        for track in tracks
+        for peak in (weaver.peaks[track.name],)
+    )
+    peaks = Table("tracks", "Tracks of the head; the handler at its tip", heads, rows)
     motions = Table(
         "motions",
         "Motions over the cam angle",

@@ -103,15 +103,8 @@ def spring_part(weaver: Weaver, track: str) -> Part | None:
     row = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, spring.free_length))
     mass = spring.mass * (spring.coils + 2) / spring.coils
     room = tube(coil + wire, wire, shortest(weaver, track))
-    return Part(
-        spring_id(track),
-        f"return spring of the {track}",
-        "spring",
-        f"{spring.wire}, wire x coil x length in mm",
-        room,
-        purchase=Bought(row, mass),
-        envelope=True,
-    )
+    title, size = f"return spring of the {track}", f"{spring.wire}, wire x coil x length in mm"
+    return Part(spring_id(track), title, "spring", size, room, purchase=Bought(row, mass), envelope=True)
 
 
 def stress_of(weaver: Weaver, track: str) -> tuple[float, float] | None:

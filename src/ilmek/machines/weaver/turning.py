@@ -135,22 +135,11 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     (points,) = (tool.corner.real for tool in weaver.shape.tools if tool.name == LOWER_PLATE)
     begin, end = points - BEFORE - HANDLER_ARM[1], wheel_at(weaver) + FACE
     arm = weaver.tool_bodies.handler_arm
-    shaft = Part(
-        HANDLER_SHAFT,
-        "shaft of the pile handler",
-        "pin or bush",
-        in_mm(SHAFT),
-        bar(SHAFT, end - begin),
-        STEEL,
-        seats={"journal": Seat(placement(z=end - begin - FACE), SHAFT)},
-    )
-    yield RigidBody(
-        HANDLER_BODY,
-        (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),))),
-        parent,
-        Joint(JointKind.PIN, about),
-        (placement(at.real, at.imag, 0.0, about=about, angle=home(weaver)),),
-    )
+    shape, seats = bar(SHAFT, end - begin), {"journal": Seat(placement(z=end - begin - FACE), SHAFT)}
+    shaft = Part(HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", in_mm(SHAFT), shape, STEEL, seats=seats)
+    parts = (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),)))
+    positions = (placement(at.real, at.imag, 0.0, about=about, angle=home(weaver)),)
+    yield RigidBody(HANDLER_BODY, parts, parent, Joint(JointKind.PIN, about), positions)
     outer, wide = CLUTCH
     wheel = Profile(polygon(outline(_gear(weaver))), (circle(0j, outer / 2),))
     size = f"module {format_quantity(_gear(weaver).module / mm, '')}, {TEETH} teeth"

@@ -5,7 +5,6 @@ carpet's yarns, so that each has a shuttle and a bobbin of its own (thesis, 3.2)
 robot that the thesis names as future work.
 """
 
-from ilmek.machines import SUMMARIES
 from ilmek.machines.component import Component, itself
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.design import Weft, design
@@ -22,7 +21,6 @@ __all__ = ["MACHINE", "Rapier", "Shuttle", "Weft", "WeftParams", "WeftPassage", 
 MACHINE = Component(
     name="weft",
     title="Weft",
-    summary=SUMMARIES["weft"],
     params=WeftParams,
     design=design,
     analysis=itself,

@@ -83,15 +83,10 @@ def magnet_positions(params: WeftParams, size: BobbinSize) -> tuple[float, float
 
 def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placement, ...]]:
     """What is fitted to a shuttle: an eye with its brake in each end wall; their form is not designed."""
-    part = Part(
-        FITTINGS,
-        "eye and brake of a shuttle",
-        "pin or bush",
-        "one in each end wall",
-        bar(_eye(size), params.wall),
-        purchase=Bought("eye and brake", params.fittings / 2),
-        envelope=True,
-    )
+    title = "eye and brake of a shuttle"
+    shape = bar(_eye(size), params.wall)
+    bought = Bought("eye and brake", params.fittings / 2)
+    part = Part(FITTINGS, title, "pin or bush", "one in each end wall", shape, purchase=bought, envelope=True)
     end = size.length / 2
     return part, (along(end), along(-end - params.wall))
 

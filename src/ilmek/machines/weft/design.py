@@ -196,13 +196,10 @@ def _friction(params: WeftParams, carried: Carrier) -> float:
 
 
 def _room_check(made: Weft) -> Check:
-    return at_most(
-        f"room of the {made.params.carrier} beside the cloth",
-        made.side_room,
-        made.params.room,
-        "m",
-        "assumed by this project: parameter room",
-    ).with_cure("set more weft.room, or weft=shuttle", CARRIAGE, AXIS)
+    title = f"room of the {made.params.carrier} beside the cloth"
+    return at_most(title, made.side_room, made.params.room, "m", "assumed by this project: parameter room").with_cure(
+        "set more weft.room, or weft=shuttle", CARRIAGE, AXIS
+    )
 
 
 def _tension_checks(made: Weft) -> tuple[Check, ...]:

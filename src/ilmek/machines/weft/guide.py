@@ -217,14 +217,8 @@ class ShuttleGuide:
         """The slides of the boxes on the bar, beside their outer ends, with their steppers above."""
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
-        slide = Part(
-            part_id("box-slide"),
-            "slide of a box",
-            "linear axis",
-            shape=box(SLIDE, high - low, deep),
-            purchase=Bought("slide", length=self.pitch),
-            envelope=True,
-        )
+        shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch)
+        slide = Part(part_id("box-slide"), "slide of a box", "linear axis", shape=shape, purchase=bought, envelope=True)
         x = self.box_end + SLIDE / 2
         yield Occurrence(slide, tuple(placement(side * x, (low + high) / 2, self.front) for side in (-1, 1)))
         force = (self.box().mass + 2 * self.made.full) * GRAVITY

@@ -164,14 +164,10 @@ class RapierSide:
         """The plates, from below the axis to the devices."""
         low, high = self.low - SIDE, SIDE / 2
         wide = 3 * PITCH + SIDE
-        part = Part(
-            part_id("edge-plate"),
-            "plate of the devices at an edge",
-            "laser-cut part",
-            format_quantity(PLATE, "mm"),
-            box(wide, high - low, PLATE),
-            MATERIALS["structural steel"],
-        )
+        title = "plate of the devices at an edge"
+        size = format_quantity(PLATE, "mm")
+        shape = box(wide, high - low, PLATE)
+        part = Part(part_id("edge-plate"), title, "laser-cut part", size, shape, MATERIALS["structural steel"])
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 

@@ -25,10 +25,7 @@ def needed_opening(params: WeftParams, depth: float) -> float:
 
 def shed_check(params: WeftParams, opening: float, thinner: str, part: str) -> Check:
     """Whether the shed opens far enough; thinner: what to set for a thinner carrier, part: its id."""
+    source = "0.8 of the opening at the cams, assumed by this project; parameters lift, open_share, play"
     return at_most(
-        "opening of the shed for the carrier",
-        opening,
-        HIGHEST_SHARE * params.open_share * params.lift,
-        "mm",
-        "0.8 of the opening at the cams, assumed by this project; parameters lift, open_share, play",
+        "opening of the shed for the carrier", opening, HIGHEST_SHARE * params.open_share * params.lift, "mm", source
     ).with_cure(f"set a higher lift, or {thinner}", part)

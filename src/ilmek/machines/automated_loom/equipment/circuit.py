@@ -72,15 +72,8 @@ def _rail(long: float) -> Part:
     """A mounting rail, from z = 0."""
     bought = Bought("TH 35-7.5", RAIL_MASS * long, length=long)
     size = format_quantity(long, "mm")
-    return Part(
-        part_id("mounting-rail"),
-        "mounting rail",
-        "mounting rail",
-        size,
-        box(*RAIL, long),
-        purchase=bought,
-        envelope=True,
-    )
+    shape = box(*RAIL, long)
+    return Part(part_id("mounting-rail"), "mounting rail", "mounting rail", size, shape, purchase=bought, envelope=True)
 
 
 def _rails(control: Extent, *, both: bool) -> Iterator[Placement]:
@@ -112,12 +105,9 @@ def circuit_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """Whether the terminals of all signals have room on two rails."""
     (control,) = surroundings(loom).of(CONTROL)
     needed = math.fsum(row.size[0] for _, _, row in _DEVICES) + terminals(loom) * TERMINAL.size[0]
+    source = f"two side walls of the cabinet; {signals.signal_count(loom.heads)} signals, two on a terminal"
     return (
-        at_most(
-            "control: length of its mounting rails",
-            needed,
-            2 * _rail_length(control),
-            "mm",
-            f"two side walls of the cabinet; {signals.signal_count(loom.heads)} signals, two on a terminal",
-        ).with_cure("set fewer heads", signals.TERMINAL, part_id("mounting-rail")),
+        at_most("control: length of its mounting rails", needed, 2 * _rail_length(control), "mm", source).with_cure(
+            "set fewer heads", signals.TERMINAL, part_id("mounting-rail")
+        ),
     )

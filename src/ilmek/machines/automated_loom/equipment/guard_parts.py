@@ -64,15 +64,8 @@ def guards(loom: LoomDesign) -> Tree:
     """The fence, its doors, and what is on its posts."""
     fence, near = fence_of(loom), surroundings(loom)
     lines = _Lines(fence, near)
-    return Tree(
-        (
-            RigidBody(
-                GUARDS[0],
-                (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front)),
-            ),
-            _doors(fence, lines.front),
-        )
-    )
+    parts = (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front))
+    return Tree((RigidBody(GUARDS[0], parts), _doors(fence, lines.front)))
 
 
 class _Lines:
@@ -174,11 +167,9 @@ def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
     hinges = (placement(-(wide + gap) / 2, y * high - tall / 2, -_HINGE[2] / 2 + WIRE) for y in (0.15, 0.85))
     inwards = wide / 2 - ACTUATOR.size[0] / 2 - _BEFORE_LATCH, height - fence.floor - BOTTOM, -ACTUATOR.size[1] / 2
     middles = ((first + then) / 2 for first, then in pairwise(front))
-    return RigidBody(
-        GUARDS[1],
-        (Occurrence(leaf), Occurrence(hinge, tuple(hinges)), Occurrence(actuator, (placed(*inwards, UPWARDS),))),
-        positions=tuple(placement(x, fence.floor + BOTTOM, fence.front + POST / 2 - WIRE) for x in middles),
-    )
+    parts = (Occurrence(leaf), Occurrence(hinge, tuple(hinges)), Occurrence(actuator, (placed(*inwards, UPWARDS),)))
+    positions = tuple(placement(x, fence.floor + BOTTOM, fence.front + POST / 2 - WIRE) for x in middles)
+    return RigidBody(GUARDS[1], parts, positions=positions)
 
 
 def _made(name: str, title: str, wide: float, tall: float, deep: float) -> Part:

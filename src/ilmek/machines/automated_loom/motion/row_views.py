@@ -77,12 +77,8 @@ def row_from_above(loom: LoomDesign) -> Animation:
         MovingStroke(ends - 1j * share * sample(row.track(name), angle).position[:, None], "yarn", name)
         for name in (EVEN, ODD)
     )
-    still = Drawing(
-        "loom-row-above",
-        "A row from above",
-        (Stroke(ends + 0j, "yarn", "fell"),),
-        note="the sheets of warps at the height of the wefts; the weaver stands below the picture",
-    )
+    note = "the sheets of warps at the height of the wefts; the weaver stands below the picture"
+    still = Drawing("loom-row-above", "A row from above", (Stroke(ends + 0j, "yarn", "fell"),), note=note)
     strokes = (*sheets, *named_strokes(_moving(loom, View.TOP)), *_wefts(loom, View.TOP))
     return _animation(loom, still, strokes, (EVEN, ODD, HEADS))
 
