@@ -53,6 +53,31 @@ BELTS: dict[str, BeltType] = {
 """By name: pitches and widths of DIN 7721 (T), makers' AT and ISO 13050 (H profiles, HTD); pulls of polyurethane belts
 with steel cords from makers' data, rounded down."""
 
+
+@dataclass(frozen=True, slots=True)
+class OpenBelt:
+    """A belt by the metre, clamped at both ends, with steel cords.
+
+    tension  allowed of its cords, and stiffness: force at an elongation of 1, both over its width [N/m]
+    mass     over length and width [kg/m²]
+    height, teeth, back   of the belt, of its teeth, and from the pitch line to its back [m]
+    least_teeth, idler    of a pulley, and least diameter of a roller on its back, where it is bent to both sides
+    """
+
+    belt: BeltType
+    tension: float
+    stiffness: float
+    mass: float
+    height: float
+    tooth: float
+    back: float
+    least_teeth: int
+    idler: float
+
+
+T5_BY_THE_METRE = OpenBelt(BELTS["T5"], 36e3, 9e6, 2.1, 2.2 * mm, 1.2 * mm, 0.5 * mm, 15, 30 * mm)
+"""Of polyurethane, DIN 7721: tension, stiffness and mass of makers' tables (360 N, 90 kN and 21 g/m for 10 mm)."""
+
 MESHING = 12
 """Maximum number of teeth that share the pull [makers' rule]."""
 

@@ -57,6 +57,7 @@ PRICES: Mapping[str, PriceRates] = {
     "linear guide": PriceRates(each=5.0, per_m=60.0),
     "guide carriage": PriceRates(each=20.0),
     "belt and pulleys": PriceRates(each=40.0, per_m=15.0),
+    "belt": PriceRates(each=2.0, per_m=15.0),
     "magnet": PriceRates(each=1.0, per_kg=120.0),
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),

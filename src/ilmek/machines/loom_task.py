@@ -94,9 +94,12 @@ class LoomTask:
 
     @property
     def rail_length(self) -> float:
-        """Length of the heads' rail [m]: beyond its ends the axes of its retreat are clear of a head and its step."""
-        room = self.weaver.width / 2 + self.params.clearance
-        return max(self.width, self.cloth.width + self.cloth.knot_pitch + 2 * room)
+        """Length of the heads' rail [m]: for its belt, and beyond its ends the axes of its retreat are clear of a head
+        and its step.
+        """
+        room, cloth = self.weaver.width / 2 + self.params.clearance, self.cloth
+        of_belt = cloth.width - cloth.knot_pitch + 2 * self.weaver.beside_belt
+        return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, of_belt)
 
     def parameters(self, name: str, derived: P) -> P:
         """The parameters of one of its machines: those derived for it, with those that the user set in their place.

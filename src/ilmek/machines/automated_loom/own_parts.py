@@ -17,9 +17,11 @@ from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_bracke
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
+from ilmek.machines.weaver.carriage_drive import rail_belt
 from ilmek.machines.weaver.carriage_guide import ON_RAIL
+from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.tree import carriage_guide
+from ilmek.machines.weaver.tree import carriage_guide, drive_of
 from ilmek.part import catalogue
 from ilmek.part.extents import shape_box
 from ilmek.part.part import Bought, Part
@@ -107,20 +109,13 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
     rail, row = member("rail", "rail of the heads", frame.rail, frame.task.width), carriage_guide(loom.weaver)
-    axis = Part(
-        part_id("rail-axis"),
-        "axes of the heads on their rail",
-        "linear axis",
-        "with a belt for each head",
-        box(RAIL_AXIS, RAIL_AXIS - row.height, frame.task.width),
-        purchase=Bought("linear axis", length=frame.task.width),
-        envelope=True,
-    )
+    spacer = box(row.block, RAIL_AXIS - row.height, frame.task.width)
+    under = Part(part_id("guide-bar"), "bar under the heads' guide", "machined link", "", spacer, ALUMINIUM)
     middle = rail_middle(loom)
     along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
     before = placement(-frame.task.width / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH)
     guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, frame.task.width)
-    on_axis = placement(-frame.task.width / 2, z=row.height - RAIL_AXIS).after(ON_RAIL)
+    on_bar = placement(-frame.task.width / 2, z=row.height - RAIL_AXIS).after(ON_RAIL)
     return Tree(
         (
             standing_frame(loom, frame, axes),
@@ -128,8 +123,9 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
                 RAIL,
                 (
                     Occurrence(rail, (along,)),
-                    Occurrence(axis, (before,)),
-                    Occurrence(guide, (on_axis,)),
+                    Occurrence(under, (before,)),
+                    Occurrence(guide, (on_bar,)),
+                    *rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2),
                     *rail_brackets(loom, frame),
                 ),
                 joint=Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR),

@@ -31,7 +31,9 @@ from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
+from ilmek.machines.weaver.carriage_drive import tension_check
 from ilmek.machines.weaver.parts import case_plates
+from ilmek.machines.weaver.tree import drive_of
 from ilmek.records import computed, record
 from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
 from ilmek.timing.cyclogram import check_all, check_apart
@@ -169,6 +171,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
         *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
+        tension_check(drive_of(loom.weaver), loom.heads),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
         *joint_checks(loom, found.listed.frame),
         *frame_modes(loom, found.listed.frame).checks,

@@ -20,7 +20,7 @@ from ilmek.machines.weaver.report import (
     tables,
     warnings,
 )
-from ilmek.machines.weaver.tree import head_mass, mass_of, tree
+from ilmek.machines.weaver.tree import head_mass, head_tree, mass_of
 from ilmek.timing.cyclogram import Cyclogram
 
 __all__ = [
@@ -51,7 +51,7 @@ MACHINE = Component(
     tables=tables,
     figures=figures,
     warnings=warnings,
-    tree=tree,
+    tree=head_tree,
     cam_tables=cam_tables,
     cyclograms=cyclograms,
     work=work,

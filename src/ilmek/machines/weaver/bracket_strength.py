@@ -8,11 +8,12 @@ l is the bracket's length, a the acceleration of the step. Case, carriage and ra
 """
 
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.weaver.carriage_drive import drive_checks
 from ilmek.machines.weaver.carriage_guide import guide_checks
 from ilmek.machines.weaver.case import ALUMINIUM, BRACKET, BRACKET_WALL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.tree import carriage_guide, head_mass
+from ilmek.machines.weaver.tree import carriage_guide, drive_of, head_mass
 from ilmek.machines.weaver.widths import case_width
 from ilmek.records import record
 from ilmek.report import Check, at_most
@@ -80,4 +81,5 @@ def bracket_checks(weaver: Weaver) -> tuple[Check, ...]:
         at_most("stress of the head's bracket", load.stress, STRESS, "MPa", source, cure=cure, parts=(BRACKET,)),
         at_most("sag of the head at its tools", load.sag, SAG * pitch, "mm", tenth, cure=cure, parts=(BRACKET,)),
         *guide_checks(weaver, head_mass(weaver), carriage_guide(weaver)),
+        *drive_checks(weaver, drive_of(weaver)),
     )

@@ -44,15 +44,20 @@ def carriages(weaver: Weaver, row: LinearGuide) -> int:
     return 2 if case_width(weaver.params) >= 2 * row.block_length else 1
 
 
-def guide_load(weaver: Weaver, mass: float, row: LinearGuide) -> float:
-    """Equivalent load of a carriage under a head of a mass [kg] [N]."""
+def guide_load(weaver: Weaver, mass: float, row: LinearGuide, acceleration: float) -> float:
+    """Equivalent load of a carriage under a head of a mass [kg] at an acceleration [m/s²] [N]."""
     shape = weaver.shape
     case = shape.body + shape.size / 2
     behind, aside = shape.front - case.real, abs(shape.rail - case.imag)
-    step = mass * weaver.params.carriage_acceleration * (behind + aside)
+    step = mass * acceleration * (behind + aside)
     rolling = 2 * mass * GRAVITY * behind / row.rail
     across = 6 * step / (BALLS * row.block_length)
     return (mass * GRAVITY + rolling + across) / carriages(weaver, row)
+
+
+def _stepping(weaver: Weaver, mass: float, row: LinearGuide) -> float:
+    """Equivalent load of a carriage in a step [N]."""
+    return guide_load(weaver, mass, row, weaver.params.carriage_acceleration)
 
 
 def required_travel(weaver: Weaver) -> float:
@@ -73,7 +78,7 @@ def guide_for(weaver: Weaver, mass: float) -> LinearGuide:
 
 def life(weaver: Weaver, mass: float, row: LinearGuide) -> float:
     """Life of the guide under a head of a mass [kg] [m]."""
-    return _NOMINAL * (row.dynamic / guide_load(weaver, mass, row)) ** 3
+    return _NOMINAL * (row.dynamic / _stepping(weaver, mass, row)) ** 3
 
 
 def guide_carriages(weaver: Weaver, row: LinearGuide) -> Occurrence:
@@ -99,7 +104,7 @@ def guide_checks(weaver: Weaver, mass: float, row: LinearGuide) -> tuple[Check, 
         ),
         at_least(
             "static safety of the head's guide",
-            row.static / guide_load(weaver, mass, row),
+            row.static / _stepping(weaver, mass, row),
             STATIC_SAFETY,
             "1",
             f"static load rating of {row.name}; usual practice",

@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.cams.loaded_plate_cam import CamShaftDrive, LoadedPlateCam, drive_for, torque_at
 from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
 from ilmek.machines.weaver.cams import cams_for
+from ilmek.machines.weaver.carriage_belt import BESIDE
 from ilmek.machines.weaver.cutter_motor import motor_length
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
@@ -121,6 +122,11 @@ class Weaver:
     def cam(self, track: str) -> LoadedPlateCam:
         """The cam of a track. Raises KeyError where it has none."""
         return {cam.name: cam for cam in self.cams}[track]
+
+    @property
+    def beside_belt(self) -> float:
+        """Belt that is needed beyond the axis of the head at an end of the row [m]."""
+        return BESIDE
 
     @property
     def tools(self) -> tuple[Track, ...]:

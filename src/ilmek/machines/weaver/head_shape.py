@@ -19,6 +19,9 @@ from ilmek.machines.weaver.selector import Selector
 from ilmek.records import record
 from ilmek.units import mm
 
+BEFORE_MAGAZINE = 7 * mm
+"""Between the magazine and the rail's carriage, for the carriage's motor [m]; assumed by this project."""
+
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
@@ -118,8 +121,8 @@ class HeadShape:
 
     @property
     def front(self) -> float:
-        """The foremost x [m]."""
-        return self.magazine.real + self.magazine_size.real
+        """The end of the bracket, before the magazine: the foremost x of all but the carriage's motor [m]."""
+        return self.magazine.real + self.magazine_size.real + BEFORE_MAGAZINE
 
     @property
     def corners(self) -> tuple[complex, ...]:

@@ -148,7 +148,7 @@ class WeaverParams(Params):
     )
     cam_room: float = kind.length(250 * mm, at_least=0.02, at_most=2.0, doc="room for a cam's diameter in the head")
     carriage_speed: float = _speed(0.25, "speed of the head along the row")
-    carriage_acceleration: float = _acceleration(2.0, "acceleration of the head along the row")
+    carriage_acceleration: float = _acceleration(1.0, "acceleration of the head along the row")
     carriage_jerk: float = _jerk(100.0, "jerk of the head along the row")
     cutter_turn: float = kind.time(
         40e-3, at_least=1e-3, at_most=1.0, doc="time of half a turn of the cutter's eccentric, which makes the cut"

@@ -9,16 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from ilmek.elements.drive_parts import PULLEY
-from ilmek.elements.linear_guides import LinearGuide
-from ilmek.elements.motors import smallest_motor
+from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide
+from ilmek.machines.weaver.carriage_drive import CARRIAGE_MOTOR, CarriageDrive, carriage_drive, drive_mass, drive_parts
 from ilmek.machines.weaver.carriage_guide import carriages, guide_carriages, guide_for, offered_guides
 from ilmek.machines.weaver.carriages import carried_parts, standing_parts
 from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR, TIER_MOTOR, cam_drive, colour_motors, shaft_pulley
 from ilmek.machines.weaver.followers import follower_bodies, guide
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import jaw_bodies
 from ilmek.machines.weaver.knife import KNIFE_CLOSURE, knife_bodies, knife_stands
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
@@ -27,53 +25,19 @@ from ilmek.machines.weaver.parts import MOTOR, cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.transmissions import CAM_SHAFT, transmissions
 from ilmek.machines.weaver.turning import turning_bodies
-from ilmek.part import catalogue
-from ilmek.part.placement import IDENTITY, IN_SIDE_VIEW, UPRIGHT, Placement, placement
+from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.units import mm, turn
+from ilmek.units import turn
 
 HEAD, MAGAZINE, LIFT = part_id("head"), part_id("magazine"), part_id("lift of the magazine")
-CARRIAGE, CARRIAGE_MOTOR = part_id("drive of the carriage"), part_id("carriage-motor")
-"""Ids of bodies, and of the motor of a carriage."""
-
-BEFORE_MAGAZINE = 5 * mm
-"""Between magazine, or guide carriages, and the motor of a carriage [m]; assumed by this project."""
+"""Ids of bodies."""
 
 
-@lru_cache(maxsize=8)
-def tree(weaver: Weaver) -> Tree:
-    """The head, and the motor of its carriage at the end of its share of the rail."""
-    shape = weaver.shape
-    axis = placement(0.0, shape.rail, shape.front)
-    return placed(weaver, (IDENTITY,), (axis.after(on_the_axis(weaver, weaver.width / 2, RAIL_AXIS / 2)),))
-
-
-def placed(weaver: Weaver, heads: Sequence[Placement], drives: Sequence[Placement]) -> Tree:
-    """The tree of a loom's heads, and of the motors of their carriages, each at its places."""
+def placed(weaver: Weaver, heads: Sequence[Placement]) -> Tree:
+    """The tree of a loom's heads, each at its place."""
     head = head_tree(weaver)
     first, *others = head.bodies
-    torque, turning = _carriage_drive(weaver)
-    motor = catalogue.motor(CARRIAGE_MOTOR, "motor of a carriage", smallest_motor(torque, turning), torque, turning)
-    drive = RigidBody(CARRIAGE, (Occurrence(motor),), positions=tuple(drives))
-    return head.replaced((replace(first, positions=tuple(heads)), *others, drive))
-
-
-def _carriage_drive(weaver: Weaver) -> tuple[float, float]:
-    """Torque [N m] and speed [rad/s] of the motor of a carriage."""
-    params = weaver.params
-    return head_mass(weaver) * params.carriage_acceleration * PULLEY, params.carriage_speed / PULLEY
-
-
-def on_the_axis(weaver: Weaver, x: float, top: float) -> Placement:
-    """The motor of a carriage at the end of its share, over the axis, from whose back z counts: its flange on a height.
-
-    It stands before the magazine, which passes over the axis, and before guide carriages that reach over the flange;
-    the heads' drives pass under it.
-    """
-    chosen, row = smallest_motor(*_carriage_drive(weaver)), carriage_guide(weaver)
-    behind = BEFORE_MAGAZINE + (row.height if row.block / 2 >= top else 0.0)
-    depth = behind + (chosen.face if chosen else catalogue.SPECIAL_FACE) / 2
-    return placement(x, top, depth, about=(1.0, 0.0, 0.0), angle=turn / 2).after(UPRIGHT)
+    return head.replaced((replace(first, positions=tuple(heads)), *others))
 
 
 @lru_cache(maxsize=8)
@@ -81,15 +45,23 @@ def head_tree(weaver: Weaver) -> Tree:
     """All that a carriage moves: the case slides on the rail, the rest is in it, each body after what carries it."""
     bare = _without_guide(weaver)
     first, *others = bare.bodies
-    guided = (*first.occurrences, guide_carriages(weaver, carriage_guide(weaver)))
-    return bare.replaced((replace(first, occurrences=guided), *others))
+    driven = guide_carriages(weaver, carriage_guide(weaver)), *drive_parts(weaver, drive_of(weaver))
+    return bare.replaced((replace(first, occurrences=(*first.occurrences, *driven)), *others))
 
 
+def drive_of(weaver: Weaver) -> CarriageDrive:
+    """The drive of the head's carriage, by the mass on it."""
+    return carriage_drive(weaver, _without_guide(weaver).mass, carriage_guide(weaver))
+
+
+@lru_cache(maxsize=8)
 def carriage_guide(weaver: Weaver) -> LinearGuide:
     """The guide of the head's carriage, by the mass on it: as given, or of all but the carriages, with the heaviest."""
     tied = weaver.params.arms.mass if weaver.params.with_arms else 0.0
     own = max(carriages(weaver, row) * row.block_mass for row in offered_guides())
-    return guide_for(weaver, weaver.params.head_mass or _without_guide(weaver).mass + tied + own)
+    bare = _without_guide(weaver).mass
+    driven = bare + drive_mass(weaver, carriage_drive(weaver, bare, LINEAR_GUIDES[0]))
+    return guide_for(weaver, weaver.params.head_mass or driven + tied + own)
 
 
 @lru_cache(maxsize=8)

@@ -21,18 +21,13 @@ from ilmek.machines.automated_loom.in_space.maker import (
 )
 from ilmek.machines.automated_loom.knotting import DYAD
 from ilmek.machines.automated_loom.own_parts import RAIL
-from ilmek.machines.automated_loom.parts import parts_of_loom
-from ilmek.machines.hammer.design import Hammer
-from ilmek.machines.hammer.tree import rocker_stations
 from ilmek.machines.knotting_dyad import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.tree import needle_level
 from ilmek.machines.knotting_dyad.tree import tree as arms_tree
-from ilmek.machines.link_tree import GAP
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cutter import eccentricity, half_turn
 from ilmek.machines.weaver.followers import follower_id
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
 from ilmek.machines.weaver.knife import BLADE_BODY, ECCENTRIC_BODY
 from ilmek.machines.weaver.knot import led_between
@@ -51,9 +46,8 @@ from ilmek.machines.weaver.motions import (
 )
 from ilmek.machines.weaver.tool_parts import CENTRE, LEFT, PLATES, RIGHT, SLEY_BODY
 from ilmek.machines.weaver.transmissions import CAM_SHAFT
-from ilmek.machines.weaver.tree import HEAD, head_tree, on_the_axis, placed
+from ilmek.machines.weaver.tree import HEAD, head_tree, placed
 from ilmek.machines.weaver.turning import HANDLER_BODY, PINION_BODY
-from ilmek.part import catalogue
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tree import Joint, JointKind, Tree
 from ilmek.report.scene import SceneMotion, SceneYarn
@@ -63,7 +57,6 @@ from ilmek.units import turn
 
 _ARMS, _HANDS = (LEFT_ARM, RIGHT_ARM, CENTRE_ARM), ((LEFT, -1), (RIGHT, 1))
 _YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS, _CUT = 91, 48, 41, 121, 25
-_PLACES = 41
 
 
 def heads(loom: LoomDesign) -> MachineTree:
@@ -109,33 +102,14 @@ def _arms_tree(loom: LoomDesign, dyad: KnottingDyad) -> Tree:
 
 
 def heads_tree(loom: LoomDesign) -> Tree:
-    """The heads in the rail's axes: each in the middle of its share of the row, the motor of its carriage beside it.
+    """The heads in the rail's axes: each in the middle of its share of the row.
 
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
     rail = loom.side.rail
     middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
-    axis, top = placement(z=-RAIL_AXIS), max(parts_of_loom(loom).frame.rail.side, RAIL_AXIS) / 2
-    return placed(
-        loom.weaver,
-        [placement(x, -middle.imag, -middle.real) for x in middles],
-        [axis.after(on_the_axis(loom.weaver, x, top)) for x in _motors(loom, middles, share)],
-    ).moving(motions(loom))
-
-
-def _motors(loom: LoomDesign, middles: list[float], share: float) -> list[float]:
-    """Where the motors of the carriages stand across the width [m]: a quarter of a share from its middle, or as near to
-    that as the rockers of a comb leave room with their brackets.
-    """
-    usual, design = share / 4, loom.beat.design
-    if not isinstance(design, Hammer) or design.linkage is None:
-        return [x + usual for x in middles]
-    apart = catalogue.SPECIAL_FACE / 2 + loom.params.clearance + (0.5 + GAP) * design.linkage.one.params.thickness
-    offered = sorted(np.linspace(-share / 2, share / 2, _PLACES).tolist(), key=lambda aside: abs(aside - usual))
-    beside = np.subtract.outer(middles, rocker_stations(design.params))
-    aside = next((own for own in offered if np.abs(beside + own).min() >= apart), usual)
-    return [x + aside for x in middles]
+    return placed(loom.weaver, [placement(x, -middle.imag, -middle.real) for x in middles]).moving(motions(loom))
 
 
 def head_alone(loom: LoomDesign) -> Tree:
