@@ -1,17 +1,20 @@
 """Cost of a carpet against twenty lines that share nothing with the code, and the least cost against all looms."""
 
+import contextlib
 import itertools
+from dataclasses import replace
 from functools import lru_cache
 
 import pytest
 
-from ilmek.errors import ParameterError
-from ilmek.machines import BEATS
+from ilmek.errors import LoomError, ParameterError
+from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
 from ilmek.machines.automated_loom.cost import CarpetCost, annuity_factor, costs_by_heads
 from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.offers import CYCLES, value_of
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.automated_loom.report import LoomAnalysis, analyse, checks
+from ilmek.machines.automated_loom.report import LoomAnalysis, all_checks, analyse
 
 NARROW = AutomatedLoomParams(width=0.45, length=0.6)
 RATES = CostRates(wage=14 / 3600, persons=0.5, life=9.0, interest=0.08, margin=0.2, changeover=5 * 3600.0)
@@ -64,19 +67,54 @@ def test_shares_of_the_cost_are_those_of_a_computation_by_hand(beat: str, heads:
         assert cost.payback_time == pytest.approx(cost.sold / saved * 365.25 * 86400)
 
 
-def test_least_cost_is_that_of_all_beats_and_heads() -> None:
-    chosen = analyse(design(AutomatedLoomParams(width=0.45, length=0.6, aim="cost", cost=RATES)))
-    most = chosen.loom.heads_max
-    whole = {
-        (beat, heads): found.cost.cost_per_carpet
-        for beat, heads in itertools.product(BEATS, range(1, most + 1))
-        for found in [loom(beat, heads)]
-        if all(check.ok for check in checks(found))
-    }
-    assert len(whole) >= 2
-    least = min(whole, key=lambda key: whole[key])
-    assert (chosen.loom.params.beat, chosen.heads) == least
-    assert chosen.cost.cost_per_carpet == pytest.approx(whole[least])
+TABLE = list(itertools.product(("cams", "arms"), (1.8, 1.25), WEFT_CARRIERS, BEATS, (1, 2)))
+
+
+@lru_cache
+def tried(key: tuple[str, float, str, str, int], aim: str) -> LoomAnalysis | None:
+    """The loom of these choices; None where it cannot be designed."""
+    knotting, cycle, weft, beat, heads = key
+    kinds = AutomatedLoomParams(width=0.45, length=0.6, aim=aim, cost=RATES, knotting=knotting, weft=weft, beat=beat)
+    with contextlib.suppress(LoomError):
+        return analyse(design(replace(kinds, knot_cycle=cycle, heads=heads)))
+    return None
+
+
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize(("aim", "cycle"), [("cost", 1.25), ("time", 1.8), ("cost", 1.8), ("time", 1.25)])
+def test_the_chosen_loom_is_the_best_of_all_in_the_table(aim: str, cycle: float) -> None:
+    chosen = design(AutomatedLoomParams(width=0.45, length=0.6, aim=aim, cost=RATES, knot_cycle=cycle))
+    search = chosen.search
+    assert search is not None
+    whole = {key: found for key in TABLE if key[1] == cycle for found in [tried(key, aim)] if found}
+    good = {key: value_of(found, aim) for key, found in whole.items() if not failing(found)}
+    assert len(good) >= 8
+    assert search.value == pytest.approx(min(good.values()), rel=1e-12)
+    assert search.designed < len(good)
+    assert search.rival_value >= search.value
+    # No bound is above what its loom has.
+    for offer in search.offers:
+        if offer.key in whole:
+            assert offer.value <= value_of(whole[offer.key], aim) * (1 + 1e-9), offer
+            assert offer.price <= whole[offer.key].listed.price
+
+
+def failing(found: LoomAnalysis) -> list[str]:
+    return [check.name for check in all_checks(found.loom) if not check.ok]
+
+
+def test_no_time_of_a_knot_that_is_given_beats_the_quickest_loom() -> None:
+    """The knot is as quick as its cams allow; a quicker one fails the check of its cycle."""
+    sizes = AutomatedLoomParams(width=0.45, length=0.6, aim="time", knotting="cams", weft="shuttle")
+    quickest = design(sizes)
+    cycle = quickest.params.knot_cycle
+    assert cycle is not None
+    assert cycle < 1.3
+    assert failing(analyse(quickest)) == []
+    given = [analyse(design(replace(sizes, knot_cycle=one))) for one in (2.0, 1.4, cycle)]
+    assert all(one.time >= analyse(quickest).time * (1 - 1e-12) for one in given)
+    quicker = CYCLES[CYCLES.index(cycle) + 1]
+    assert "knot cycle, as required" in failing(analyse(design(replace(sizes, knot_cycle=quicker))))
 
 
 def test_estimate_over_heads_is_near_the_looms_of_these_heads() -> None:

@@ -80,7 +80,7 @@ def test_a_loom_from_its_file_is_the_same_loom(tmp_path: Path, settings: tuple[s
     assert found.differs == ()
     again = json.loads(json.dumps(found.report.as_json()))
     for data in (written, again):
-        for judged in ("weaves", "reasons", "nearest"):  # the deadline was the first carpet's
+        for judged in ("weaves", "reasons", "nearest", "choice_bound"):  # wishes and choice were the first carpet's
             data["results"].pop(judged, None)
     assert differences(written["results"], again["results"]) == []
     assert differences(written["machines"], again["machines"]) == []
@@ -254,6 +254,7 @@ def test_weave_writes_a_programme_for_the_loom_of_a_folder(
         assert (programme.setup.rows, programme.setup.columns) == (75, 60)
     machines = [json.loads((folder / "machine.json").read_text())["results"] for folder in (first, second)]
     assert machines[0].pop("nearest") == []
+    assert machines[0].pop("choice_bound")["aim"] == "price"
     assert differences(*machines) == []
     assert json.loads((second / "report.json").read_text())["parameters"]["loom_file"] == loom
     over = run("weave", str(picture), *carpet, "--loom", loom, "--out", str(first), "--force")

@@ -23,7 +23,6 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import ascending, mid_loaded
 from ilmek.elements.materials import GRAVITY
-from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -242,14 +241,11 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
 def _rail_side(task: "LoomTask") -> float:
     """Side of the lightest section that bears the heads in the middle of a span of the rail [m], the largest of all.
 
-    Not smaller than that of the frame, where they stand side by side. All heads that fit where their number is open.
+    Not smaller than that of the frame, where they stand side by side. One head where their number is open.
     """
     params, head = task.params, task.weaver
-    number = params.heads or 1
-    if not params.heads and (params.aim == "time" or params.deadline is not None):
-        number = heads_that_fit(task.columns, task.cloth.knot_pitch, head.width)
     span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
-    weight = min(number, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
+    weight = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
     sections = ascending()
     bearing = (one for one in sections if mid_loaded(one, span, weight)[0] <= params.rail_sag)
     return next(bearing, sections[-1]).side

@@ -13,15 +13,18 @@ hand = knots / knots a day * hours a day * wage + finishing * area. Rates: `Cost
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
+from ilmek.elements.prices import PriceRates, price_of
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of
+from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.records import computed, record
+from ilmek.report import BillLine
 
 YEAR = 365.25 * 86400.0
 _SCREWS = "fastener"
@@ -107,16 +110,47 @@ class CarpetCost:
         }
 
 
+@record
+class MachineCost:
+    """What a loom costs its maker: its parts, and the screws and axes by which its assembly is paid."""
+
+    parts: float
+    screws: float
+    axes: float
+
+    def sold(self, rates: CostRates) -> tuple[float, float]:
+        """Prices of the loom: with assembly and setting to work, and with the maker's margin."""
+        work = self.screws * rates.screw_time + self.axes * rates.axis_time + rates.commissioning
+        made = self.parts + rates.fitter_wage * work
+        return made, made * (1 + rates.margin)
+
+    def plus(self, other: "MachineCost") -> "MachineCost":
+        """With another."""
+        return MachineCost(self.parts + other.parts, self.screws + other.screws, self.axes + other.axes)
+
+    def times(self, number: float) -> "MachineCost":
+        """A number of times."""
+        return MachineCost(number * self.parts, number * self.screws, number * self.axes)
+
+
+def machine_cost(lines: Iterable[BillLine], prices: Mapping[str, PriceRates]) -> MachineCost:
+    """The cost of the lines of a parts list."""
+    lines = tuple(lines)
+    return MachineCost(
+        sum(price_of(line, prices) for line in lines),
+        sum(line.number for line in lines if line.kind == _SCREWS),
+        motors(lines),
+    )
+
+
 def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float) -> CarpetCost:
     """The cost of the loom's carpet.
 
     listed  parts of the loom      time, energy  of weaving the carpet [s], [J]
     """
     params, rates = loom.params, loom.params.cost
-    screws = sum(line.number for line in listed.parts if line.kind == _SCREWS)
-    work = screws * rates.screw_time + motors(listed.parts) * rates.axis_time + rates.commissioning
-    parts: float = listed.price
-    made = parts + rates.fitter_wage * work
+    cost = machine_cost(listed.parts, listed.prices)
+    made, sold = cost.sold(rates)
     fence = fence_of(loom)
     margins = 2 * (POST + rates.aisle)
     return CarpetCost(
@@ -126,26 +160,28 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
         time=time,
         energy=energy,
         floor=(fence.right - fence.left + margins) * (fence.front - fence.rear + margins),
-        parts=parts,
+        parts=cost.parts,
         made=made,
-        sold=made * (1 + rates.margin),
+        sold=sold,
     )
+
+
+def shares_of_heads(loom: LoomDesign, listed: PartsList) -> tuple[MachineCost, MachineCost]:
+    """The cost of a loom without its heads, and that of a head, with what of the creel is for it."""
+    of_heads = {line.part for name in loom.head.children for line in loom.machines[name].parts} | OF_A_HEAD
+    on_heads = machine_cost((line for line in listed.parts if line.part in of_heads), listed.prices)
+    others = machine_cost((line for line in listed.parts if line.part not in of_heads), listed.prices)
+    return others, on_heads.times(1 / loom.heads)
 
 
 def costs_by_heads(loom: LoomDesign, listed: PartsList, energy: float) -> tuple[CarpetCost, ...]:
     """Costs with 1, 2, ... heads up to what fits: an estimate, with frame and energy as they are."""
-    of_heads = {line.part for name in loom.head.children for line in loom.machines[name].parts}
+    own = carpet_cost(loom, listed, 1.0, energy)
+    without, of_one = shares_of_heads(loom, listed)
 
-    def with_heads(number: int) -> PartsList:
-        return replace(
-            listed,
-            parts=tuple(
-                replace(line, number=line.number * number // loom.heads) if line.part in of_heads else line
-                for line in listed.parts
-            ),
-        )
+    def with_heads(number: int) -> CarpetCost:
+        cost = without.plus(of_one.times(number))
+        made, sold = cost.sold(own.rates)
+        return replace(own, time=estimated_time(loom, number), parts=cost.parts, made=made, sold=sold)
 
-    return tuple(
-        carpet_cost(loom, with_heads(number), estimated_time(loom, number), energy)
-        for number in range(1, loom.heads_max + 1)
-    )
+    return tuple(with_heads(number) for number in range(1, loom.heads_max + 1))

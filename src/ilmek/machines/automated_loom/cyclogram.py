@@ -122,7 +122,7 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     tied, limits = head.cyclogram, head.params
     names = [track.name for track in tied.tracks]
     move = s_curve(limits.cloth.knot_pitch, limits.carriage)
-    out = max(tied.track(name).segment(motion).end for name, motion in _OUT if name in names)
+    out = max(tied.track(name).segment(motion).end for name, motion in _OUT if name in names) % turn
     law = law_of("s-curve", {"ramp": min(0.25, move.ramp / move.time), "cruise": move.cruise / move.time})
     step = TrackSegment("step", out, out + turn * move.time / period, 0.0, limits.cloth.knot_pitch, law)
     track = Track(

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from functools import lru_cache
 
 from ilmek.errors import LoomError
@@ -12,7 +12,7 @@ from ilmek.loom.sharing import heads_that_fit, least_distance, share
 from ilmek.loom.times import Times
 from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
-from ilmek.machines.automated_loom.choice import BeatOption, beat_options, chosen_heads
+from ilmek.machines.automated_loom.choice import BeatOption, beat_options
 from ilmek.machines.automated_loom.cyclogram import (
     RowTiming,
     cyclogram,
@@ -24,7 +24,8 @@ from ilmek.machines.automated_loom.cyclogram import (
 )
 from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
-from ilmek.machines.beat import Beat, BeatDrive
+from ilmek.machines.automated_loom.search import LoomSearch, SearchJournal
+from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.loom_task import LoomTask, MachineDesign
@@ -34,7 +35,6 @@ from ilmek.machines.weaver import Weaver
 from ilmek.machines.weft import Weft
 from ilmek.params import Params
 from ilmek.records import record
-from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
@@ -53,7 +53,7 @@ class LoomDesign:
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
     knot_cyclogram              of a knot
     times          of the acts of weaving, as the programme counts them
-    choices        of what the parameters left open; `params` has what was chosen
+    journal        of the choice of what the parameters left open; `params` has what was chosen
     """
 
     params: AutomatedLoomParams
@@ -70,7 +70,12 @@ class LoomDesign:
     row_cyclogram: Cyclogram
     knot_cyclogram: Cyclogram
     times: Times
-    choices: tuple[Choice, ...] = ()
+    journal: SearchJournal = field(default_factory=SearchJournal)
+
+    @property
+    def search(self) -> LoomSearch | None:
+        """The search in which it was chosen; None where nothing was left open."""
+        return self.journal.search
 
     @property
     def weaver(self) -> Weaver:
@@ -142,38 +147,54 @@ class ReadyLoom:
     """A loom as far as it does not depend on its beat.
 
     machines, task   the machines designed before the beat is chosen, and the task of the others
-    head, choices    what ties the knots, and what was chosen for it
-    options          kinds of beat that it may have, in ascending order of what its aim makes least
+    head             what ties the knots
+    options          kinds of beat that it may have, in ascending order of their prices
     """
 
     params: AutomatedLoomParams
     machines: Mapping[str, Child]
     task: LoomTask
     head: KnottingHead
-    choices: tuple[Choice, ...]
     options: tuple[BeatOption, ...]
+
+    @property
+    def weft(self) -> Weft:
+        """What lays the wefts."""
+        return self.machines["weft"].design_as(Weft)
+
+
+def head_for(params: AutomatedLoomParams) -> KnottingHead:
+    """The head of a loom alone."""
+    return knotting_head(_made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))[1])
 
 
 def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
-    """The loom for a carpet up to its beat.
+    """The loom for a carpet up to its beat, of the kind of knotting that its parameters name.
 
     Raises LoomError where the shed leaves no time for the weft; CarpetError for a carpet without knots; the errors of
     the machines where their parameters contradict each other.
     """
     laid, task = _made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))
-    knotting, of_knotting = knotting_head(task)
+    knotting = knotting_head(task)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})
     machines["weft"], task = _made("weft", task)  # its devices beside the head
     machines["shedding"], task = _made("shedding", task)
     task = replace(task, side=laid_out(task))
     cams = task.shedding
-    options = beat_options(task, lambda plan: _timed_row(params, _row_timing(task, cams, plan.beat), cams)[1])
-    return ReadyLoom(params, machines, task, knotting, of_knotting, options)
+
+    def task_of(plan: PlannedBeat) -> LoomTask:
+        planned = replace(task, side=laid_out(task, plan.path))
+        return replace(planned, period=_timed_row(params, _row_timing(planned, cams, plan.beat), cams)[1])
+
+    options = beat_options(task, task_of)
+    return ReadyLoom(params, machines, task, knotting, options)
 
 
-def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] = ()) -> LoomDesign:
-    """The loom with one of its kinds of beat, and the choice of it.
+def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | None = None) -> LoomDesign:
+    """The loom with one of its kinds of beat; one head where their number is open.
+
+    journal  of the search that it is designed in
 
     Raises LoomError where more heads are given than fit.
     """
@@ -186,8 +207,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     times = times_at(head, task.cloth.knot_pitch, period)
     most = heads_that_fit(columns, task.cloth.knot_pitch, head.width)
     _require_room(params, most, head.width)
-    busy = with_changes(times, params.changes_per_knot)
-    heads, of_heads = chosen_heads(params, most, lambda number: least_time(rows, columns, number, busy, weft.bobbins))
+    heads = params.heads or 1
     task = replace(
         task,
         designs={name: child.design for name, child in machines.items()},
@@ -203,7 +223,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
     side = laid_out(task, beat.path)
     timing = replace(timing, retreat=side.retreat)
     machines |= {name: replace(machines[name], number=heads) for name in knotting.children}
-    chosen = replace(params, beat=option.kind, heads=heads, knotting=knotting.kind, weft=weft.carrier)
+    chosen = replace(params, beat=option.kind, heads=heads, weft=weft.carrier, knot_cycle=head.params.cycle)
     return LoomDesign(
         params=chosen,
         rows=rows,
@@ -219,7 +239,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, choices: tuple[Choice, ...] 
         row_cyclogram=_row_cyclogram(timing, period, machines),
         knot_cyclogram=knot_cyclogram(head, times.knot),
         times=times,
-        choices=(*choices, *ready.choices, *of_heads),
+        journal=journal or SearchJournal(),
     )
 
 

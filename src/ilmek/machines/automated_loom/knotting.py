@@ -6,8 +6,8 @@ Either way the head has the weaver's pile handler, colour magazine, cutter, warp
     arms   the knotting dyad in place of the grippers; the opener keeps cam 2, the arms tie between the opened warps and
            the sley, as quickly as their drives allow; symmetric and asymmetric knots
 
-Cams are the cheaper ones: one motor in place of four servos. So they are chosen where all their checks hold; with the
-aim of time, where they keep the required time of a knot too. Where neither keeps all limits, the one that misses less.
+Cams are the cheaper ones: one motor in place of four servos. Where the usual angles of the motions do not tie the knot
+within its time, the motions are stretched and overlapped within their order [`timing.solver`].
 """
 
 from collections.abc import Callable, Mapping
@@ -42,6 +42,7 @@ from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
+from ilmek.machines.weaver.design import stretches
 from ilmek.machines.weaver.levers import HALF
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
 from ilmek.machines.weaver.sizes import larger_sizes
@@ -49,7 +50,7 @@ from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.records import record
-from ilmek.report import Alternative, Check, Choice, choose
+from ilmek.report import Check
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
 WEAVER, DYAD = "weaver", "knotting-dyad"
@@ -57,7 +58,7 @@ CAMS, ARMS = "cams", "arms"
 KNOTTING = (CAMS, ARMS)
 """Kinds of knotting, the cheaper first."""
 
-AUTO = "auto"
+_SAME = 1e-9
 
 ROUNDS = 6
 """Of sizes by loads: each is larger than the one before, or the last."""
@@ -82,38 +83,20 @@ class KnottingHead:
     checks: tuple[Check, ...]
 
     @property
-    def keeps_time(self) -> bool:
-        """Whether it ties within the required time of a knot."""
-        return self.weaver.cycle <= self.weaver.params.cycle * (1 + 1e-9)
-
-    @property
     def width(self) -> float:
         """Width of the head along the row [m]."""
         return self.weaver.width
 
 
-def knotting_head(task: LoomTask) -> tuple[KnottingHead, tuple[Choice, ...]]:
-    """The head of a loom, and the choice where it was left open. No pitch and no knot is refused: checks fail.
+def knotting_head(task: LoomTask) -> KnottingHead:
+    """The head of a loom, of the kind that its parameters name. No pitch and no knot is refused: checks fail.
 
     Raises LoomError where the settings of its machines contradict the loom's.
     """
-    wanted = task.params.knotting
-    if wanted != AUTO:
-        return _head(wanted, task), ()
-    cams = _head(CAMS, task)
-    good = all(check.ok for check in cams.checks) and (task.params.aim != "time" or cams.keeps_time)
-    found = (cams,) if good else (cams, _head(ARMS, task))
-    if len(found) == 2 and task.params.aim == "time" and found[1].weaver.cycle < cams.weaver.cycle:
-        found = (found[1], cams)
-    index, choice = choose("knotting", [Alternative(one.kind, one.checks) for one in found], task.params.aim)
-    return found[index], (choice,)
-
-
-def _head(kind: str, task: LoomTask) -> KnottingHead:
     component = MACHINES[WEAVER]
     assert component.fit is not None
     params: WeaverParams = component.fit(task)
-    if kind == CAMS:
+    if task.params.knotting == CAMS:
         params = _sized(task, params)
         if params.with_arms:
             raise LoomError("weaver.arms.time, and knotting=cams", do="set knotting=arms, or leave weaver.arms out")
@@ -175,6 +158,9 @@ def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
     """The parameters of a head for the loom's knot: the user's, and of those left open as large as its loads need."""
     for _ in range(ROUNDS):
         params = _of_the_knot(WEAVER, task.parameters(WEAVER, derived), task)
+        if stretches(params) and _weaver(params).cycle > params.cycle * (1 + _SAME):
+            derived = replace(derived, optimise=True)
+            params = task.parameters(WEAVER, derived)
         larger = larger_sizes(_weaver(params))
         if task.parameters(WEAVER, replace(derived, **larger)) == params:
             break

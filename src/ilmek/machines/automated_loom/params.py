@@ -26,7 +26,7 @@ QUALITY = 25 / dm
 AUTO = "auto"
 """The choice of what is left open."""
 
-AIMS = ("price", "time", "cost")
+PRICE, TIME, COST = AIMS = ("price", "time", "cost")
 """What the choice of a loom makes least."""
 
 WIDEST = 12.0
@@ -78,7 +78,12 @@ class AutomatedLoomParams(Params):
         choices=(AUTO, "cams", "arms"),
         doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim",
     )
-    knot_cycle: float = kind.time(2.0, at_least=1e-3, at_most=3600.0, doc="required time of a knot")
+    knot_cycle: float | None = kind.time(
+        None,
+        at_least=1e-3,
+        at_most=3600.0,
+        doc="required time of a knot; default: 2 s, or less by aim",
+    )
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: by knot, quality and pile"
     )

@@ -98,6 +98,17 @@ class LoomAnalysis:
     )
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.cloth.warp_tension)
 
+    @computed(
+        "",
+        "bound of all looms that were not designed, the chosen one, the runner-up and why it lost",
+        shown=False,
+        optional=True,
+        absent="nothing was left open",
+    )
+    def choice_bound(self) -> Json:
+        search = self.loom.search
+        return search.as_json() if search else None
+
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:
         diameter, wall = self.loom.tube

@@ -1,30 +1,49 @@
-"""The loom for a carpet, with what its parameters leave open chosen so that every check holds.
+"""The loom for a carpet, with what its parameters leave open chosen so that every check holds and the aim is least.
 
-Kinds of beat are tried in ascending order of what the aim makes least: first by the checks of the drive alone, then in
-the whole loom, until one keeps every limit. With a deadline a quicker beat may save heads: then the price of the whole
-loom decides. These checks are formulas. Where the parts of the chosen loom have no room in space, the next kind is
-tried [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
+Branch and bound: of all offers [`offers`] the one with the least bound is designed, its value takes the place of its
+bound, and when a designed loom is the least of all, its checks decide: it is chosen, or refused. So no other loom can
+be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all. These checks
+are formulas. Where the parts of the chosen loom have no room in space, the kind of beat is refused, and the next best
+loom is chosen [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
-import math
-from collections.abc import Mapping
+import heapq
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache
+from itertools import count
 from types import MappingProxyType
 
+from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
-from ilmek.machines.automated_loom.cost import costs_by_heads
-from ilmek.machines.automated_loom.design import LoomDesign, ReadyLoom, ready_loom, with_beat
-from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
-from ilmek.machines.automated_loom.report import analyse, checks
-from ilmek.report import Alternative, Check, choose
+from ilmek.machines.automated_loom.cost import MachineCost
+from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
+from ilmek.machines.automated_loom.knotting import ARMS, CAMS
+from ilmek.machines.automated_loom.offers import (
+    Bounds,
+    HeadBranch,
+    branches,
+    head_cost,
+    rest_of,
+    undesigned_arms,
+    value_of,
+)
+from ilmek.machines.automated_loom.params import AUTO, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.report import all_checks, analyse
+from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch, SearchJournal
+from ilmek.records import record
+from ilmek.report import Check
+from ilmek.report.verdict import weight
 
 _ALL: Mapping[str, tuple[Check, ...]] = MappingProxyType({})
+
+MOST_REFUSED = 8
+"""Whole looms that are designed and refused before the search ends with the one that misses its limits least."""
 
 
 @lru_cache(maxsize=8)
 def design(params: AutomatedLoomParams) -> LoomDesign:
-    """The loom for a carpet. Where no beat keeps every limit, the loom with the one that misses them least.
+    """The loom for a carpet. Where no loom keeps every limit, the one that misses them least of those designed.
 
     The last looms are kept: commands and reports that begin with the same parameters share the design.
 
@@ -35,84 +54,177 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
 
 
 def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
-    """The loom, or where its parts have no room in space and its beat was left open, that with the next kind that has.
+    """The loom, or where its parts have no room in space and its beat was left open, the next best with another beat.
 
     params  of the choice: with the heads of the loom, these stay
     Where no kind has room, the loom with the beat whose heaviest failed check weighs least.
     """
     refused: dict[str, tuple[Check, ...]] = {}
     while params.beat == AUTO and loom.params.beat not in refused and not assembly(loom).holds:
-        refused[loom.params.beat] = assembly(loom).checks
+        refused[loom.params.beat] = tuple(check for check in assembly(loom).checks if not check.ok)
         loom = _chosen(params, refused)
     return loom
 
 
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
-    """The loom with the first kind of beat that keeps every limit; refused: checks in space by kinds."""
-    if params.aim == "cost":
-        return _by_cost(params, refused)
-    ready = ready_loom(params)
-    if len(ready.options) == 1:
-        return with_beat(ready, ready.options[0])
-    if params.deadline is not None and params.heads is None and params.aim == "price":
-        return _by_whole_price(ready, refused)
-    alternatives = [Alternative(one.kind, (*one.checks, *refused.get(one.kind, ()))) for one in ready.options]
-    looms: dict[int, LoomDesign] = {}
-    for index, option in enumerate(ready.options):
-        if alternatives[index].failed:
+    """The loom of the best offer; refused: failed checks in space by kinds of beat."""
+    kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
+    first = branches(params, kinds[0])
+    journal = SearchJournal()
+    one = len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1 and params.heads
+    bounds = None if one else _simplest(first[0], journal, params)
+    if bounds is None:
+        return with_beat(first[0].ready, first[0].ready.options[0])
+    search = _Search(bounds, refused, journal)
+    for branch in first:
+        search.add(branch)
+    if len(kinds) > 1:
+        search.postpone(first)
+    return search.run() or _nearest(params, refused)
+
+
+def _simplest(branch: HeadBranch, journal: SearchJournal, params: AutomatedLoomParams) -> Bounds | None:
+    """Bounds by the simplest loom of a branch: its cheapest beat that holds; None where none has its parts."""
+    options = sorted(branch.ready.options, key=lambda option: any(not check.ok for check in option.checks))
+    for option in options:
+        try:
+            found = analyse(with_beat(branch.ready, option, journal))
+        except ParameterError:
             continue
-        looms[index] = with_beat(ready, option, (choose("beat", alternatives, params.aim)[1],))
-        alternatives[index] = Alternative(option.kind, (*option.checks, *checks(analyse(looms[index]))))
-        if not alternatives[index].failed:
-            break
-    index, choice = choose("beat", alternatives, params.aim)
-    return looms.get(index) or with_beat(ready, ready.options[index], (choice,))
+        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, option.kind, found.loom.heads, 0.0, 0.0, 0.0)
+        return Bounds(params, found, [rest_of(offer, found)])
+    return None
 
 
-def _by_whole_price(ready: ReadyLoom, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
-    """The cheapest loom of those with each kind of beat, each with the heads that its deadline needs."""
-    whole = sorted(
-        (
-            (analyse(loom).listed.price, option.kind, option, loom)
+def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
+    """The loom that comes nearest to a deadline or a limit of the price that no loom keeps: its check fails."""
+    aim = PRICE if params.deadline is None else TIME
+    near = _chosen(replace(params, aim=aim, deadline=None, price_limit=None), refused)
+    wishes = replace(near.params, aim=params.aim, deadline=params.deadline, price_limit=params.price_limit)
+    ready = ready_loom(wishes)
+    return with_beat(ready, ready.options[0], near.journal)
+
+
+@record
+class _Entry:
+    """An offer in the search: with its loom, once it is designed; `closed`: it stands for looms with arms.
+
+    bounded  number of designed looms by which it was bounded, with its own head; 0: with the slowest one
+    """
+
+    offer: LoomOffer
+    loom: LoomDesign | None = None
+    closed: bool = False
+    bounded: int = 0
+
+
+class _Search:
+    """The search of one loom: offers by their bounds, and designed looms by their values."""
+
+    def __init__(self, bounds: Bounds, refused: Mapping[str, tuple[Check, ...]], journal: SearchJournal) -> None:
+        self.bounds, self.refused, self.journal = bounds, refused, journal
+        self.params = bounds.params
+        self.offers: list[LoomOffer] = []
+        self.closed: list[LoomOffer] = []
+        self.heap: list[tuple[float, float, int, _Entry]] = []
+        self.lost: list[tuple[LoomOffer, Check]] = []
+        self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
+        self.branches: dict[tuple[str, str], HeadBranch] = {}
+        self.heads: dict[tuple[str, float, str], MachineCost] = {}
+        self.order = count()
+
+    def add(self, branch: HeadBranch) -> None:
+        """The offers of a branch; those whose head, weft or beat fails a check are lost."""
+        ready = branch.ready
+        shared = [check for check in (*ready.head.checks, *ready.weft.checks) if not check.ok]
+        failed = {
+            option.kind: [*shared, *(c for c in option.checks if not c.ok), *self.refused.get(option.kind, ())]
             for option in ready.options
-            for loom in [with_beat(ready, option)]
-        ),
-        key=lambda one: one[:2],
-    )
-    found = [
-        Alternative(kind, (*option.checks, *checks(analyse(loom)), *refused.get(kind, ())))
-        for _, kind, option, loom in whole
-    ]
-    index, choice = choose("beat", found)
-    return with_beat(ready, whole[index][2], (choice,))
+        }
+        for offer in self.bounds.offers(branch):
+            self.branches[offer.knotting, offer.weft] = branch
+            self.offers.append(offer)
+            if failed[offer.beat]:
+                self.lost.append((offer, max(failed[offer.beat], key=weight)))
+            else:
+                self._push(offer.value, _Entry(offer, self._simplest(offer)))
 
+    def _simplest(self, offer: LoomOffer) -> LoomDesign | None:
+        """The simplest loom, where it is that of the offer."""
+        return self.bounds.simplest.loom if offer.key == self.bounds.rests[0].offer.key else None
 
-def _by_cost(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
-    """The loom whose carpet costs least: each kind of beat with its heads of least cost, by the estimate over heads."""
-    trial = ready_loom(params)
-    offers = sorted(
-        (_of_least_cost(params, with_beat(trial, option)) for option in trial.options),
-        key=lambda loom: (analyse(loom).cost.cost_per_carpet, loom.params.beat),
-    )
-    alternatives = [
-        Alternative(
-            f"{loom.params.beat}, heads={loom.heads}", (*checks(analyse(loom)), *refused.get(loom.params.beat, ()))
+    def postpone(self, cams: Iterable[HeadBranch]) -> None:
+        """The looms with arms, which are designed only where one with a head on cams is not better than their bound."""
+        self.closed = [offer for branch in cams for offer in self.bounds.offers(undesigned_arms(branch))]
+        if self.closed:
+            best = min(self.closed, key=lambda offer: offer.value)
+            self._push(best.value, _Entry(best, closed=True))
+
+    def _push(self, value: float, entry: _Entry) -> None:
+        tie = entry.offer.price if self.params.aim == TIME else 0.0
+        heapq.heappush(self.heap, (value, tie, next(self.order), entry))
+
+    def run(self) -> LoomDesign | None:
+        """The best loom that keeps every limit; else that which misses them least, or None where there is no offer."""
+        while self.heap and len(self.tried) < MOST_REFUSED:
+            value, _, _, entry = heapq.heappop(self.heap)
+            if entry.closed:
+                self.closed = []
+                for branch in branches(self.params, ARMS):
+                    self.add(branch)
+            elif entry.loom is None and entry.bounded < len(self.bounds.rests):
+                self._bound(entry.offer)
+            elif entry.loom is None or value < value_of(analyse(entry.loom), self.params.aim):
+                self._design(entry)
+            elif self._holds(entry.offer, entry.loom):
+                return self._ended(entry.offer, entry.loom, value)
+        if self.tried:
+            offer, loom, _ = min(self.tried, key=lambda one: one[2])
+            return self._ended(offer, loom, value_of(analyse(loom), self.params.aim))
+        if not self.lost:
+            return None
+        offer, _ = min(self.lost, key=lambda one: (weight(one[1]), one[0].value))
+        return self._ended(offer, self._loom(offer), offer.value)
+
+    def _bound(self, offer: LoomOffer) -> None:
+        """The offer again, with the bound by its own head and by all looms designed until now."""
+        own = offer.knotting, offer.cycle, offer.weft
+        if own not in self.heads:
+            self.heads[own] = head_cost(head_for(offer.of(self.params)), self.bounds.simplest.listed.prices)
+        bounded = self.bounds.bounded(offer, self.branches[offer.knotting, offer.weft], self.heads[own])
+        self._push(bounded.value, _Entry(bounded, bounded=len(self.bounds.rests)))
+
+    def _loom(self, offer: LoomOffer) -> LoomDesign:
+        ready = ready_loom(offer.of(self.params))
+        return with_beat(ready, ready.options[0], self.journal)
+
+    def _design(self, entry: _Entry) -> None:
+        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer."""
+        try:
+            loom = entry.loom or self._loom(entry.offer)
+            found = analyse(loom)
+        except (LoomError, ParameterError):
+            return
+        if entry.loom is None:
+            self.bounds.rests.append(rest_of(entry.offer, found))
+        self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
+
+    def _holds(self, offer: LoomOffer, loom: LoomDesign) -> bool:
+        failed = [check for check in all_checks(loom) if not check.ok]
+        if failed:
+            heaviest = max(failed, key=weight)
+            self.lost.append((offer, heaviest))
+            self.tried.append((offer, loom, weight(heaviest)))
+        return not failed
+
+    def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
+        """The loom, with the record of the search in its journal."""
+        lost = sorted((one for one in self.lost if one[0].value <= value), key=lambda one: one[0].value)
+        search = LoomSearch(
+            self.params, (*self.offers, *self.closed), len(self.bounds.rests), tuple(lost), offer, value
         )
-        for loom in offers
-    ]
-    index, choice = choose("beat and heads", alternatives, params.aim)
-    return replace(offers[index], choices=(choice, *offers[index].choices))
-
-
-def _of_least_cost(params: AutomatedLoomParams, trial: LoomDesign) -> LoomDesign:
-    """The loom with the trial's beat, and the heads of least cost of those that keep the deadline; all as given."""
-    if params.heads is not None:
-        return trial
-    found = analyse(trial)
-    costs = costs_by_heads(trial, found.listed, found.energy.total)
-    timely = [number for number, cost in enumerate(costs) if cost.time <= (params.deadline or math.inf)]
-    number = min(timely or [len(costs) - 1], key=lambda number: costs[number].cost_per_carpet) + 1
-    if number == trial.heads:
-        return trial
-    ready = ready_loom(replace(params, heads=number, beat=trial.params.beat))
-    return with_beat(ready, ready.options[0])
+        if self.heap:
+            least, _, _, entry = self.heap[0]
+            search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.loom is not None)
+        self.journal.search = search
+        return loom

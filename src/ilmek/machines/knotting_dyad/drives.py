@@ -78,7 +78,9 @@ class HeadMotion:
     strength: LinkageStrength = group()
 
     cycle_time = computed(
-        "ms", "of a knot, every motion as quick as the limits of the drives allow", lambda it: it.cycle.period
+        "ms",
+        "that the arms take of a knot, as quick as their drives allow; the rest is the head's handler, opener and sley",
+        lambda it: it.cycle.period,
     )
     torque_max = computed("mN*m", "greatest torque at a joint", lambda it: max(one.torque_max for one in it.joints))
 

@@ -25,13 +25,15 @@ from ilmek.machines.weaver.motions import (
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.solver import least_acceleration, least_period
-from ilmek.timing.track import ActuatorLimits
 from ilmek.units import deg, turn
 
 SOURCE = "thesis, 2.2.3: order of the knotting sequence"
 
 TUBE_TURN, DRAW_TURN, PRESENT_TURN = 90 * deg, 110 * deg, 70 * deg
 """Rotations of the handler to the tube, drawing the pile, and to the side grippers; it turns on to come home."""
+
+LEAVES, LEFT_SHARE = "opener leaves", 0.4
+"""Event of the opener's return, and its share of it, from which the sley may come down; assumed by this project."""
 
 _SAME = 1e-9
 
@@ -69,7 +71,7 @@ def _opener(params: WeaverParams) -> tuple[Track, ...]:
     """The opener on a cam of its own, where arms tie."""
     opened = params.opening
     positions = {"open warps": (0.0, opened), "return": (opened, 0.0)}
-    return (_track(params, Track(OPENER, "cam 2", ()), positions, {"warps open": "open warps"}),)
+    return (_leaving(_track(params, Track(OPENER, "cam 2", ()), positions, {"warps open": "open warps"})),)
 
 
 def _grippers(params: WeaverParams, crossing: float) -> tuple[Track, ...]:
@@ -84,17 +86,19 @@ def _grippers(params: WeaverParams, crossing: float) -> tuple[Track, ...]:
             {"pile held": "close", "pile released": "open"},
         ),
         # The warp opener sits on the side grippers; from the opened warps on the screw turns them.
-        _track(
-            params,
-            Track(SIDE_MOTION, "cam 2", ()),
-            {
-                "pull back": (0.0, -back),
-                "open warps": (-back, opened),
-                "cross": (opened, far),
-                "turn back": (far, opened),
-                "return": (opened, 0.0),
-            },
-            {"warps open": "open warps", "pile crossed": "cross"},
+        _leaving(
+            _track(
+                params,
+                Track(SIDE_MOTION, "cam 2", ()),
+                {
+                    "pull back": (0.0, -back),
+                    "open warps": (-back, opened),
+                    "cross": (opened, far),
+                    "turn back": (far, opened),
+                    "return": (opened, 0.0),
+                },
+                {"warps open": "open warps", "pile crossed": "cross"},
+            )
         ),
         _track(
             params,
@@ -109,6 +113,11 @@ def _grippers(params: WeaverParams, crossing: float) -> tuple[Track, ...]:
             {"ends drawn out": "return"},
         ),
     )
+
+
+def _leaving(track: Track) -> Track:
+    """The track of the opener with the event from which the sley may follow it."""
+    return replace(track, events=(*track.events, riding(LEAVES, track.segment("return"), LEFT_SHARE)))
 
 
 def _track(
@@ -145,9 +154,18 @@ def relations(gap: float, cut: float = 0.0, arms: float | None = None) -> tuple[
     return (*(Relation(then, first, gap, SOURCE) for then, first in order), blade, *between)
 
 
+def _sley_behind(opener: str) -> tuple[tuple[Moment, Moment], ...]:
+    """The sley comes down as the opener leaves its path, and is not down before the opener is back."""
+    return (
+        (Moment(SLEY, "down", "start"), Moment(opener, LEAVES, "event")),
+        (Moment(SLEY, "down", "end"), Moment(opener, "return", "end")),
+    )
+
+
 _ARMS_ORDER = (
     (Moment(HANDLER, "home", "start"), Moment(HANDLER, "present", "end")),
     (Moment(OPENER, "open warps", "start"), Moment(HANDLER, "home", "end")),
+    *_sley_behind(OPENER),
     (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
 )
 
@@ -163,6 +181,7 @@ _GRIPPERS_ORDER = (
     (Moment(CENTRE_MOTION, "return", "start"), Moment(SIDE_GRASP, "open", "end")),
     (Moment(SIDE_MOTION, "return", "start"), Moment(CENTRE_MOTION, "return", "end")),
     (Moment(SLEY, "down", "start"), Moment(CENTRE_MOTION, "return", "end")),
+    *_sley_behind(SIDE_MOTION),
     (Moment(CENTRE_GRASP, "open", "start"), Moment(SLEY, "down", "end")),
     (Moment(SLEY, "up", "start"), Moment(SLEY, "down", "end")),
 )
@@ -175,39 +194,37 @@ def arms_window(cyclogram: Cyclogram) -> tuple[float, float]:
     return opener.segment("open warps").end, last
 
 
-def optimised(
-    required: Cyclogram, limits: Mapping[str, ActuatorLimits], gap: float, cutting: float, arms: float | None = None
-) -> Cyclogram:
+def optimised(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
     """The cyclogram with the same motions at better cam angles, at its period, or at the shortest that is possible.
 
-    limits  of each track      gap  of motions in sequence [rad]      cutting, arms  times that cutter and arms need [s]
+    limited  its tracks have limits      gap  of motions in sequence [rad]      needed  times of cutter and arms [s]
     """
-    tracks = tuple(replace(track, limits=limits[track.name]) for track in required.tracks)
-    limited = replace(required, tracks=tracks)
-    needed = cutting, arms
-    if _within(limited, gap, needed, required.period) is None:
+    if within(limited, gap, needed, limited.period) is None:
         shortest = _shortest(limited, gap, needed)
         return replace(shortest, period=shortest.period * (1 + _SAME))
-    return least_acceleration(_ordered(limited, gap, needed, required.period)).cyclogram
+    return least_acceleration(_ordered(limited, gap, needed, limited.period)).cyclogram
 
 
 def _shortest(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
     """The shortest cycle in which cutter and arms have their times; their angles follow the cycle, so bisection."""
     least = least_period(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0)).cyclogram
     low = high = least.period
-    best = _within(limited, gap, needed, high)
+    best = within(limited, gap, needed, high)
     while best is None:
         low, high = high, 2 * high
-        best = _within(limited, gap, needed, high)
+        best = within(limited, gap, needed, high)
     while high - low > _SAME * high:
         middle = (low + high) / 2
-        found = _within(limited, gap, needed, middle)
+        found = within(limited, gap, needed, middle)
         low, high, best = (low, middle, found) if found else (middle, high, best)
     return replace(best, period=high)
 
 
-def _within(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram | None:
-    """The shortest cyclogram with the angles that cutter and arms need at a period [s], where it is no longer."""
+def within(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram | None:
+    """The shortest cyclogram with the angles that cutter and arms need at a period [s], where it is no longer.
+
+    limited, gap, needed  as of `optimised`
+    """
     try:
         found = least_period(_ordered(limited, gap, needed, period)).cyclogram
     except ParameterError:  # the times take more than the turn

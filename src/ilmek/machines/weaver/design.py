@@ -11,7 +11,7 @@ from ilmek.machines.weaver.cam_belt import CamBelt, cam_belt
 from ilmek.machines.weaver.cams import cams_for
 from ilmek.machines.weaver.carriage_belt import BESIDE
 from ilmek.machines.weaver.cutter_motor import motor_length
-from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations
+from ilmek.machines.weaver.cyclogram import DRAW_TURN, arms_window, optimised, relations, within
 from ilmek.machines.weaver.cyclogram import cyclogram as knot_cyclogram
 from ilmek.machines.weaver.forces import HeadForces
 from ilmek.machines.weaver.grippers import Grippers, grippers_for, yarn_needed
@@ -31,6 +31,8 @@ from ilmek.timing.track import ActuatorLimits, Track, peak_acceleration, peak_sp
 from ilmek.units import mm, turn
 from ilmek.weaving.knots.proof import TiedKnot, no_knot
 from ilmek.weaving.warp_opening import WarpSpans
+
+_USUAL_STEPS = WeaverParams().steps
 
 _WHOLE = 1e-9
 """Part of a millimetre, and of a tier, that is rounding."""
@@ -145,8 +147,8 @@ class Weaver:
 
 def design(params: WeaverParams) -> Weaver:
     """The head that ties a knot in the required time, or in the shortest that speeds and accelerations allow."""
-    drawn = max(params.billed, params.arms.yarn if params.with_arms else yarn_needed(params))
-    radius, grippers = drawn / DRAW_TURN, grippers_for(params, drawn)
+    drawn, grippers = _grippers(params)
+    radius = drawn / DRAW_TURN
     cycle = _within_limits(params, knot_cyclogram(params, grippers.crossing), radius)
     opener = _opener(params, grippers)
     reaching = head_tools(params, grippers, drawn)
@@ -188,10 +190,32 @@ def design(params: WeaverParams) -> Weaver:
     )
 
 
+def stretches(params: WeaverParams) -> bool:
+    """Whether the usual angles of the motions may be exchanged for better ones: no others are set, nor in use."""
+    usual = params.steps == _USUAL_STEPS and not any(angles.given for angles in params.tool_angles)
+    return usual and not params.optimise
+
+
+def ties_in_time(params: WeaverParams) -> bool:
+    """Whether the motions, stretched where they may be, tie within the required cycle: without a whole design."""
+    drawn, grippers = _grippers(params)
+    required, radius = knot_cyclogram(params, grippers.crossing), drawn / DRAW_TURN
+    if not params.optimise and not stretches(params):
+        return _within_limits(params, required, radius).period <= params.cycle * (1 + _WHOLE)
+    limited = replace(required, tracks=_limited(params, required, radius))
+    return within(limited, params.relation_gap, (params.cutting_time, params.arms.time), params.cycle) is not None
+
+
 def head_relations(weaver: Weaver) -> tuple[Relation, ...]:
     """The order of the head's motions, the time of arms included."""
     time = weaver.params.arms.time
     return relations(weaver.params.relation_gap, arms=None if time is None else time / weaver.cycle * turn)
+
+
+def _grippers(params: WeaverParams) -> tuple[float, Grippers]:
+    """The yarn drawn for a knot [m], and the grippers for it."""
+    drawn = max(params.billed, params.arms.yarn if params.with_arms else yarn_needed(params))
+    return drawn, grippers_for(params, drawn)
 
 
 def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
@@ -233,15 +257,20 @@ def _magazine(params: WeaverParams, rest: float) -> Magazine:
 def _within_limits(params: WeaverParams, required: Cyclogram, radius: float) -> Cyclogram:
     """The cyclogram at the required cycle, or at the shortest that the limits allow."""
     if params.optimise:
-        speed, acceleration = params.speed_limit, params.acceleration_limit
-        arms = {track.name: radius if track.name == HANDLER else 1.0 for track in required.tracks}
-        limits = {name: ActuatorLimits(speed / arm, acceleration / arm) for name, arm in arms.items()}
-        return optimised(required, limits, params.relation_gap, params.cutting_time, params.arms.time)
+        limited = replace(required, tracks=_limited(params, required, radius))
+        return optimised(limited, params.relation_gap, (params.cutting_time, params.arms.time))
     shortest = max(_peaks(track, required.period, radius, params).shortest for track in required.tracks)
     if params.arms.time is not None:
         first, last = arms_window(required)
         shortest = max(shortest, params.arms.time * turn / max(last - first, params.relation_gap))
     return replace(required, period=max(required.period, shortest))
+
+
+def _limited(params: WeaverParams, required: Cyclogram, radius: float) -> tuple[Track, ...]:
+    """The tracks with the limits of their actuators; the handler's are of its tip."""
+    speed, acceleration = params.speed_limit, params.acceleration_limit
+    arms = {track: radius if track.name == HANDLER else 1.0 for track in required.tracks}
+    return tuple(replace(track, limits=ActuatorLimits(speed / arm, acceleration / arm)) for track, arm in arms.items())
 
 
 def carriage_window(cyclogram: Cyclogram) -> float:

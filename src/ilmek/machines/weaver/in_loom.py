@@ -17,7 +17,7 @@ def params_for(task: LoomTask) -> WeaverParams:
     loom = task.params
     return WeaverParams(
         cloth=task.cloth,
-        cycle=loom.knot_cycle,
+        cycle=loom.knot_cycle or WeaverParams().cycle,
         law=loom.knot_law,
         knot=loom.knot,
         knot_yarn=loom.billed,

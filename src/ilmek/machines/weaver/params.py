@@ -186,6 +186,12 @@ class WeaverParams(Params):
                 do="open the pair wider, or take a thinner finger",
             )
 
+    @property
+    def tool_angles(self) -> tuple[ToolAngles, ...]:
+        """The angles of each tool that moves."""
+        tracks = WITH_ARMS if self.with_arms else tuple(track for track in TOOLS if track != OPENER)
+        return tuple(getattr(self, TOOLS[track]) for track in tracks)
+
     def _check_tools(self) -> None:
         tracks = WITH_ARMS if self.with_arms else tuple(track for track in TOOLS if track != OPENER)
         for track in tracks:

@@ -5,10 +5,12 @@ from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.circuit import circuit, circuit_checks
+from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CONDUIT, PACKAGE, PEG
 from ilmek.machines.automated_loom.equipment.creel_parts import creel_trees
 from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
+from ilmek.machines.automated_loom.equipment.signals import HEAD_ANGLE, YARN_STOP
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
@@ -18,6 +20,9 @@ from ilmek.part.tree import Tree
 from ilmek.report import BillLine, Check
 
 _NAME = "automated-loom"
+
+OF_A_HEAD = frozenset((HEAD_ANGLE, PEG, PACKAGE, BRAKE_ID, YARN_STOP, CONDUIT))
+"""Parts of the equipment of which each head has as many as all others."""
 
 
 @lru_cache(maxsize=2)

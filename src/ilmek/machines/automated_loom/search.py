@@ -1,0 +1,120 @@
+"""What was looked at in the choice of a loom: the finite choices that are open, their bounds, and what was lost why."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+from ilmek.machines.automated_loom.params import AUTO, TIME, AutomatedLoomParams
+from ilmek.records import record
+from ilmek.report import Check, Choice, Json
+from ilmek.report.choice import failing
+from ilmek.units import format_number, format_quantity
+
+_SAME = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class LoomOffer:
+    """Finite choices of a loom, and the least that it has: weaving time [s], price of its parts, value of the aim."""
+
+    knotting: str
+    cycle: float
+    weft: str
+    beat: str
+    heads: int
+    time: float
+    price: float
+    value: float
+
+    def of(self, params: AutomatedLoomParams) -> AutomatedLoomParams:
+        """The parameters with these choices."""
+        kinds = replace(params, knotting=self.knotting, weft=self.weft, beat=self.beat)
+        return replace(kinds, knot_cycle=self.cycle, heads=self.heads)
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """The choices alone."""
+        return self.knotting, self.cycle, self.weft, self.beat, self.heads
+
+    @property
+    def names(self) -> Mapping[str, str]:
+        """The choices as texts, by the names of their parameters."""
+        cycle = format_quantity(self.cycle, "s")
+        return {
+            "beat": self.beat,
+            "knotting": self.knotting,
+            "knot_cycle": cycle,
+            "weft": self.weft,
+            "heads": str(self.heads),
+        }
+
+
+@record
+class LoomSearch:
+    """The search of a loom.
+
+    params  as given        offers  all that can be chosen        designed  number of whole looms that were designed
+    lost    offers that were refused, each with its heaviest check, the better ones first
+    chosen  the offer of the loom      value  that its loom has
+    rival   the best of all others: its loom has the value, or no loom of it can have less where `rival_designed` is not
+    """
+
+    params: AutomatedLoomParams
+    offers: tuple[LoomOffer, ...]
+    designed: int
+    lost: tuple[tuple[LoomOffer, Check], ...]
+    chosen: LoomOffer
+    value: float
+    rival: LoomOffer | None = None
+    rival_value: float = field(default=float("nan"))
+    rival_designed: bool = False
+
+    @property
+    def open(self) -> tuple[str, ...]:
+        """Names of the parameters that were left open, and have more than one value among the offers."""
+        return tuple(name for name in self.chosen.names if len({offer.names[name] for offer in self.offers}) > 1)
+
+    def label(self, offer: LoomOffer) -> str:
+        """An offer as a text: what was open."""
+        return ", ".join(f"{name}={offer.names[name]}" for name in self.open)
+
+    @property
+    def choices(self) -> tuple[Choice, ...]:
+        """The choice of each parameter that was left open."""
+        given = self.params
+        left = {"beat": given.beat == AUTO, "knotting": given.knotting == AUTO, "heads": given.heads is None}
+        left |= {name: name in self.open for name in ("knot_cycle", "weft")}
+        return tuple(self._choice(name) for name in self.chosen.names if left[name])
+
+    def _choice(self, name: str) -> Choice:
+        chosen = self.chosen.names[name]
+        better = [(offer, check) for offer, check in self.lost if offer.names[name] != chosen]
+        if better:
+            offer, check = better[-1]
+            return Choice(name, chosen, check.name, offer.names[name], failing(check))
+        return Choice(name, chosen, self.params.aim)
+
+    def as_json(self) -> Json:
+        """Bound of all looms that were not designed, the chosen one, the runner-up and why it lost."""
+        found: dict[str, Json] = {"aim": self.params.aim, "looms": len(self.offers), "designed": self.designed}
+        found |= {"chosen": self.label(self.chosen), "value": self.value}
+        if self.rival is None:
+            return found
+        if self.lost:
+            offer, check = self.lost[0]
+            found |= {"refused": self.label(offer), "refused_for": f"{check.name}: {failing(check)}"}
+        return {**found, "bound": self.rival_value, "runner_up": self.label(self.rival), "why": self._why()}
+
+    def _why(self) -> str:
+        """Why the runner-up lost."""
+        more = self.rival_value - self.value
+        if more <= _SAME * self.value:
+            return f"the same {self.params.aim}, dearer" if self.params.aim == TIME else f"the same {self.params.aim}"
+        shown = format_quantity(more, "h", 3) if self.params.aim == TIME else format_number(more, 3)
+        return f"{self.params.aim}: {'' if self.rival_designed else 'at least '}{shown} more"
+
+
+@dataclass(slots=True, eq=False)
+class SearchJournal:
+    """What a search leaves to the looms that it designs: they are made before it ends."""
+
+    search: LoomSearch | None = None
