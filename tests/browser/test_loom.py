@@ -135,7 +135,7 @@ def test_a_part_has_the_numbers_of_the_design_and_its_drawing(page: Page, runnin
         assert ": holds" in words if checks[name]["ok"] else ": fails" in words
         if checks[name]["unit"] == "1":
             assert words.startswith(f"{checks[name]['value']:.4g} ")
-    expect(page.locator(".loom-holding li").last).to_contain_text("the standing frame")
+    expect(page.locator(".loom-holding li").last).to_contain_text("which stands on the floor")
     drawing = page.locator(".loom-plate svg path")
     expect(drawing).to_be_visible(timeout=PATIENCE)
     box = drawing.evaluate("path => { const box = path.getBBox(); return [box.height, box.width] }")
@@ -179,6 +179,8 @@ def test_the_picture_is_turned_scrubbed_and_worked_by_keys(page: Page, running: 
     open_view(page, running, "loom")
     page.get_by_role("button", name="Shed", exact=True).click()
     angle, canvas = page.get_by_label("Master angle"), page.get_by_role("application", name="The loom in space")
+    angle.fill("0")
+    until_drawn(page)
     closed = picture(page)
     angle.fill(str(round(SHED_OPEN / 0.5) * np.pi / 360))
     expect(angle).to_have_attribute("aria-valuetext", re.compile(f"^{SHED_OPEN}°"))

@@ -20,6 +20,8 @@ from ilmek.machines.automated_loom.in_space.scene import scene
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.beat_up import BeatUp
 from ilmek.machines.beat_up.tree import in_side_view
+from ilmek.machines.weaver.grippers import taut
+from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP, SIDE_MOTION
 from ilmek.plane.contours import area
 from ilmek.plane.solids import bounds, is_closed, volume
 from ilmek.report import Contour
@@ -224,3 +226,54 @@ def _side_of(one: BeatUp) -> Callable[[str, float], np.ndarray]:
         return (rotation @ direction * distance)[None, :]
 
     return point
+
+
+@pytest.mark.parametrize(
+    "settings", [(), (("width", "0.3 m"), ("length", "0.4 m"), ("beat", "linkage"), ("weft", "rapier"))]
+)
+def test_all_that_moves_is_held_down_to_the_floor_and_led_by_a_motor(settings: tuple[tuple[str, str], ...]) -> None:
+    bodies = _made(*settings)[1].bodies
+
+    def leads(name: str) -> list[str]:
+        body = bodies[name]
+        return [name, *(leads(body.follows[0]) if body.follows else [body.motor or body.passive])]
+
+    for name, body in bodies.items():
+        assert body.parent in {"", *bodies}
+        if body.drive:
+            assert leads(name)[-1], name
+    led = leads("weaver/centre gripper")
+    between = ("centre-gripper-motion-lever", "centre-gripper-motion-follower", "turning cam shaft")
+    assert led[1:] == [*(f"weaver/{one}" for one in between), "motor of a head"]
+
+
+def _about(axis: complex, line: np.ndarray) -> float:
+    """Angle by which a line goes about an axis [rad]."""
+    return float(np.angle((line[1:] - axis) / (line[:-1] - axis)).sum())
+
+
+def test_the_yarn_of_a_knot_is_taut_and_goes_about_both_warps() -> None:
+    loom, found = _made()
+    by, knot = loom.weaver.grippers, loom.knot_cyclogram
+    yarn = next(one for one in found.yarns if one.drive == "knot")
+    flat = yarn.points[:, :, 0] + 1j * yarn.points[:, :, 2]
+    closed = knot.track(SIDE_GRASP).segment("close").end
+    taken = knot.track(CENTRE_GRASP).segment("close").end
+    led = np.flatnonzero((yarn.angle >= closed) & (yarn.angle <= taken))
+    lengths = np.linalg.norm(np.diff(yarn.points[led], axis=1), axis=2).sum(axis=1)
+    assert lengths == pytest.approx(taut(by, sample(knot.track(SIDE_MOTION), yarn.angle[led]).position), rel=2e-3)
+    out = int(np.searchsorted(yarn.angle, knot.track(CENTRE_GRASP).segment("open").start))
+    left, right = np.split(flat[out], 2)
+    assert _about(-by.pair / 2 + 0j, left) < -1.5 * math.pi
+    assert _about(by.pair / 2 + 0j, right) < -1.5 * math.pi
+    near = np.abs(flat[out][1:-1, None] - np.array([-by.pair / 2, by.pair / 2])).min(axis=1)
+    assert near == pytest.approx((by.warp + by.yarn) / 2, rel=1e-6)
+    assert yarn.points[-1, :, 1].max() <= loom.weaver.params.yarn
+
+
+def test_the_tools_that_tie_are_frames_of_the_scene_and_their_motions_are_named() -> None:
+    _, found = _made()
+    assert set(found.tools) <= {frame.name for frame in found.frames}
+    tracks = {(phase.drive, phase.track) for phase in found.phases}
+    assert {("knot", SIDE_MOTION), ("row", EVEN)} <= tracks
+    assert set(found.dyed) <= {part.ids[0] for part in found.parts}

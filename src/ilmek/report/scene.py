@@ -90,11 +90,31 @@ class ScenePart:
 
 @record
 class SceneBody:
-    """What moves as one: the body that holds it, "" for the floor; by what joint; its drive, "" where none moves it."""
+    """What moves as one, what holds it, and what moves it against that.
+
+    parent   the body that holds it, "" for the floor       joint    by which it is held
+    drive    "" where none moves it                         motor    title of the motor at its joint; "": none
+    follows  ids of the bodies that move it by touch, belt or magnet, where it has no motor
+    passive  what else holds it, in words
+    """
 
     parent: str
     joint: str
     drive: str
+    motor: str = ""
+    follows: tuple[str, ...] = ()
+    passive: str = ""
+
+
+@record
+class ScenePhase:
+    """A motion of a cyclogram: what moves, what it does, from one angle of the drive to another [rad]."""
+
+    drive: str
+    track: str
+    name: str
+    start: float
+    end: float
 
 
 @record
@@ -163,6 +183,9 @@ class Scene:
     """A loom in space.
 
     periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
+    phases    what moves when
+    tools     what people call the tools that tie, by the frames that carry them; the first stands around the knot
+    dyed      ids of the parts that have the colours of the pile yarns, one copy after the other
     guards    names of the frames of fence and doors      failures  the checks of the whole loom that fail
     bodies    by id: what holds each body of parts
     nearest   the pairs of parts that come nearest: its result `nearest_pairs`; None: they are not compared
@@ -175,7 +198,10 @@ class Scene:
     yarns: tuple[SceneYarn, ...]
     carpet: SceneCarpet
     periods: Mapping[str, float]
+    phases: tuple[ScenePhase, ...]
     heads: str
+    tools: Mapping[str, str]
+    dyed: tuple[str, ...]
     guards: tuple[str, ...]
     floor: float
     bodies: Mapping[str, SceneBody]

@@ -2,14 +2,14 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, Int32, IntArray
 from ilmek.records import JsonObject
 from ilmek.report import Json
-from ilmek.report.scene import Scene, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.report.scene import Scene, SceneBody, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
 from ilmek.viz.thinning import divided
 
 SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
@@ -53,9 +53,12 @@ def scene_data(scene: Scene) -> SceneData:
     about = {
         "title": scene.title,
         "heads": scene.heads,
+        "tools": dict(scene.tools),
+        "dyed": list(scene.dyed),
+        "phases": [asdict(one) for one in scene.phases],
         "guards": list(scene.guards),
         "floor": scene.floor,
-        "bodies": {name: [body.parent, body.joint, body.drive] for name, body in scene.bodies.items()},
+        "bodies": {name: _body(body) for name, body in scene.bodies.items()},
         **judgement(scene),
         "periods": dict(scene.periods),
         "frames": [_frame(blocks, one) for one in scene.frames],
@@ -99,6 +102,17 @@ def checks_of_parts(scene: Scene) -> JsonObject:
 
 def _bytes(values: Iterable[FloatArray | IntArray], kind: str) -> bytes:
     return np.concatenate([np.zeros(0), *values]).astype(kind).tobytes()
+
+
+def _body(one: SceneBody) -> JsonObject:
+    return {
+        "parent": one.parent,
+        "joint": one.joint,
+        "drive": one.drive,
+        "motor": one.motor,
+        "follows": list(one.follows),
+        "passive": one.passive,
+    }
 
 
 def _frame(blocks: _Blocks, one: SceneFrame) -> dict[str, Json]:

@@ -100,6 +100,11 @@ class Grippers:
         return self.finger + self.clearance
 
     @property
+    def wrap_radius(self) -> float:
+        """Distance of the yarn's axis from that of a warp on which it lies [m]."""
+        return (self.warp + self.yarn) / 2
+
+    @property
     def warps(self) -> ComplexArray:
         """The pair in the opener's slots, and the nearest warps that it pushes aside [m]."""
         aside = self.axis + self.arm + self.finger / 2 + self.clearance + self.warp / 2
@@ -196,15 +201,24 @@ def _reaches(params: WeaverParams, drawn: float) -> bool:
 
 def taut(grippers: Grippers, position: FloatArray) -> FloatArray:
     """Length of the taut yarn between the tips [m] at positions of the side grippers' cam [m], going forward."""
-    radius = (grippers.warp + grippers.yarn) / 2
     tip = grippers.tip(position)
-    from_warp = tip + grippers.pair / 2
-    straight = np.sqrt(np.maximum(np.abs(from_warp) ** 2 - radius**2, 0.0))
-    heading = np.mod(np.angle(from_warp), 2 * np.pi)  # from the row's direction on, by the front and the outside
-    wrap = heading - np.arctan2(straight, radius) - np.pi / 2
-    around = grippers.pair + 2 * (radius * wrap + straight)
+    straight, wrap = wrapped(grippers, tip)
+    around = grippers.pair + 2 * (grippers.wrap_radius * wrap + straight)
     across = np.where(wrap <= 0, 2 * np.abs(tip.real), around)
     return np.asarray(np.hypot(across, grippers.lift))
+
+
+def wrapped(grippers: Grippers, tip: ComplexArray, *, out: bool = False) -> tuple[FloatArray, FloatArray]:
+    """The taut yarn from a warp to the left end at a tip [m]: its straight length [m], and the angle on the warp [rad].
+
+    The angle counts from the warp's front by its outside; below 0 the yarn does not touch the warp.
+
+    out  the end has come out between the warps again, or comes out
+    """
+    from_warp, first = tip + grippers.pair / 2, np.pi / 2 if out else 0.0
+    straight = np.sqrt(np.maximum(np.abs(from_warp) ** 2 - grippers.wrap_radius**2, 0.0))
+    heading = np.mod(np.angle(from_warp) - first, 2 * np.pi) + first  # from the row's direction on, by the front
+    return straight, heading - np.arctan2(straight, grippers.wrap_radius) - np.pi / 2
 
 
 def crossing_point(grippers: Grippers) -> complex:
@@ -212,7 +226,7 @@ def crossing_point(grippers: Grippers) -> complex:
 
     The yarn leaves its warp near the point behind it, -g/2 - i r; of a tip that is not past the middle, the tip itself.
     """
-    tip, leaves = grippers.end, complex(-grippers.pair / 2, -(grippers.warp + grippers.yarn) / 2)
+    tip, leaves = grippers.end, complex(-grippers.pair / 2, -grippers.wrap_radius)
     if tip.real <= 0:
         return tip
     share = -leaves.real / (tip.real - leaves.real)

@@ -1,7 +1,7 @@
 /** The camera of the picture: standard views, keys, what is brought near, what is followed. */
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { fittingDistance, turnOfKey } from "./views";
+import { framed, turnOfKey } from "./views";
 
 const ANGLE_OF_VIEW = (32 * Math.PI) / 180;
 const NEAREST = 0.08;
@@ -46,12 +46,14 @@ export class Camera {
     return this.frustum.setFromProjectionMatrix(this.product);
   }
 
-  /** Looks at a box from a direction, from where it fits the picture; without a direction from where it stands. */
-  look(box: three.Box3, direction?: readonly [number, number, number], room = 1): void {
-    const far = fittingDistance({ low: box.min.toArray(), high: box.max.toArray() }, ANGLE_OF_VIEW, this.lens.aspect);
+  /** Looks at boxes from a direction, from where they fit the picture; without a direction from where it stands. */
+  look(boxes: readonly three.Box3[], direction?: readonly [number, number, number], room = 1): void {
     const away = direction ? new three.Vector3(...direction) : this.lens.position.clone().sub(this.controls.target);
-    box.getCenter(this.controls.target);
-    this.lens.position.copy(this.controls.target).addScaledVector(away.normalize(), Math.max(room * far, NEAREST));
+    const middle = boxes.reduce((all, one) => all.union(one), new three.Box3()).getCenter(new three.Vector3());
+    const points = boxes.flatMap((box) => corners(box).map((one) => one.sub(middle).toArray()));
+    const { target, distance } = framed(points, away.toArray(), ANGLE_OF_VIEW, this.lens.aspect);
+    this.controls.target.set(...target).add(middle);
+    this.lens.position.copy(this.controls.target).addScaledVector(away.normalize(), Math.max(room * distance, NEAREST));
     this.controls.update();
   }
 
@@ -76,4 +78,10 @@ export class Camera {
     this.controls.update();
     return true;
   }
+}
+
+/** The corners of a box. */
+function corners({ min, max }: three.Box3): three.Vector3[] {
+  const end = (corner: number, bit: number) => ((corner >> bit) & 1 ? max : min);
+  return Array.from({ length: 8 }, (_, k) => new three.Vector3(end(k, 0).x, end(k, 1).y, end(k, 2).z));
 }

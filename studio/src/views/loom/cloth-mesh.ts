@@ -1,6 +1,6 @@
 /** The carpet as a mesh: its texture moves down as rows are woven, and nothing is drawn beyond the first row. */
 import * as three from "three";
-import { chartPixels, ribbon } from "./cloth";
+import { chartPixels, ribbon, yarnColour } from "./cloth";
 import { LIT, type Light } from "./light";
 import type { SceneModel } from "./scene";
 
@@ -38,6 +38,7 @@ export class Cloth {
   readonly material: three.ShaderMaterial;
   private readonly texture: three.DataTexture;
   private readonly woven = { value: 0 };
+  private rows = 0;
 
   constructor(
     private readonly model: SceneModel,
@@ -74,7 +75,13 @@ export class Cloth {
 
   /** Shows so many rows; the last one lies at the fell. */
   weave(rows: number): void {
+    this.rows = rows;
     this.woven.value = rows / this.model.about.carpet.rows;
+  }
+
+  /** The colour of the yarn that is tied next at a distance from the middle [m]; null: it is not known. */
+  colourAt(x: number): string | null {
+    return yarnColour(this.model, this.rows, x);
   }
 
   /** Frees what is not in the scene: geometry and material are. */

@@ -3,7 +3,7 @@ import { formatNumber, formatSpan, t } from "../../text";
 import { IconButton, Segments, Select, Slider } from "../../ui";
 import { TURN } from "./motion";
 import type { Player } from "./player";
-import type { Drive } from "./scene";
+import type { Drive, ScenePhase } from "./scene";
 
 const SLOWER = [1, 2, 5, 10, 50];
 
@@ -11,15 +11,19 @@ interface DriveBarProps {
   player: Player;
   drive: Drive;
   period: number;
+  /** The motions of the machine at an angle. */
+  motions: (angle: number) => readonly ScenePhase[];
   onDrive: (drive: Drive) => void;
 }
 
-export function DriveBar({ player, drive, period, onDrive }: DriveBarProps) {
+export function DriveBar({ player, drive, period, motions, onDrive }: DriveBarProps) {
   const { angle, playing, speed } = player;
   const turned = angle.value;
   const degrees = formatNumber(Math.round((turned * 3600) / TURN) / 10);
+  const moving = motions(turned).map(({ track, name }) => `${track}: ${name}`);
   return (
     <div class="loom-drive">
+      <p class="loom-moving">{moving.length === 0 ? t("loom.nothingMoves") : moving.join(" · ")}</p>
       <IconButton
         icon={playing.value ? "pause" : "play"}
         label={playing.value ? t("loom.pause") : t("loom.play")}

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { chartPixels, ribbon } from "./cloth";
+import { chartPixels, dyes, ribbon, yarnColour } from "./cloth";
 import { TURN } from "./motion";
 import { byMachine, judged } from "./parts";
 import { boxOf, pathOf } from "./plate";
 import { advanced } from "./player";
 import { type SceneAbout, type ScenePart, sceneModel } from "./scene";
-import { fittingDistance, levelFor, turnOfKey } from "./views";
+import { framed, levelFor, turnOfKey } from "./views";
 
 function clothModel(knots: number[]) {
   const line = new Float32Array([0, 0, 0, -1, 0, -3]);
@@ -19,9 +19,10 @@ function clothModel(knots: number[]) {
 describe("carpet", () => {
   it("is a ribbon in front of its ground, its length from the fell on", () => {
     const made = ribbon(clothModel([0, 0, 0, 0]), 0.1);
-    expect([...made.points.slice(0, 6)].map((one) => Number(one.toFixed(6)))).toEqual([-1, 0, 0.1, 1, 0, 0.1]);
-    expect([...made.uv].filter((_, k) => k % 4 === 1)).toEqual([0, 1, 3]);
-    expect(made.triangles.length).toBe(12);
+    const points = [...made.points.slice(0, 12)].map((one) => Number(one.toFixed(6)));
+    expect(points).toEqual([-1, 0, 0, 1, 0, 0, -1, 0, 0.1, 1, 0, 0.1]);
+    expect([...made.uv].filter((_, k) => k % 4 === 1)).toEqual([0.5, 0, 1, 3]);
+    expect(made.triangles.length).toBe(18);
   });
 
   it("begins with the row that is woven first, the lowest of the picture", () => {
@@ -30,11 +31,30 @@ describe("carpet", () => {
   });
 });
 
+describe("the yarn of a knot", () => {
+  it("has the colour of the chart where the head stands, the lowest row first", () => {
+    const model = clothModel([0, 0, 1, 0]);
+    expect([-0.5, 0.5].map((x) => yarnColour(model, 0, x))).toEqual(["#00ff00", "#ff0000"]);
+    expect([-9, 9].map((x) => yarnColour(model, 5, x))).toEqual(["#ff0000", "#ff0000"]);
+  });
+
+  it("is one of those that the carpet needs", () => {
+    expect(dyes(clothModel([1, 1, 1, 1]))).toEqual(["#00ff00"]);
+  });
+});
+
 describe("camera", () => {
-  it("sees a box from a distance that fits the narrower side", () => {
-    const box = { low: [-1, -1, -1] as [number, number, number], high: [1, 1, 1] as [number, number, number] };
-    expect(fittingDistance(box, 0.5, 0.5)).toBeGreaterThan(fittingDistance(box, 0.5, 2));
-    expect(fittingDistance(box, 0.5, 2)).toBeCloseTo(Math.sqrt(3) / Math.sin(0.25), 6);
+  it("sees points as large as can be, each within the picture and some at two opposite edges", () => {
+    const points: [number, number, number][] = [
+      [-1, 0, 0.5],
+      [3, 0, -0.5],
+      [0, 0.2, 0],
+    ];
+    const { target, distance } = framed(points, [0, 0, 2], 0.5, 2);
+    const shares = points.map(([x, , z]) => (x - target[0]) / (2 * Math.tan(0.25) * (distance - z)));
+    expect(Math.min(...shares)).toBeCloseTo(-1, 9);
+    expect(Math.max(...shares)).toBeCloseTo(1, 9);
+    expect(framed(points, [0, 0, 1], 0.5, 1).distance).toBeGreaterThan(distance);
   });
 
   it("follows keys, and no others", () => {

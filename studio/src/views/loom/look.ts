@@ -1,6 +1,7 @@
 /** Colours of the scene in both themes. */
 import type { ScenePart } from "./scene";
 import type { Finish } from "./solid-material";
+import type { Tool } from "./tools";
 
 export interface Look {
   ground: string;
@@ -63,12 +64,12 @@ export function look(theme: string | null): Look {
   return theme === "dark" ? DARK : LIGHT;
 }
 
-/** Colours of the tools of a head, so that each is told from its neighbours. */
-const TOOLS = ["#c8553d", "#d98f2b", "#3f8f6b", "#3f7fb0", "#8a5aa5", "#5f7d2f", "#b0487a"];
+/** Colours of the tools of a head, so that each is told from its neighbours: the first is large. */
+const TOOLS = ["#7f8fb0", "#c8553d", "#3f7fb0", "#3f8f6b", "#8a5aa5", "#d98f2b", "#b0487a"];
 
-/** The colour of a part; tool: its number among those of a head. */
-export function colourOf(part: ScenePart, shown: Look, tool?: number): string {
-  if (tool !== undefined) return TOOLS[tool % TOOLS.length] as string;
+/** The colour of a part, which may be of a tool. */
+export function colourOf(part: ScenePart, shown: Look, tool?: Tool): string {
+  if (tool !== undefined) return TOOLS[tool.number % TOOLS.length] as string;
   if (isRoom(part)) return shown.envelope;
   if (part.envelope) return shown.bought;
   if (part.material === "beech") return shown.wood;

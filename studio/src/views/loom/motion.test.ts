@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { between, Frames, product, rigid, sampleAt, TURN, warpShares } from "./motion";
+import { between, Frames, openShed, product, rigid, sampleAt, TURN, underWay, warpShares } from "./motion";
 import { type SceneAbout, type SceneFrame, sceneModel } from "./scene";
 
 const numbers: number[] = [];
@@ -81,4 +81,15 @@ describe("frames", () => {
 it("warps are lifted by the shares of their parity", () => {
   expect(warpShares(model([]), 0.5)).toEqual([0.5, 0]);
   expect(warpShares(model([]), 2)).toEqual([0.5, 0.5]);
+});
+
+it("the shed is widest where the even warps are lifted farthest", () => {
+  expect(openShed(model([]))).toBe(1);
+});
+
+it("a motion is under way from its start on, also over the end of a turn", () => {
+  const phases = [{ drive: "knot", track: "carriage", name: "step", start: TURN - 0.1, end: TURN + 0.2 }];
+  const own = { about: { phases } } as unknown as Parameters<typeof underWay>[0];
+  expect([TURN - 0.2, TURN - 0.05, 0.1, 0.3].map((angle) => underWay(own, "knot", angle).length)).toEqual([0, 1, 1, 0]);
+  expect(underWay(own, "row", 0.1)).toEqual([]);
 });

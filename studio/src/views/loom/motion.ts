@@ -1,5 +1,5 @@
 /** Motions of frames over the angle of a drive, and the positions of everything in the loom at two angles. */
-import type { Drive, SceneFrame, SceneModel } from "./scene";
+import type { Drive, SceneFrame, SceneModel, ScenePhase } from "./scene";
 
 export const TURN = 2 * Math.PI;
 
@@ -164,6 +164,17 @@ export function warpShares(model: SceneModel, angle: number): [even: number, odd
   const { warps } = model.about;
   const [index, share] = sampleAt(model.floats(warps.angle), angle);
   return [between(model.floats(warps.even), index, share), between(model.floats(warps.oddShare), index, share)];
+}
+
+/** The angle of the row at which the even warps are lifted farthest. */
+export function openShed({ about, floats }: SceneModel): number {
+  const shares = floats(about.warps.even);
+  return floats(about.warps.angle)[shares.indexOf(Math.max(...shares))] ?? 0;
+}
+
+/** The motions of the machine that are under way at an angle of a drive: what moves, and what it does. */
+export function underWay({ about }: SceneModel, drive: Drive, angle: number): ScenePhase[] {
+  return about.phases.filter((one) => one.drive === drive && (angle - one.start + TURN) % TURN < one.end - one.start);
 }
 
 /** The points of a yarn at an angle of its drive, (x, y, z) in turn. */

@@ -1,5 +1,6 @@
 /** A part in the picture: its copies as instances, as fine as the picture needs. */
 import * as three from "three";
+import { dyes } from "./cloth";
 import { oddFrom, spacingOf, strideFor, thinned } from "./crowd";
 import { Edges } from "./edges";
 import { type Light, screenColour } from "./light";
@@ -7,6 +8,7 @@ import { colourOf, finishOf, isRoom, type Look } from "./look";
 import type { Placed } from "./motion";
 import { failures, type SceneModel, type ScenePart } from "./scene";
 import { solidMaterial } from "./solid-material";
+import { type Tool, toolOf } from "./tools";
 import { levelFor } from "./views";
 
 /** Copies of a part from which on only those that are needed are drawn. */
@@ -18,9 +20,8 @@ const COARSE = 1.3;
 /** Neighbours of a crowd are nearer to one another than this where their edges would be all that is seen [px]. */
 const DENSE = 8;
 
-/** How much is seen of what is looked through: a room that is kept free, and the case of a head. */
+/** How much is seen of a room that is kept free, and at least of what is marked. */
 const ROOM = 0.25;
-const CASE = 0.1;
 const MARKED = 0.55;
 
 /** Copies that are looked at for the box of a part. */
@@ -31,6 +32,8 @@ export class PartMesh {
   readonly edges: Edges;
   /** Where the part is moved when the loom is exploded, for the factor 1 [m]. */
   readonly apart = new three.Vector3();
+  /** The tool of a head that it is of. */
+  readonly tool: Tool | undefined;
   /** Whether it is left out of the picture. */
   hidden = false;
   private readonly levels: three.BufferGeometry[];
@@ -56,6 +59,8 @@ export class PartMesh {
     });
     this.mesh = new three.InstancedMesh(this.finest, solidMaterial(light, finishOf(part)), placed.count);
     this.mesh.name = part.name;
+    this.tool = toolOf(model.about, placed);
+    if (model.about.dyed.includes(part.ids[0])) this.dye(dyes(model));
     this.mesh.frustumCulled = false;
     this.edges = new Edges(this.mesh.instanceMatrix, this.mesh.material.uniforms["colour"] as three.IUniform);
     this.sphere = this.finest.boundingSphere ?? new three.Sphere();
@@ -117,18 +122,28 @@ export class PartMesh {
     this.changed();
   }
 
-  /** Colours the part; chosen: it is marked, open: it is looked through, tool: its number among those of a head. */
-  paint(look: Look, chosen: boolean, open: boolean, tool?: number): void {
+  /** Gives the copies colours, one after the other. */
+  private dye(colours: readonly string[]): void {
+    const own = new three.Color();
+    for (let k = 0; k < this.placed.count && colours.length > 0; k++) {
+      screenColour(colours[k % colours.length] as string, own);
+      this.mesh.setColorAt(k, own);
+    }
+  }
+
+  /** Colours the part; chosen: it is marked, share: how much is seen of it, 1 where it is not looked through. */
+  paint(look: Look, chosen: boolean, share: number): void {
     const { material } = this.mesh;
     const { colour, opacity } = material.uniforms;
-    screenColour(chosen ? look.chosen : this.failed ? look.failed : colourOf(this.part, look, tool), colour?.value);
-    const clear = open || isRoom(this.part);
-    const seen = !clear ? 1 : chosen || this.failed ? MARKED : open ? CASE : ROOM;
-    if (opacity) opacity.value = seen;
+    const own = this.mesh.instanceColor === null ? colourOf(this.part, look, this.tool) : "#ffffff";
+    screenColour(chosen ? look.chosen : this.failed ? look.failed : own, colour?.value);
+    const least = isRoom(this.part) ? Math.min(share, ROOM) : share;
+    const clear = least < 1;
+    if (opacity) opacity.value = clear && (chosen || this.failed) ? MARKED : least;
     material.transparent = clear;
     material.depthWrite = !clear;
     const line = this.edges.lines.material.uniforms["opacity"];
-    if (line) line.value = clear ? 0.5 : 1;
+    if (line) line.value = Math.min(2 * least, 1);
   }
 
   /** Whether it throws a shadow. */
@@ -148,11 +163,16 @@ export class PartMesh {
     return box;
   }
 
-  /** A point on the middle copy, as near as can be to its middle. */
-  shownAt(): three.Vector3 {
+  /** A point on a copy, by default the middle one, as near as can be to its middle. */
+  shownAt(copy = this.placed.count >> 1): three.Vector3 {
     this.anchor ??= innermost(this.finest);
-    const matrix = new three.Matrix4().fromArray(this.all, 16 * (this.placed.count >> 1));
+    const matrix = new three.Matrix4().fromArray(this.all, 16 * copy);
     return this.anchor.clone().applyMatrix4(matrix);
+  }
+
+  /** How large it is [m]. */
+  get reach(): number {
+    return this.sphere.radius;
   }
 
   private get isCrowd(): boolean {

@@ -3,7 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 import { t, textIfKnown } from "../../text";
 import { Button, formatQuantity } from "../../ui";
-import { carriers, failures, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
+import { carriers, failures, movers, type SceneAbout, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
 
 interface ListProps {
   parts: readonly ScenePart[];
@@ -169,22 +169,29 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
 function Holding({ model, part }: { model: SceneModel; part: ScenePart }) {
   const chain = carriers(model.about, part.ids[1]);
   if (chain.length === 0) return null;
-  const moved = chain.filter((held) => held.drive !== "");
   return (
     <>
       <h3>{t("loom.heldBy")}</h3>
       <ol class="loom-holding">
-        {chain.map(({ parent, joint, drive }) => (
+        {chain.map(({ parent, joint, drive, passive }, k) => (
           <li key={parent}>
             {textIfKnown(JOINTS[joint] ?? "", { parent: parent === "" ? t("loom.floor") : named(parent) }) ?? joint}
+            {passive !== "" && `: ${passive}`}
             {drive === "row" && <span class="ui-muted"> {t("loom.movesWithRow")}</span>}
             {drive === "knot" && <span class="ui-muted"> {t("loom.movesWithKnot")}</span>}
+            <Movers about={model.about} body={k === 0 ? part.ids[1] : (chain[k - 1]?.parent ?? "")} />
           </li>
         ))}
       </ol>
-      {moved.length === 0 && <p class="ui-muted">{t("loom.stands")}</p>}
+      {chain.every((held) => held.drive === "" && held.motor === "") && <p class="ui-muted">{t("loom.stands")}</p>}
     </>
   );
+}
+
+/** What moves a body against what holds it, one after the other up to the motor. */
+function Movers({ about, body }: { about: SceneAbout; body: string }) {
+  const names = movers(about, body).map(named);
+  return names.length === 0 ? null : <div class="ui-muted">{t("loom.movedBy", { names: names.join(" ← ") })}</div>;
 }
 
 /** The text of each kind of joint; the kinds are those of `JointKind` in the server's part/tree.py. */

@@ -85,6 +85,15 @@ export interface SceneChart {
 /** What turns: the cyclogram of a row, or that of a knot. */
 export type Drive = "row" | "knot";
 
+/** A motion of a cyclogram, from one angle to another [rad]. */
+export interface ScenePhase {
+  drive: Drive;
+  track: string;
+  name: string;
+  start: number;
+  end: number;
+}
+
 /** Two parts that come near to each other; what they share where the distance [m] is below 0. */
 export interface NearPair {
   parts: [string, string];
@@ -115,25 +124,46 @@ export interface Comparison extends Judgement {
   checks: Record<string, SceneCheck[]>;
 }
 
-/** The body that holds a body, "" for the floor; by what joint; what drives it, "" where nothing moves it. */
-export type SceneBody = [parent: string, joint: string, drive: string];
+/** What moves as one. */
+export interface SceneBody {
+  /** The body that holds it, "" for the floor. */
+  parent: string;
+  joint: string;
+  /** "" where nothing moves it. */
+  drive: Drive | "";
+  /** What moves it: a motor, or else other bodies; what else holds it, in words. */
+  motor: string;
+  follows: string[];
+  passive: string;
+}
 
-/** What holds a body, and what holds that, down to the floor. */
-export function carriers(about: SceneAbout, body: string): { parent: string; joint: string; drive: string }[] {
+/** A body, what holds it, and what holds that, down to the floor. */
+export function carriers(about: SceneAbout, body: string): SceneBody[] {
   const held = about.bodies[body];
-  if (held === undefined) return [];
-  const [parent, joint, drive] = held;
-  return [{ parent, joint, drive }, ...(parent === "" ? [] : carriers(about, parent))];
+  return held === undefined ? [] : [held, ...carriers(about, held.parent)];
+}
+
+/** What moves a body, what moves that, up to a motor: ids of bodies, at last the motor in words. */
+export function movers(about: SceneAbout, body: string): string[] {
+  const { motor = "", follows = [] } = about.bodies[body] ?? {};
+  const first = follows[0];
+  return first === undefined ? [motor].filter((one) => one !== "") : [first, ...movers(about, first)];
 }
 
 export interface SceneAbout extends Judgement {
   bodies: Record<string, SceneBody>;
   title: string;
   heads: string;
+  /** What people call the tools that tie, by the frames that carry them. */
+  tools: Record<string, string>;
+  /** Ids of the parts that have the colours of the yarns, one copy after the other. */
+  dyed: string[];
   /** Frames of fence and doors. */
   guards: string[];
   floor: number;
   periods: Record<Drive, number>;
+  /** What moves when, of a row and of a knot. */
+  phases: ScenePhase[];
   frames: SceneFrame[];
   parts: ScenePart[];
   warps: {

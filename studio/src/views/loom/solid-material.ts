@@ -6,7 +6,13 @@ const VERTEX = `
 #include <clipping_planes_pars_vertex>
 varying vec3 at;
 varying vec3 own;
+varying vec3 tint;
 void main() {
+  #ifdef USE_INSTANCING_COLOR
+  tint = instanceColor;
+  #else
+  tint = vec3(1.0);
+  #endif
   vec4 mvPosition = modelViewMatrix * instanceMatrix * vec4(position, 1.0);
   at = mvPosition.xyz;
   own = position;
@@ -29,12 +35,13 @@ uniform vec4 cut;
 uniform float hatch;
 varying vec3 at;
 varying vec3 own;
+varying vec3 tint;
 ${LIT}
 vec3 hatched() {
   vec3 met = at * (-cut.w / dot(cut.xyz, at));
   vec3 place = (world * vec4(met, 1.0)).xyz;
   float across = fract((place.x + place.y + place.z) / hatch);
-  return mix(colour, vec3(1.0), 0.35) * (across < 0.16 ? 0.45 : 1.0);
+  return mix(colour * tint, vec3(1.0), 0.35) * (across < 0.16 ? 0.45 : 1.0);
 }
 void main() {
   #include <clipping_planes_fragment>
@@ -42,7 +49,7 @@ void main() {
     gl_FragColor = vec4(hatched(), opacity);
     return;
   }
-  vec3 shown = colour;
+  vec3 shown = colour * tint;
   if (grain > 0.0) {
     float ring = length(own.yz * vec2(1.0, 1.7) + vec2(0.11, 0.07)) * 420.0 + 2.0 * sin(own.x * 23.0);
     shown *= 1.0 + grain * sin(ring);

@@ -13,7 +13,7 @@ import { Shadow } from "./shadow";
 import { Smooth } from "./smooth";
 import { floor, graphics } from "./surroundings";
 import { Threads } from "./threads";
-import { DIRECTIONS, type ViewName } from "./views";
+import { DIRECTIONS, SHED_CUT, type ViewName } from "./views";
 
 /** What an exploded machine is moved to the front beside, for the factor 1 [m]. */
 const FORWARD: Record<string, number> = { weaver: 0.35, shedding: -0.3 };
@@ -26,6 +26,27 @@ const AROUND = 0.03;
 
 /** Copies of a part that are drawn at most while pictures are coarse. */
 const FEW = 40;
+
+/** How much is seen of parts beside those that are chosen; behind a knot; and of the tool that stands around it. */
+const OTHERS = 0.1;
+const BEHIND_KNOT = 0.15;
+const AROUND_KNOT = 0.55;
+
+/** A pair of warps where a knot is tied, in a head [m]. */
+const PAIR: [low: [number, number, number], high: [number, number, number]] = [
+  [-0.01, 0, -0.01],
+  [0.01, 0.04, 0.03],
+];
+
+/** What a standard view leaves free around what it shows. */
+const ROOM = 1.06;
+
+/** A text in the picture, from -1 to 1. */
+export interface Label {
+  text: string;
+  x: number;
+  y: number;
+}
 
 export type SectionAxis = "x" | "y" | "z";
 
@@ -61,8 +82,7 @@ export class Stage {
   private resting: ReturnType<typeof setTimeout> | undefined;
   private rests = false;
   private opened = false;
-  /** Numbers of the frames that move in a head, by name. */
-  private readonly tools: ReadonlyMap<string, number>;
+  private guarded = false;
   private size: [width: number, height: number] = [1, 1];
   private pictures = 0;
   private angles: Angles = { row: 0, knot: 0 };
@@ -86,7 +106,6 @@ export class Stage {
     this.renderer.localClippingEnabled = true;
     this.frames = new Frames(model);
     this.frames.update(this.angles);
-    this.tools = toolsOf(model);
     for (const part of model.about.parts) {
       const placed = this.frames.byName.get(part.frame);
       if (placed !== undefined) this.parts.push(new PartMesh(part, placed, model, this.light));
@@ -140,6 +159,8 @@ export class Stage {
     const right = this.camera.lens.position.x > 0;
     const most = share < 1 && !fine ? FEW : Number.POSITIVE_INFINITY;
     for (const one of this.parts) one.detail(pixel, view, right, most, fine);
+    this.threads.setPixel(Camera.pixelAtOne(this.canvas.height), pixel);
+    this.threads.dye(this.cloth.colourAt(this.headAt(this.followed ?? 0)?.x ?? 0));
     if (fine) this.shadow.throw(this.renderer, this.scene, this.shadowless(), this.cuts);
     this.light.update(this.camera.lens, this.plane, pixel);
     this.shadow.light(this.light, this.camera.lens, fine);
@@ -175,7 +196,6 @@ export class Stage {
     if (this.canvas.width === width && this.canvas.height === height) return;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(...this.size, false);
-    this.threads.setPixel(Camera.pixelAtOne(height));
   }
 
   private readonly rest = (): void => {
@@ -236,8 +256,9 @@ export class Stage {
   show(name: ViewName): void {
     this.opened = name === "head";
     this.choose(this.chosen, this.alone);
+    this.hide();
     const box = this.boxOf(name);
-    this.camera.look(box, DIRECTIONS[name]);
+    this.camera.look(box === this.box ? this.boxes() : [box], DIRECTIONS[name], ROOM);
     if (this.opened) this.shadow.fit(box.clone().expandByVector(box.getSize(new three.Vector3())));
     else this.shadow.fit(this.box);
     this.threads.mark(this.opened ? this.headAt(this.followed ?? 0) : null);
@@ -246,7 +267,17 @@ export class Stage {
 
   /** Shows the guards, or leaves them out. */
   guard(shown: boolean): void {
-    for (const one of this.parts) if (this.isGuard(one)) one.hidden = !shown;
+    this.guarded = shown;
+    this.hide();
+  }
+
+  /** Leaves out the guards, and the case of a head whose tools are looked at. */
+  private hide(): void {
+    const heads = this.frames.byName.get(this.model.about.heads) ?? null;
+    for (const one of this.parts) {
+      const isCase = isOf(one.placed, heads) && one.tool === undefined;
+      one.hidden = (this.isGuard(one) && !this.guarded) || (isCase && this.opened);
+    }
     this.changed();
   }
 
@@ -286,6 +317,11 @@ export class Stage {
     this.changed();
   }
 
+  /** Where the view of the shed cuts, as a share of the loom across. */
+  get shedCut(): number {
+    return (SHED_CUT * this.model.about.carpet.width - this.box.min.x) / (this.box.max.x - this.box.min.x);
+  }
+
   /** Moves the parts apart: 0 as they are. */
   explode(factor: number): void {
     this.exploded = factor;
@@ -297,12 +333,11 @@ export class Stage {
   choose(names: readonly string[], alone = false): void {
     this.chosen = names;
     this.alone = alone;
-    const heads = this.frames.byName.get(this.model.about.heads) ?? null;
     for (const one of this.parts) {
-      const { name, frame } = one.part;
-      const isCase = this.opened && isOf(one.placed, heads) && !this.tools.has(frame);
-      const open = alone ? !names.includes(name) : isCase;
-      one.paint(this.look, name === names[0], open, this.tools.get(frame));
+      const { name } = one.part;
+      const inHead = one.tool === undefined ? BEHIND_KNOT : one.tool.number === 0 ? AROUND_KNOT : 1;
+      const share = alone && !names.includes(name) ? OTHERS : this.opened ? inHead : 1;
+      one.paint(this.look, name === names[0], share);
     }
     this.changed();
   }
@@ -314,7 +349,7 @@ export class Stage {
     if (first === undefined) return;
     for (const box of others) meeting(first, box);
     first.expandByScalar(AROUND);
-    this.camera.look(first, undefined, 1.3);
+    this.camera.look([first], undefined, 1.3);
     this.invalidate();
   }
 
@@ -355,7 +390,7 @@ export class Stage {
   }
 
   /** What is measured, and where it is written, from -1 to 1. */
-  distance(): { text: string; x: number; y: number } | null {
+  distance(): Label | null {
     const label = this.measured.label();
     if (label === null) return null;
     label.at.project(this.camera.lens);
@@ -372,22 +407,38 @@ export class Stage {
     return hits.find((one) => !this.isCut(one.point));
   }
 
-  /** Positions in the picture, from -1 to 1, of parts; those behind the camera are left out. */
-  labels(): { name: string; x: number; y: number }[] {
-    const named = new Set<number>();
-    const parts = this.parts.filter((one) => {
-      if (!this.opened) return !one.hidden;
-      const tool = this.tools.get(one.part.frame);
-      if (tool === undefined || named.has(tool)) return false;
-      return named.add(tool);
-    });
+  /** Names of parts with their positions in the picture, the largest first; in a head those of its tools. */
+  labels(): Label[] {
+    if (this.opened) return this.toolLabels();
+    const parts = this.parts.filter((one) => !one.hidden).sort((a, b) => b.reach - a.reach);
     return parts.flatMap((one) => {
-      const at = one.shownAt();
-      if (this.isCut(at)) return [];
-      at.project(this.camera.lens);
-      const seen = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1;
-      return seen ? [{ name: one.part.name, x: at.x, y: at.y }] : [];
+      const warning = one.failed ? "⚠ " : "";
+      return this.labelAt(one.shownAt(), warning + (one.part.title.split(/[:,]/)[0] ?? ""));
     });
+  }
+
+  /** The tools of the head that is shown, each at that of its parts which is nearest to the middle of the picture. */
+  private toolLabels(): Label[] {
+    const nearest = new Map<string, Label>();
+    const heads = this.frames.byName.get(this.model.about.heads)?.count ?? 1;
+    for (const one of this.parts) {
+      const { tool, placed } = one;
+      if (tool === undefined) continue;
+      const copy = Math.floor(((this.followed ?? 0) * placed.count) / heads);
+      for (const label of this.labelAt(one.shownAt(copy), tool.name)) {
+        const other = nearest.get(tool.name);
+        if (other === undefined || Math.hypot(label.x, label.y) < Math.hypot(other.x, other.y))
+          nearest.set(tool.name, label);
+      }
+    }
+    return [...nearest.values()];
+  }
+
+  /** A text at a point in space; none where it is not seen. */
+  private labelAt(at: three.Vector3, text: string): Label[] {
+    if (this.isCut(at)) return [];
+    at.project(this.camera.lens);
+    return at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? [{ text, x: at.x, y: at.y }] : [];
   }
 
   private isCut(point: three.Vector3): boolean {
@@ -397,12 +448,17 @@ export class Stage {
   /** The loom's box, and where each part goes when it is exploded: away from the middle, machines apart. */
   private measure(): void {
     const own = new three.Box3();
-    for (const one of this.parts) if (!this.isGuard(one)) this.box.union(one.boxed(own));
+    for (const one of this.boxes()) this.box.union(one);
     const middle = this.box.getCenter(new three.Vector3());
     for (const one of this.parts) {
       one.boxed(own).getCenter(one.apart).sub(middle).multiplyScalar(1.2);
       one.apart.z += FORWARD[one.part.machine] ?? 0;
     }
+  }
+
+  /** The boxes of all parts but the guards. */
+  private boxes(): three.Box3[] {
+    return this.parts.filter((one) => !this.isGuard(one)).map((one) => one.boxed(new three.Box3()));
   }
 
   private boxOf(name: ViewName): three.Box3 {
@@ -411,9 +467,15 @@ export class Stage {
     const box = (low: [number, number, number], high: [number, number, number]) =>
       new three.Box3(new three.Vector3(...low), new three.Vector3(...high));
     if (name === "fell") return box([-half, -0.1, -0.1], [half, 0.35, 0.2]);
-    if (name === "shed") return box([half - 0.05, 0, -0.05], [half, lifted, 0.1]);
+    const cut = SHED_CUT * carpet.width;
+    if (name === "shed") return box([cut - 0.1, -0.12, -0.1], [cut, lifted + 0.12, 0.15]);
     const at = name === "head" ? this.headAt(this.followed ?? 0) : null;
-    return at === null ? this.box : box([-0.025, -0.01, -0.01], [0.025, 0.05, 0.055]).translate(at);
+    return at === null
+      ? this.box
+      : this.threads
+          .knot()
+          .union(box(...PAIR))
+          .translate(at);
   }
 
   private headAt(number: number): three.Vector3 | null {
@@ -443,16 +505,4 @@ function meeting(first: three.Box3, other: three.Box3): void {
 /** Whether a frame is another, or stands on it. */
 function isOf(placed: Placed, other: Placed | null): boolean {
   return placed === other || (placed.parent !== null && isOf(placed.parent, other));
-}
-
-/** The frames that shift in the head, and what stands on them: its tools, numbered by what moves by itself. */
-function toolsOf({ about }: SceneModel): ReadonlyMap<string, number> {
-  const tools = new Map<string, number>();
-  let number = 0;
-  for (const { name, parent, motion } of about.frames) {
-    const before = tools.get(parent);
-    if (before === undefined && !(parent === about.heads && motion?.shift)) continue;
-    tools.set(name, motion === null && before !== undefined ? before : number++);
-  }
-  return tools;
 }

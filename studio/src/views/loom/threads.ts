@@ -16,10 +16,12 @@ uniform float radius;
 uniform float pixel;
 uniform vec2 shares;
 uniform vec2 marked;
+uniform float cap;
 varying float across;
 varying float along;
 varying float thick;
 varying float mark;
+varying float covered;
 void main() {
   mark = step(abs(from.x - marked.x), marked.y);
   vec3 lift = vec3(0.0, 0.0, mix(shares.x, shares.y, odd));
@@ -28,9 +30,11 @@ void main() {
   vec4 mvPosition = vec4(mix(begin, end, position.y), 1.0);
   float least = 0.5 * pixel * max(-mvPosition.z, 0.0);
   mvPosition.xyz += normalize(cross(end - begin, mvPosition.xyz)) * max(radius, least) * position.x;
+  mvPosition.xyz += normalize(end - begin) * cap * radius * (2.0 * position.y - 1.0);
   across = position.x;
   along = position.y * length(end - begin) / radius;
   thick = clamp(radius / least - 1.0, 0.0, 1.0);
+  covered = min(radius / least, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
 }`;
@@ -38,17 +42,22 @@ void main() {
 const FRAGMENT = `
 #include <clipping_planes_pars_fragment>
 uniform vec3 colour;
+uniform float others;
 varying float across;
 varying float along;
 varying float thick;
 varying float mark;
+varying float covered;
 void main() {
   #include <clipping_planes_fragment>
   float lit = mix(0.45, 1.15, sqrt(max(0.0, 1.0 - across * across)));
-  lit *= 1.0 + 0.14 * sin(2.1 * along + 2.2 * across); // two plies that are twisted
+  lit *= 1.0 + 0.08 * sin(2.1 * along + 2.2 * across); // two plies that are twisted
   vec3 shown = mix(colour, vec3(0.85, 0.2, 0.15), 0.7 * mark);
-  gl_FragColor = vec4(shown * mix(1.0, lit, thick), 1.0);
+  gl_FragColor = vec4(shown * mix(1.0, lit, thick), covered * mix(others, 1.0, mark));
 }`;
+
+/** How much is seen of the warps beside those of a knot. */
+const OTHERS = 0.2;
 
 interface ShownYarn {
   number: number;
@@ -71,6 +80,7 @@ export class Threads {
   ) {
     const { warps, yarns } = model.about;
     this.warps = threadMaterial(warps.diameter);
+    this.warps.transparent = true; // thinner than a pixel, they cover a part of it
     this.group.add(threadMesh(warpSegments(model), this.warps));
     yarns.forEach((yarn, number) => {
       const placed = frames.byName.get(yarn.frame);
@@ -78,6 +88,7 @@ export class Threads {
       const points = new Float32Array(3 * yarn.number);
       const geometry = ribbons({ from: [[], 3], to: [[], 3] }, yarn.number - 1);
       const material = threadMaterial(yarn.diameter);
+      if (material.uniforms["cap"]) material.uniforms["cap"].value = 1; // its bends are sharp
       const meshes = Array.from({ length: placed.count }, () => threadMesh(geometry, material));
       this.group.add(...meshes);
       this.yarns.push({ number, drive: yarn.drive, placed, points, geometry, meshes, material });
@@ -101,10 +112,26 @@ export class Threads {
     }
   }
 
-  /** Marks the warps about which a head ties; null: none. */
+  /** Marks the warps about which a head ties, and looks through all others; null: none. */
   mark(head: three.Vector3 | null): void {
     const pitch = this.model.about.carpet.columnPitch;
-    this.warps.uniforms["marked"]?.value.set(head?.x ?? 0, head === null ? -1 : pitch / 2);
+    const { marked, others } = this.warps.uniforms;
+    marked?.value.set(head?.x ?? 0, head === null ? -1 : pitch / 2);
+    if (others) others.value = head === null ? 1 : OTHERS;
+  }
+
+  /** Draws the yarn of the knots in a colour; null: in that of the theme. */
+  dye(colour: string | null): void {
+    for (const { drive, material } of this.yarns)
+      if (drive === "knot" && colour !== null) screenColour(colour, material.uniforms["colour"]?.value);
+  }
+
+  /** The room of the knots' yarn in a head, over a knot. */
+  knot(): three.Box3 {
+    const box = new three.Box3();
+    for (const { drive, points } of this.model.about.yarns)
+      if (drive === "knot") box.union(new three.Box3().setFromArray([...this.model.floats(points)]));
+    return box;
   }
 
   paint(look: Look): void {
@@ -113,9 +140,10 @@ export class Threads {
       screenColour(drive === "knot" ? look.pile : look.weft, material.uniforms["colour"]?.value);
   }
 
-  /** Size of a pixel at a distance of 1. */
-  setPixel(pixel: number): void {
-    for (const { uniforms } of this.materials) if (uniforms["pixel"]) uniforms["pixel"].value = pixel;
+  /** Size of a pixel at a distance of 1, and where the camera looks [m]. */
+  setPixel(atOne: number, there: number): void {
+    for (const { uniforms } of this.materials) if (uniforms["pixel"]) uniforms["pixel"].value = atOne;
+    this.warps.depthWrite = this.model.about.warps.diameter > there && this.warps.uniforms["others"]?.value === 1;
   }
 }
 
@@ -128,6 +156,8 @@ function threadMaterial(diameter: number): three.ShaderMaterial {
       pixel: { value: 1e-3 },
       shares: { value: new three.Vector2() },
       marked: { value: new three.Vector2(0, -1) },
+      others: { value: 1 },
+      cap: { value: 0 },
       colour: { value: new three.Color() },
     },
     side: three.DoubleSide,

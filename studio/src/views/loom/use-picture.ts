@@ -1,8 +1,8 @@
 /** A stage on a canvas: made when the canvas is there, as large as it, in the colours of the theme. */
 import type { RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
-import { failures, type SceneModel } from "./scene";
-import { Stage } from "./stage";
+import type { SceneModel } from "./scene";
+import { type Label, Stage } from "./stage";
 
 interface PictureOptions {
   names: boolean;
@@ -11,6 +11,17 @@ interface PictureOptions {
 
 const STILL = 4;
 const MOST_NAMES = 24;
+
+/** Height of a label [px], and where it may stand beside its point, in lines. */
+const LINE = 20;
+const BESIDE = [0, -1, 1, -2, 2, -3, 3];
+
+interface SpacedLabel {
+  text: string;
+  left: number;
+  top: number;
+  width: number;
+}
 
 export function usePicture(
   model: SceneModel,
@@ -73,33 +84,38 @@ function clicks(element: HTMLElement, chosen: (x: number, y: number) => void): (
 
 function drawLabels(stage: Stage, into: HTMLElement, shown: boolean, canvas: HTMLElement): void {
   const distance = stage.distance();
-  const found = [
-    ...(distance === null ? [] : [{ ...distance, name: "" }]),
-    ...(shown || stage.looksInside ? stage.labels().map((one) => ({ ...one, text: nameOf(stage, one.name) })) : []),
-  ];
-  const kept = spaced(found, canvas);
+  const labels = shown || stage.looksInside ? stage.labels() : [];
+  const kept = spaced(distance === null ? labels : [distance, ...labels], canvas, stage.looksInside);
   while (into.children.length > kept.length) into.lastElementChild?.remove();
   while (into.children.length < kept.length) into.append(document.createElement("span"));
   kept.forEach((one, k) => {
     const label = into.children[k] as HTMLElement;
     label.textContent = one.text;
-    const left = Math.min(one.left, canvas.clientWidth - label.offsetWidth - 8);
-    label.style.transform = `translate(${Math.round(left)}px, ${Math.round(one.top)}px)`;
+    label.style.transform = `translate(${Math.round(one.left)}px, ${Math.round(one.top)}px)`;
   });
 }
 
-function nameOf(stage: Stage, name: string): string {
-  const part = stage.model.about.parts.find((each) => each.name === name);
-  return (part && failures(part).length > 0 ? "⚠ " : "") + (part?.title ?? name).split(/[:,]/)[0];
+const pen = document.createElement("canvas").getContext("2d");
+
+/** Width of a label [px]. */
+function widthOf(text: string): number {
+  if (pen === null) return 8 * text.length;
+  pen.font = "12px system-ui, sans-serif";
+  return pen.measureText(text).width + 12;
 }
 
-/** Texts that do not lie upon each other. */
-function spaced(found: { text: string; x: number; y: number }[], canvas: HTMLElement) {
-  const kept: { text: string; left: number; top: number }[] = [];
-  for (const { text, x, y } of found) {
-    const [left, top] = [((x + 1) / 2) * canvas.clientWidth, ((1 - y) / 2) * canvas.clientHeight];
-    const free = kept.every((one) => Math.abs(one.top - top) > 18 || Math.abs(one.left - left) > 130);
-    if (free && kept.length < MOST_NAMES) kept.push({ text, left, top });
+/** Texts that do not lie upon each other; all: one whose point is covered stands above or below it. */
+function spaced(labels: readonly Label[], canvas: HTMLElement, all: boolean): SpacedLabel[] {
+  const kept: SpacedLabel[] = [];
+  for (const { text, x, y } of labels) {
+    if (kept.length >= MOST_NAMES) break;
+    const width = widthOf(text);
+    const left = Math.min(((x + 1) / 2) * canvas.clientWidth, canvas.clientWidth - width - 8);
+    const isFree = (top: number) =>
+      kept.every((one) => Math.abs(one.top - top) > LINE || one.left > left + width || left > one.left + one.width);
+    const top = ((1 - y) / 2) * canvas.clientHeight;
+    const free = (all ? BESIDE : [0]).map((lines) => top + lines * (LINE + 1)).find(isFree);
+    if (free !== undefined) kept.push({ text, left, top: free, width });
   }
   return kept;
 }

@@ -9,23 +9,40 @@ export const DIRECTIONS: Record<ViewName, [number, number, number]> = {
   front: [0, 0.02, 1],
   side: [1, 0.02, 0.0001],
   above: [0, 1, 0.0001],
-  fell: [0.5, 0.35, 1],
-  shed: [1, 0.06, 0.62],
-  head: [1, 0.35, 0.9],
+  fell: [0.25, 0.75, 1],
+  shed: [1, 0.08, 0.2],
+  head: [0.75, 0.55, 0.6],
 };
 
-export interface Box {
-  low: [number, number, number];
-  high: [number, number, number];
+type Vector = [number, number, number];
+
+const dot = (a: Vector, b: Vector) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const scaled = (a: Vector, by: number): Vector => [a[0] * by, a[1] * by, a[2] * by];
+
+/**
+ * What a camera looks at, and how far from it, to see points as large as can be; in the plane through the origin.
+ *
+ *     |x - X| <= w (D - z),   |y - Y| <= h (D - z)      x right, y up, z to the camera; w, h half widths of view at 1
+ *     X = w (max(z + x/w) - max(z - x/w)) / 2,   D >= (max(z + x/w) + max(z - x/w)) / 2,   Y and h in the same way
+ *
+ * angle  of view, upright [rad]        aspect  width over height of the picture
+ */
+export function framed(points: readonly Vector[], direction: Vector, angle: number, aspect: number) {
+  const away = scaled(direction, 1 / Math.hypot(...direction));
+  const right = scaled([away[2], 0, -away[0]], 1 / Math.hypot(away[0], away[2]));
+  const up: Vector = [away[1] * right[2], away[2] * right[0] - away[0] * right[2], -away[1] * right[0]];
+  const along = (axis: Vector, wide: number) => {
+    const most = (sign: number) => Math.max(...points.map((one) => dot(one, away) + (sign * dot(one, axis)) / wide));
+    const [high, low] = [most(1), most(-1)];
+    return { shift: scaled(axis, (wide * (high - low)) / 2), distance: (high + low) / 2 };
+  };
+  const [x, y] = [along(right, Math.tan(angle / 2) * aspect), along(up, Math.tan(angle / 2))];
+  const target = x.shift.map((own, k) => own + (y.shift[k] ?? 0)) as Vector;
+  return { target, distance: Math.max(x.distance, y.distance) };
 }
 
-/** Distance at which a box of a diagonal fits a camera's angle of view [rad] and the picture's width over height. */
-export function fittingDistance(box: Box, angle: number, aspect: number): number {
-  const size = [0, 1, 2].map((k) => (box.high[k] ?? 0) - (box.low[k] ?? 0));
-  const radius = Math.hypot(...size) / 2;
-  const narrow = aspect < 1 ? Math.atan(Math.tan(angle / 2) * aspect) : angle / 2;
-  return Math.max(radius / Math.sin(narrow), 0.02);
-}
+/** Where the view of the shed cuts, in widths of the carpet from its middle. */
+export const SHED_CUT = 0.2;
 
 export interface Turn {
   /** About the upright axis and over it [rad]. */

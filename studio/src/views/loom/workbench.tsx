@@ -6,7 +6,7 @@ import { Tabs } from "../../ui";
 import { Controls, type PictureState } from "./controls";
 import { DriveBar } from "./drive-bar";
 import type { Live } from "./live";
-import { TURN } from "./motion";
+import { openShed, TURN, underWay } from "./motion";
 import { NearestPairs } from "./nearest-pairs";
 import { Failures, neighbour, PartDetails, PartList } from "./parts";
 import { type Player, usePlayer } from "./player";
@@ -14,6 +14,7 @@ import { type Drive, type NearPair, partsOf, type SceneModel } from "./scene";
 import type { Stage } from "./stage";
 import { graphics } from "./surroundings";
 import { usePicture } from "./use-picture";
+import type { ViewName } from "./views";
 
 export interface WorkbenchProps {
   model: SceneModel;
@@ -37,6 +38,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
   const drawn = graphics() !== "none";
   const [drive, setDrive] = useState<Drive>("row");
   const [chosen, setChosen] = useState("");
+  const [shown, setShown] = useState<ViewName>("iso");
   const [pair, setPair] = useState<NearPair | null>(null);
   const [tab, setTab] = useState<Tab>(drawn ? "look" : "parts");
   const [state, setState] = useState<PictureState>(() => ({
@@ -100,6 +102,19 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     player.angle.value = turns === null ? 0 : next.angle;
     setPair(next);
   };
+  const onShow = (view: ViewName) => {
+    const turns = view === "head" ? "knot" : view === "shed" ? "row" : null;
+    if (byHand && turns !== null) {
+      setDrive(turns);
+      if (turns !== drive) player.angle.value = 0;
+      if (view === "shed") player.angle.value = openShed(model);
+    }
+    const cut =
+      view === "shed" ? { axis: "x" as const, cut: stage.current?.shedCut ?? 0.5 } : { axis: "none" as const };
+    if (view === "shed" || shown === "shed") setState((now) => ({ ...now, ...cut }));
+    setShown(view);
+    stage.current?.show(view);
+  };
   const onLook = (name: string) => {
     stage.current?.choose([name], true);
     stage.current?.lookAt(name);
@@ -139,6 +154,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
                 player={player}
                 drive={drive}
                 period={about.periods[drive]}
+                motions={(angle) => underWay(model, drive, angle)}
                 onDrive={(to) => {
                   setDrive(to);
                   player.angle.value = 0;
@@ -160,7 +176,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
                 state={state}
                 heads={heads / 3}
                 rows={byHand ? about.carpet.rows : null}
-                onShow={(view) => stage.current?.show(view)}
+                onShow={onShow}
                 onChange={(change) => setState((now) => ({ ...now, ...change }))}
               />
             )}

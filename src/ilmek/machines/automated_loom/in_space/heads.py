@@ -5,7 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.linkage.mirror import other
 from ilmek.machines.automated_loom.cyclogram import CARRIAGE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -23,11 +24,14 @@ from ilmek.machines.automated_loom.knotting import DYAD
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.knotting_dyad import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.knotting_dyad.tree import CENTRE as CENTRE_OF_ARMS
 from ilmek.machines.knotting_dyad.tree import needle_level
 from ilmek.machines.knotting_dyad.tree import tree as arms_tree
+from ilmek.machines.link_tree import body_id
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.cutter import eccentricity, half_turn
 from ilmek.machines.weaver.followers import follower_id
+from ilmek.machines.weaver.grippers import Grippers, wrapped
 from ilmek.machines.weaver.jaws import collar_body, drawn, finger_body, opened, rocker_id, turned
 from ilmek.machines.weaver.knife import BLADE_BODY, ECCENTRIC_BODY
 from ilmek.machines.weaver.knot import led_between
@@ -56,7 +60,17 @@ from ilmek.timing.track import sample
 from ilmek.units import turn
 
 _ARMS, _HANDS = (LEFT_ARM, RIGHT_ARM, CENTRE_ARM), ((LEFT, -1), (RIGHT, 1))
-_YARN_SAMPLES, _YARN_POINTS, _EACH, _LIFTS, _CUT = 91, 48, 41, 121, 25
+_TOOLS = {
+    PLATES: "warp opener",
+    LEFT: "left side gripper",
+    RIGHT: "right side gripper",
+    CENTRE: "centre gripper",
+    HANDLER_BODY: "pile handler",
+    BLADE_BODY: "knife",
+    SLEY_BODY: "sley",
+}
+_ARM_TOOLS = {"link 1": "left arm", other("link 1"): "right arm", CENTRE_OF_ARMS: "centre gripper"}
+_YARN_SAMPLES, _ON_WARP, _LIFTS, _CUT = 181, 12, 121, 25
 
 
 def heads(loom: LoomDesign) -> MachineTree:
@@ -70,6 +84,12 @@ def arms(loom: LoomDesign) -> tuple[MachineTree, ...]:
         return ()
     dyad = loom.machines[DYAD].design_as(KnottingDyad)
     return (MachineTree(DYAD, _arms_tree(loom, dyad), _section(loom, dyad), HEAD),)
+
+
+def tools(loom: LoomDesign) -> Mapping[str, str]:
+    """What people call the tools that tie a knot, by the bodies that they are, or that carry the rest of them."""
+    of_arms = {body_id(DYAD, body): name for body, name in _ARM_TOOLS.items()}
+    return _TOOLS | of_arms if loom.weaver.params.with_arms else _TOOLS
 
 
 def _section(loom: LoomDesign, dyad: KnottingDyad) -> Placement:
@@ -212,37 +232,39 @@ def _lift(knot: Cyclogram, track: str, weaver: Weaver) -> tuple[FloatArray, Floa
 
 
 def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
-    """The yarn of a knot over its angle, as its ends are led; none of a head with arms."""
-    weaver = loom.weaver
+    """The taut yarn of a knot over its angle, from where it is presented; none of a head with arms.
+
+    It is led by the side grippers, drawn by the centre gripper, pushed down by the sley, and stays when the head steps.
+    """
+    weaver, knot, by = loom.weaver, loom.knot_cyclogram, loom.weaver.grippers
     if weaver.params.with_arms or weaver.tied.knot is None:
         return ()
     angle = np.linspace(0.0, turn, _YARN_SAMPLES)
-    grasped, taken, released = led_between(weaver.cyclogram)
-    at = np.concatenate([np.linspace(grasped, taken, 6 * _EACH), np.linspace(taken, released, 2 * _EACH)])
-    ends = [_end(loom, at, taken, hand) for hand in (-1, 1)]
-    known = np.maximum(np.searchsorted(at, angle, side="right"), 2)
-    points = np.stack([_laid(np.concatenate([ends[0][:k][::-1], ends[1][:k]])) for k in known])
+    _, taken, released = led_between(knot)
+    side, centre, sley, step = (
+        sample(knot.track(name), np.minimum(angle, last)).position
+        for name, last in ((SIDE_MOTION, taken), (CENTRE_MOTION, released), (SLEY, turn), (CARRIAGE, turn))
+    )
+    drawn = angle > taken
+    tip = np.where(drawn, 1j * by.centre(centre).imag, by.tip(side))
+    wrap = np.where(drawn, wrapped(by, tip, out=True)[1], wrapped(by, tip)[1])
+    half = [_half(by, own, on) for own, on in zip(tip, wrap, strict=True)]
+    flat = np.stack([np.concatenate([own, -np.conj(own[::-1])]) for own in half])
+    middle = weaver.tool_bodies.tied + by.arm * np.sin(by.turned(side))
+    far = np.cumsum(np.abs(np.diff(flat, axis=1, prepend=flat[:, :1])), axis=1)
+    y = middle[:, None] + np.where(drawn, 0.0, by.lift)[:, None] * (far / far[:, -1:] - 0.5)
+    foot = np.minimum.accumulate(weaver.params.sley_stroke - sley)[:, None]
+    pushed = np.minimum(y, foot)
+    pushed[:, [0, -1]] = np.where(angle[:, None] < released, y, pushed)[:, [0, -1]]
+    points = np.stack([flat.real - step[:, None], pushed, flat.imag], axis=2)
+    points[angle < knot.track(HANDLER).segment("present").end] = points[0, 0]
     pile = loom.task.yarns.pile.diameter
     return (SceneYarn("yarn of the knot", "yarn of the knot", HEAD, KNOT, angle, points, pile),)
 
 
-def _end(loom: LoomDesign, at: FloatArray, taken: float, hand: int) -> FloatArray:
-    """An end of the yarn at cam angles [rad]: led by its side gripper, then drawn by the centre gripper [m]."""
-    weaver, by, tied = loom.weaver, loom.weaver.grippers, loom.weaver.tool_bodies.tied
-    side = sample(weaver.cyclogram.track(SIDE_MOTION), at).position
-    centre = sample(weaver.cyclogram.track(CENTRE_MOTION), at).position
-    tip, drawn, turned = by.tip(side), by.centre(centre), by.turned(side)
-    led = at <= taken
-    x = np.where(led, -hand * tip.real, 0.0)
-    y = np.where(led, tied + hand * by.lift / 2 + by.arm * np.sin(turned), tied + by.height)
-    z = np.where(led, tip.imag, drawn.imag)
-    return np.stack([x, y, z], axis=1)
-
-
-def _laid(line: FloatArray) -> FloatArray:
-    """The line through points [m], evenly: its front view by length, its depth with it."""
-    flat = line[:, 0] + 1j * line[:, 1]
-    number = np.linspace(0.0, len(line) - 1, _YARN_POINTS)
-    depth = np.interp(number, np.arange(len(line)), line[:, 2])
-    shown = np.interp(number, np.arange(len(line)), flat.real) + 1j * np.interp(number, np.arange(len(line)), flat.imag)
-    return np.stack([shown.real, shown.imag, depth], axis=1)
+def _half(by: Grippers, tip: complex, wrap: float) -> ComplexArray:
+    """The left half of the taut yarn in the plan, from its end at a tip to the middle [m]."""
+    if wrap <= 0:
+        return np.linspace(tip, 1j * tip.imag, _ON_WARP + 1, endpoint=False)
+    on_warp = by.wrap_radius * np.exp(1j * (turn / 4 + np.linspace(wrap, 0.0, _ON_WARP))) - by.pair / 2
+    return np.concatenate([[tip], on_warp])

@@ -8,10 +8,11 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.creel import PACKAGE
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.equipment.tree import equipment
 from ilmek.machines.automated_loom.in_space.cams import warp_positions
-from ilmek.machines.automated_loom.in_space.heads import knot_yarn
+from ilmek.machines.automated_loom.in_space.heads import knot_yarn, tools
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
 from ilmek.machines.automated_loom.in_space.standing import carpet_roll
@@ -20,12 +21,13 @@ from ilmek.machines.beat import GUIDED
 from ilmek.machines.hammer.tree import COMB
 from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import warp_shafts
+from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
 from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
 from ilmek.report import Report
-from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, SceneWarps
+from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, ScenePhase, SceneWarps
 from ilmek.timing.track import sample
 from ilmek.units import turn
 
@@ -61,10 +63,18 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         carpet=_carpet(loom),
         periods=periods_of(loom),
         heads=HEAD,
+        tools=tools(loom),
+        dyed=(PACKAGE, TUBE),
+        phases=tuple(
+            ScenePhase(drive, track.name, own.name, own.start, own.end)
+            for drive, cyclogram in ((ROW, loom.row_cyclogram), (KNOT, loom.knot_cyclogram))
+            for track in cyclogram.tracks
+            for own in track.segments
+        ),
         guards=GUARDS,
         floor=loom.side.floor,
         failures=tuple(check for check in report.all_checks if not check.ok),
-        bodies={body.id: _held(body) for body in loom_tree(loom).bodies},
+        bodies=_bodies(loom_tree(loom)),
         nearest=report[NEAREST_PAIRS] if NEAREST_PAIRS in report.names() else None,
     )
 
@@ -101,9 +111,21 @@ def loom_tree(loom: LoomDesign) -> Tree:
     return Tree(whole.bodies, (*whole.closures, *sinking))
 
 
-def _held(body: RigidBody) -> SceneBody:
-    drive = "" if body.joint.motion is None else body.joint.motion.drive
-    return SceneBody("" if body.parent == GROUND else body.parent, body.joint.kind.value, drive)
+def _bodies(tree: Tree) -> dict[str, SceneBody]:
+    """What holds each body of a tree, and what moves it: its motor, or what leads it, it is fixed to, or carries it."""
+    titles = {part.id: part.title for part, _ in tree.occurrences()}
+    fixed = [closure.bodies for closure in tree.closures if closure.kind is JointKind.FIXED]
+    leads = [closure.bodies for closure in tree.closures if closure.kind is not JointKind.FIXED]
+
+    def held(body: RigidBody) -> SceneBody:
+        joint, drive = body.joint, "" if body.joint.motion is None else body.joint.motion.drive
+        leading = tuple(first for first, second in leads if second == body.id)
+        fixed_to = tuple(second for first, second in fixed if first == body.id)
+        carrier = (body.parent,) if drive and not joint.passive and body.parent != GROUND else ()
+        follows = () if joint.motor else leading or fixed_to or carrier
+        return SceneBody(body.parent, joint.kind.value, drive, titles.get(joint.motor, ""), follows, joint.passive)
+
+    return {body.id: held(body) for body in tree.bodies}
 
 
 def _warps(loom: LoomDesign) -> SceneWarps:
