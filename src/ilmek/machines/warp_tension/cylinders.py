@@ -41,7 +41,7 @@ from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
-from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, worst_load
+from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, tube_weight, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Turned
@@ -295,5 +295,11 @@ def spacer_tube(params: WarpTensionParams, radius: float = math.inf) -> Tube:
         return find_tube(params.spacer_tube)
     depth, pull = slots_of(params).depth, spacer_load(params, abs(worst_load(params)))
     offered = sorted(spacer_tubes(params), key=lambda one: one.outer_radius > radius + 0.5 * mm)
-    kept = (one for one in offered if keeps_limits(params, one.inner_radius, one.outer_radius - depth, pull))
-    return next(kept, max(offered, key=lambda tube: tube.inertia))
+
+    def keeps(one: Tube) -> bool:
+        """Its metal between the slots weighs, and counts as uncut."""
+        under = one.outer_radius - depth
+        lands = tube_weight(params, under, one.outer_radius)
+        return keeps_limits(params, one.inner_radius, under, pull - 1j * lands)
+
+    return next(filter(keeps, offered), max(offered, key=lambda tube: tube.inertia))

@@ -85,7 +85,7 @@ class RapierSide:
         jaws = _bought(
             (GRIPPER, "gripper of the rapier", "two jaws"),
             "machined link",
-            box(made.gripper, made.gripper, made.gripper),
+            box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper),
             Bought("gripper", params.gripper_mass),
         )
         clamp = _bought(
