@@ -74,15 +74,10 @@ class AutomatedLoomParams(Params):
         doc="time in which an operator changes a package and ties its yarn to the old one; assumed by this project",
     )
     knotting: str = param(
-        AUTO,
-        choices=(AUTO, "cams", "arms"),
-        doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim",
+        AUTO, choices=(AUTO, "cams", "arms"), doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim"
     )
     knot_cycle: float | None = kind.time(
-        None,
-        at_least=1e-3,
-        at_most=3600.0,
-        doc="required time of a knot; default: 2 s, or less by aim",
+        None, at_least=1e-3, at_most=3600.0, doc="required time of a knot; default: 2 s, or less by aim"
     )
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: by knot, quality and pile"

@@ -87,9 +87,7 @@ class RapierSupport:
             self.clearance,
             "mm",
             "parameter clearance; the axis begins beside the cloth, before the brackets",
-            cure="set weft=shuttle with another beat, or a larger lift",
-            parts=(AXIS,),
-        )
+        ).with_cure("set weft=shuttle with another beat, or a larger lift", AXIS)
         return (*bearing, room)
 
 
@@ -130,23 +128,15 @@ def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, 
     cure = "set a lower weft.acceleration, or weft=shuttle"
     return (
         at_most(
-            "deflection of the arms of the rapier's side",
-            sag,
-            SAG,
-            "mm",
-            "weight and inertia; assumed by this project",
-            cure=cure,
-            parts=(part_id("weft-beam"),),
-        ),
+            "deflection of the arms of the rapier's side", sag, SAG, "mm", "weight and inertia; assumed by this project"
+        ).with_cure(cure, part_id("weft-beam")),
         at_least(
             "post of the rapier's axis against buckling",
             euler(2 * height, section) / weight,
             BUCKLING,
             "1",
             "Euler's load, assumed by this project",
-            cure=cure,
-            parts=(part_id("weft-post"),),
-        ),
+        ).with_cure(cure, part_id("weft-post")),
     )
 
 

@@ -147,8 +147,7 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
         spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
         height = sum(one.ends) / 2
         yield _placed(
-            spacer,
-            (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face)),
+            spacer, (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face))
         )
 
 
