@@ -322,12 +322,7 @@ def bracket_checks(loom: LoomDesign, made: Brackets, column: HollowSquare) -> tu
     )
     behind, before = side.column_room
     gap = (before - behind - column.side) / 2
-    room = at_least(
-        "frame: room of a column",
-        gap,
-        ROOM,
-        "mm",
-        "between the bearings of upper and lower cylinders; assumed by this project",
-    ).with_cure(_CURE, part_id("column"))
+    source = "between the bearings of upper and lower cylinders; assumed by this project"
+    room = at_least("frame: room of a column", gap, ROOM, "mm", source).with_cure(_CURE, part_id("column"))
     seats = (one.seat.check(f"frame: bearing on the {one.title}", _CURE, part_id(one.name)) for one in made.plates)
     return (*stresses, *seats, *_beam_checks(loom, made.beam, made.pull), room)

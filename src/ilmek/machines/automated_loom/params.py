@@ -236,11 +236,9 @@ class AutomatedLoomParams(Params):
             wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
             needed = format_quantity(0.5 / wanted, "mm")
             finer = wanted > gives
-            raise LoomError(
-                f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}",
-                allowed=f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives",
-                do=f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out",
-            )
+            allowed = f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives"
+            do = f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out"
+            raise LoomError(f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}", allowed=allowed, do=do)
 
 
 _SAME = 5e-3
