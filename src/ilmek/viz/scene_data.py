@@ -173,11 +173,7 @@ def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:
 
 
 def _solid(blocks: _Blocks, one: Solid, deviation: float) -> dict[str, Json]:
-    return {
-        "points": blocks.put(one.points),
-        "triangles": blocks.put_integers(one.triangles),
-        "deviation": deviation,
-    }
+    return {"points": blocks.put(one.points), "triangles": blocks.put_integers(one.triangles), "deviation": deviation}
 
 
 def _yarn(blocks: _Blocks, one: SceneYarn) -> JsonObject:

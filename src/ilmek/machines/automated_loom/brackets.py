@@ -276,11 +276,7 @@ def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:
 
 
 def _radius(
-    loom: LoomDesign,
-    moment: tuple[float, float],
-    ends: tuple[float, float],
-    least: float,
-    most: float = math.inf,
+    loom: LoomDesign, moment: tuple[float, float], ends: tuple[float, float], least: float, most: float = math.inf
 ) -> float:
     """Radius about a hull [m] for the height at the column that the moments need, from least to most."""
     height = least_height(moment, STEEL.strength / loom.params.column_safety) - (ends[1] - ends[0])
@@ -303,10 +299,8 @@ def _beam_checks(loom: LoomDesign, section: HollowSquare, pull: float) -> tuple[
     return (
         at_most("frame: sag of the back rest", sag, BACK_REST_SAG * width, "mm", "2 mm a m", cure=_CURE, parts=parts),
         at_most(
-            *("frame: stress of the back rest's beam", stress, limit, "MPa", "yield of S235 over column_safety"),
-            cure=_CURE,
-            parts=parts,
-        ),
+            *("frame: stress of the back rest's beam", stress, limit, "MPa", "yield of S235 over column_safety")
+        ).with_cure(_CURE, *parts),
     )
 
 
@@ -322,26 +316,13 @@ def bracket_checks(loom: LoomDesign, made: Brackets, column: HollowSquare) -> tu
     limit, side = STEEL.strength / loom.params.column_safety, loom.side
     stresses = (
         at_most(
-            f"frame: stress of the {one.title}",
-            one.stress,
-            limit,
-            "MPa",
-            "yield of S235 over column_safety",
-            cure=_CURE,
-            parts=(part_id(one.name),),
-        )
+            f"frame: stress of the {one.title}", one.stress, limit, "MPa", "yield of S235 over column_safety"
+        ).with_cure(_CURE, part_id(one.name))
         for one in made.plates
     )
     behind, before = side.column_room
     gap = (before - behind - column.side) / 2
-    room = at_least(
-        "frame: room of a column",
-        gap,
-        ROOM,
-        "mm",
-        "between the bearings of upper and lower cylinders; assumed by this project",
-        cure=_CURE,
-        parts=(part_id("column"),),
-    )
+    source = "between the bearings of upper and lower cylinders; assumed by this project"
+    room = at_least("frame: room of a column", gap, ROOM, "mm", source).with_cure(_CURE, part_id("column"))
     seats = (one.seat.check(f"frame: bearing on the {one.title}", _CURE, part_id(one.name)) for one in made.plates)
     return (*stresses, *seats, *_beam_checks(loom, made.beam, made.pull), room)

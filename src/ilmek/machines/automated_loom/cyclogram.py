@@ -28,15 +28,7 @@ from ilmek.machines.electronic_cam import cam_table
 from ilmek.machines.warp_tension.design import TAKE_UP_LAW
 from ilmek.machines.weaver import Weaver
 from ilmek.machines.weaver.design import head_relations
-from ilmek.machines.weaver.motions import (
-    CENTRE_ARM,
-    CENTRE_MOTION,
-    LEFT_ARM,
-    OPENER,
-    RIGHT_ARM,
-    SIDE_MOTION,
-    SLEY,
-)
+from ilmek.machines.weaver.motions import CENTRE_ARM, CENTRE_MOTION, LEFT_ARM, OPENER, RIGHT_ARM, SIDE_MOTION, SLEY
 from ilmek.machines.weft import WeftPassage
 from ilmek.records import value_record
 from ilmek.report import CamTable

@@ -292,11 +292,9 @@ def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
     """Raise LoomError where more heads are given than fit."""
     if params.heads is not None and params.heads > most:
         width, head = format_quantity(params.width, "m"), format_quantity(wide, "mm")
-        raise LoomError(
-            f"{params.heads} heads of {head} do not fit a carpet {width} wide",
-            allowed=f"at most {most}: neighbours keep half a head's share of the row between them",
-            do=f"set heads={most}, or narrower heads",
-        )
+        given = f"{params.heads} heads of {head} do not fit a carpet {width} wide"
+        allowed = f"at most {most}: neighbours keep half a head's share of the row between them"
+        raise LoomError(given, allowed=allowed, do=f"set heads={most}, or narrower heads")
 
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
@@ -322,20 +320,15 @@ def _timed_row(params: AutomatedLoomParams, timing: RowTiming, cams: SheddingDes
     """
     shed, window, name = format_quantity(timing.lift, "mm"), timing.window, timing.carrier
     if window[1] - window[0] < 1e-6:
-        raise LoomError(
-            f"a shed of {shed} is never as open as open_share={params.open_share:g} of it",
-            allowed=f"an opening that lasts, for the {name} to pass",
-            do="set a smaller open_share",
-        )
+        given = f"a shed of {shed} is never as open as open_share={params.open_share:g} of it"
+        raise LoomError(given, allowed=f"an opening that lasts, for the {name} to pass", do="set a smaller open_share")
     heads = shortest_retreat(timing, params.retreat_speed, params.retreat_acceleration)
     turned = max(turn / cams.params.speed, shortest_passage(timing), heads)
     found, period = timed(timing, turned, params.shed_stop)
     if not math.isfinite(period):
-        raise LoomError(
-            f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}",
-            allowed=f"the shed is free of the {name} from {format_quantity(window[1], 'deg')} on",
-            do="set a later beat_end, or a larger open_share for a shorter passage",
-        )
+        given = f"the beater is to be back at {format_quantity(params.beat_end, 'deg')}"
+        allowed = f"the shed is free of the {name} from {format_quantity(window[1], 'deg')} on"
+        raise LoomError(given, allowed=allowed, do="set a later beat_end, or a larger open_share for a shorter passage")
     if params.take_up_end <= params.beat_end:
         raise LoomError("the take-up ends before the beat", do="set take_up_end after beat_end")
     return found, period

@@ -207,10 +207,8 @@ def _arms(task: LoomTask) -> KnottingDyad:
 def _of_the_knot(name: str, params: H, task: LoomTask) -> H:
     """The parameters of a machine that ties the loom's knot. Raises LoomError where they have another one."""
     if params.knot != task.params.knot:
-        raise LoomError(
-            f"{name}.knot={params.knot} in a loom for {task.params.knot} knots",
-            do=f"leave it out, and set knot={params.knot}",
-        )
+        given = f"{name}.knot={params.knot} in a loom for {task.params.knot} knots"
+        raise LoomError(given, do=f"leave it out, and set knot={params.knot}")
     return params
 
 

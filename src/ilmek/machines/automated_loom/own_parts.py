@@ -78,13 +78,11 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     outwards = (placement(wider / 2), placement(-wider / 2))
     ends = zip(stations[: len(held[0].stations)], outwards, strict=True)
-    return RigidBody(
-        part_id("retreat"),
-        (
-            Occurrence(axis, tuple(station.after(upper) for station in stations)),
-            Occurrence(motor, tuple(end.after(aside).after(flange) for end, aside in ends)),
-        ),
+    parts = (
+        Occurrence(axis, tuple(station.after(upper) for station in stations)),
+        Occurrence(motor, tuple(end.after(aside).after(flange) for end, aside in ends)),
     )
+    return RigidBody(part_id("retreat"), parts)
 
 
 def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, motor: Part, low: float) -> float:
@@ -116,20 +114,17 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
     before = placement(-frame.task.width / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH)
     guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, frame.task.width)
     on_bar = placement(-frame.task.width / 2, z=row.height - RAIL_AXIS).after(ON_RAIL)
+    parts = (
+        Occurrence(rail, (along,)),
+        Occurrence(under, (before,)),
+        Occurrence(guide, (on_bar,)),
+        *rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2),
+        *rail_brackets(loom, frame),
+    )
+    joint = Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR)
     return Tree(
         (
             standing_frame(loom, frame, axes),
-            RigidBody(
-                RAIL,
-                (
-                    Occurrence(rail, (along,)),
-                    Occurrence(under, (before,)),
-                    Occurrence(guide, (on_bar,)),
-                    *rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2),
-                    *rail_brackets(loom, frame),
-                ),
-                joint=Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR),
-                positions=(placement(0.0, middle.imag, middle.real),),
-            ),
+            RigidBody(RAIL, parts, joint=joint, positions=(placement(0.0, middle.imag, middle.real),)),
         )
     )

@@ -74,15 +74,10 @@ class AutomatedLoomParams(Params):
         doc="time in which an operator changes a package and ties its yarn to the old one; assumed by this project",
     )
     knotting: str = param(
-        AUTO,
-        choices=(AUTO, "cams", "arms"),
-        doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim",
+        AUTO, choices=(AUTO, "cams", "arms"), doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim"
     )
     knot_cycle: float | None = kind.time(
-        None,
-        at_least=1e-3,
-        at_most=3600.0,
-        doc="required time of a knot; default: 2 s, or less by aim",
+        None, at_least=1e-3, at_most=3600.0, doc="required time of a knot; default: 2 s, or less by aim"
     )
     knot_yarn: float | None = kind.length(
         None, above=0.0, at_most=0.3, doc="pile yarn of a knot, from the yarn bill; default: by knot, quality and pile"
@@ -241,11 +236,9 @@ class AutomatedLoomParams(Params):
             wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
             needed = format_quantity(0.5 / wanted, "mm")
             finer = wanted > gives
-            raise LoomError(
-                f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}",
-                allowed=f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives",
-                do=f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out",
-            )
+            allowed = f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives"
+            do = f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out"
+            raise LoomError(f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}", allowed=allowed, do=do)
 
 
 _SAME = 5e-3

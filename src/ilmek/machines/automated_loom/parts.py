@@ -41,22 +41,17 @@ class PartsList:
     prices: Mapping[str, PriceRates]
     frame: LoomFrame = group()
 
-    axes = computed(
-        "1",
-        "axes that motors drive; several on one body drive one axis",
-        lambda it: sum(part.number // part.drives for part in it.parts if part.drives),
-        name="driven_axes",
-    )
+    @computed("1", "axes that motors drive; several on one body drive one axis", name="driven_axes")
+    def axes(self) -> int:
+        return sum(part.number // part.drives for part in self.parts if part.drives)
+
     mass = computed(
-        "kg",
-        "mass of all parts but reducers, rails and control",
-        lambda it: sum(part.mass_all for part in it.parts),
+        "kg", "mass of all parts but reducers, rails and control", lambda it: sum(part.mass_all for part in it.parts)
     )
-    price = computed(
-        "",
-        "price of all parts by the table of prices, in euros unless the prices are others",
-        lambda it: sum(price_of(part, it.prices) for part in it.parts),
-    )
+
+    @computed("", "price of all parts by the table of prices, in euros unless the prices are others")
+    def price(self) -> float:
+        return sum(price_of(part, self.prices) for part in self.parts)
 
 
 def motors(parts: tuple[BillLine, ...]) -> int:

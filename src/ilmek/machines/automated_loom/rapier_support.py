@@ -81,15 +81,10 @@ class RapierSupport:
         bearing = _checks(self.section, self.weight, self.inertia, self.reach + self.drop, self.height)
         if self.gap is None:
             return bearing
+        source = "parameter clearance; the axis begins beside the cloth, before the brackets"
         room = at_least(
-            "clearance: brackets of the cam shafts and axis of the rapier",
-            self.gap,
-            self.clearance,
-            "mm",
-            "parameter clearance; the axis begins beside the cloth, before the brackets",
-            cure="set weft=shuttle with another beat, or a larger lift",
-            parts=(AXIS,),
-        )
+            "clearance: brackets of the cam shafts and axis of the rapier", self.gap, self.clearance, "mm", source
+        ).with_cure("set weft=shuttle with another beat, or a larger lift", AXIS)
         return (*bearing, room)
 
 
@@ -130,23 +125,15 @@ def _checks(section: HollowSquare, weight: float, inertia: float, reach: float, 
     cure = "set a lower weft.acceleration, or weft=shuttle"
     return (
         at_most(
-            "deflection of the arms of the rapier's side",
-            sag,
-            SAG,
-            "mm",
-            "weight and inertia; assumed by this project",
-            cure=cure,
-            parts=(part_id("weft-beam"),),
-        ),
+            "deflection of the arms of the rapier's side", sag, SAG, "mm", "weight and inertia; assumed by this project"
+        ).with_cure(cure, part_id("weft-beam")),
         at_least(
             "post of the rapier's axis against buckling",
             euler(2 * height, section) / weight,
             BUCKLING,
             "1",
             "Euler's load, assumed by this project",
-            cure=cure,
-            parts=(part_id("weft-post"),),
-        ),
+        ).with_cure(cure, part_id("weft-post")),
     )
 
 
@@ -171,12 +158,6 @@ def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
     post = member("weft-post", "post of the rapier's axis", support.section, support.height)
     low, x = middle.imag + rapier.low - support.height, rapier.run[0] + POST_INSET
     yield Occurrence(post, (placement(x, low, middle.real).after(UPRIGHT),))
-    sole = Part(
-        part_id("weft-sole"),
-        "plate under the post of the rapier's axis",
-        "laser-cut part",
-        format_quantity(SOLE[1], "mm"),
-        box(SOLE[0], SOLE[0], SOLE[1]),
-        STEEL,
-    )
+    title, size = "plate under the post of the rapier's axis", format_quantity(SOLE[1], "mm")
+    sole = Part(part_id("weft-sole"), title, "laser-cut part", size, box(SOLE[0], SOLE[0], SOLE[1]), STEEL)
     yield Occurrence(sole, (placement(x, low - SOLE[1], middle.real).after(UPRIGHT),))

@@ -48,19 +48,17 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
     axes  of the control
     """
     made = brackets_of(loom)
-    return RigidBody(
-        part_id("frame"),
-        (
-            *_uprights(loom, frame, made),
-            *_across(loom, frame, made),
-            *_feet(loom, frame, made),
-            *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
-            *_carried(loom, made),
-            *_control(loom, frame, made, axes),
-            *support_bodies(loom, frame, made.face),
-            *steady_posts(loom, frame, made),
-        ),
+    parts = (
+        *_uprights(loom, frame, made),
+        *_across(loom, frame, made),
+        *_feet(loom, frame, made),
+        *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
+        *_carried(loom, made),
+        *_control(loom, frame, made, axes),
+        *support_bodies(loom, frame, made.face),
+        *steady_posts(loom, frame, made),
     )
+    return RigidBody(part_id("frame"), parts)
 
 
 def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurrence]:
@@ -147,8 +145,7 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
         spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
         height = sum(one.ends) / 2
         yield _placed(
-            spacer,
-            (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face)),
+            spacer, (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face))
         )
 
 
@@ -196,17 +193,15 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
     x, y = made.face + frame.column.side - wide / 2, loom.side.floor + high / 2
     yield Occurrence(control, (placement(x, y, rear - deep),))
     if axes:
-        yield Occurrence(
-            module,
-            tuple(
-                placement(
-                    x + (number % columns - (columns - 1) / 2) * across,
-                    y + (number // columns - (_MODULE_ROWS - 1) / 2) * upwards,
-                    rear - WALL - _MODULE[2],
-                )
-                for number in range(axes)
-            ),
+        positions = tuple(
+            placement(
+                x + (number % columns - (columns - 1) / 2) * across,
+                y + (number // columns - (_MODULE_ROWS - 1) / 2) * upwards,
+                rear - WALL - _MODULE[2],
+            )
+            for number in range(axes)
         )
+        yield Occurrence(module, positions)
 
 
 def _both(sides: Iterable[float]) -> Iterator[float]:

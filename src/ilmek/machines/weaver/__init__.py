@@ -11,27 +11,11 @@ from ilmek.machines.weaver.choices import choices
 from ilmek.machines.weaver.design import Weaver, design, head_relations
 from ilmek.machines.weaver.in_loom import params_for, work
 from ilmek.machines.weaver.params import WeaverParams
-from ilmek.machines.weaver.report import (
-    WeaverAnalysis,
-    analyse,
-    cam_tables,
-    checks,
-    figures,
-    tables,
-    warnings,
-)
+from ilmek.machines.weaver.report import WeaverAnalysis, analyse, cam_tables, checks, figures, tables, warnings
 from ilmek.machines.weaver.tree import head_mass, head_tree, mass_of
 from ilmek.timing.cyclogram import Cyclogram
 
-__all__ = [
-    "MACHINE",
-    "Weaver",
-    "WeaverParams",
-    "cyclograms",
-    "design",
-    "head_mass",
-    "mass_of",
-]
+__all__ = ["MACHINE", "Weaver", "WeaverParams", "cyclograms", "design", "head_mass", "mass_of"]
 
 
 def cyclograms(weaver: Weaver) -> tuple[Cyclogram, ...]:

@@ -13,15 +13,7 @@ from typing import TypeAlias
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import ParameterError
-from ilmek.machines.weaver.motions import (
-    CENTRE_GRASP,
-    CENTRE_MOTION,
-    HANDLER,
-    OPENER,
-    SIDE_GRASP,
-    SIDE_MOTION,
-    SLEY,
-)
+from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
 from ilmek.timing.solver import least_acceleration, least_period

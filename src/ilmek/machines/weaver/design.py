@@ -84,36 +84,30 @@ class Weaver:
     width: float = result("mm", "width of the head, along the row", name="head_width_chosen")
     needs: Mapping[str, float] = result("mm", "width that each content of the head needs", name="head_width_needed")
 
-    shortest = computed(
-        "s",
-        "shortest cycle that speeds and accelerations allow",
-        lambda it: it.peaks[it.limiting].shortest,
-        name="cycle_time_shortest",
-    )
+    @computed("s", "shortest cycle that speeds and accelerations allow", name="cycle_time_shortest")
+    def shortest(self) -> float:
+        return self.peaks[self.limiting].shortest
+
     knots_per_minute = computed("", "knots of one head in a minute, without colour changes", lambda it: 60 / it.cycle)
     cam_speed = computed("rpm", "speed of the cam shaft", lambda it: it.cyclogram.speed)
     speed_max = computed(
         "m/s", "largest speed of each track", lambda it: {name: peak.speed for name, peak in it.peaks.items()}
     )
-    acceleration_max = computed(
-        "m/s^2",
-        "largest acceleration of each track",
-        lambda it: {name: peak.acceleration for name, peak in it.peaks.items()},
-    )
-    knot_tied = computed(
-        "",
-        "the knot that the grippers' motion ties on the pair of warps, proved",
-        lambda it: on_the_pair(it.tied),
-        absent="none",
-    )
+
+    @computed("m/s^2", "largest acceleration of each track")
+    def acceleration_max(self) -> dict[str, float]:
+        return {name: peak.acceleration for name, peak in self.peaks.items()}
+
+    @computed("", "the knot that the grippers' motion ties on the pair of warps, proved", absent="none")
+    def knot_tied(self) -> str | None:
+        return on_the_pair(self.tied)
+
     knot_why = computed("", "conclusion of the proof", lambda it: proof_text(it.tied))
     yarn_billed = computed(
         "mm", "pile yarn of a knot by the yarn bill, what is shorn off included", lambda it: it.params.billed
     )
     yarn_in_knot = computed(
-        "mm",
-        "pile yarn that stays in the carpet for a knot",
-        lambda it: it.params.billed - 2 * it.params.cut_waste,
+        "mm", "pile yarn that stays in the carpet for a knot", lambda it: it.params.billed - 2 * it.params.cut_waste
     )
     cut_waste = computed("mm", "pile yarn cut off for a knot", lambda it: it.drawn - it.yarn_in_knot)
 
@@ -157,10 +151,7 @@ def design(params: WeaverParams) -> Weaver:
 
     most = float(np.abs(torque_at(cams, cams[0].angle)).max())
     belt = cam_belt(most, max(cam.radius for cam in cams), params.cam_belt)
-    rest = {
-        "cams": case_width(params),
-        "warps pushed aside": min(opener.crowd, params.opener.crowd_limit),
-    }
+    rest = {"cams": case_width(params), "warps pushed aside": min(opener.crowd, params.opener.crowd_limit)}
     if params.with_arms:
         rest["arms"] = params.arms.width
     magazine = _magazine(params, max(rest.values()))

@@ -172,19 +172,15 @@ class WeaverParams(Params):
         before, at = "the beginning of the turn", 0.0
         for name, end in (*ends.items(), ("press_end", self.press_end)):
             if end < at + LEAST_STEP:
-                raise ParameterError(
-                    f"{name}={format_quantity(end, 'deg')} leaves the step after {before} no room",
-                    allowed=f"at least {format_quantity(at + LEAST_STEP, 'deg')}",
-                )
+                given = f"{name}={format_quantity(end, 'deg')} leaves the step after {before} no room"
+                raise ParameterError(given, allowed=f"at least {format_quantity(at + LEAST_STEP, 'deg')}")
             before, at = name, end
         self._check_tools()
         if not self.with_arms and self.pair_opened is not None and self.pair_opened < self.centre_room:
             shown, room = (format_quantity(size, "mm") for size in (self.pair_opened, self.centre_room))
-            raise ParameterError(
-                f"pair_opened={shown} leaves the centre gripper no path between the warps",
-                allowed=f"at least {room}: a warp, the gripper's finger and its clearances",
-                do="open the pair wider, or take a thinner finger",
-            )
+            given = f"pair_opened={shown} leaves the centre gripper no path between the warps"
+            allowed = f"at least {room}: a warp, the gripper's finger and its clearances"
+            raise ParameterError(given, allowed=allowed, do="open the pair wider, or take a thinner finger")
 
     @property
     def tool_angles(self) -> tuple[ToolAngles, ...]:
@@ -198,10 +194,8 @@ class WeaverParams(Params):
             tool = TOOLS[track]
             angles: ToolAngles = getattr(self, tool)
             if self.optimise and angles.given:
-                raise ParameterError(
-                    f"optimise chooses the cam angles of all motions, but {tool}.{next(iter(angles.given))} is set",
-                    do="leave one of the two out",
-                )
+                given = f"optimise chooses the cam angles of all motions, but {tool}.{next(iter(angles.given))} is set"
+                raise ParameterError(given, do="leave one of the two out")
             require_order(tool, track, self.steps, angles)
 
     @property

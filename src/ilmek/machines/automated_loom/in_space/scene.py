@@ -54,10 +54,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     return Scene(
         title=report.title,
         frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames),
-        parts=(
-            *(part if part.plate in drawn else replace(part, plate="") for part in parts),
-            carpet_roll(loom),
-        ),
+        parts=(*(part if part.plate in drawn else replace(part, plate="") for part in parts), carpet_roll(loom)),
         warps=_warps(loom),
         yarns=(*wefts(loom), *knot_yarn(loom)),
         carpet=_carpet(loom),
