@@ -16,6 +16,7 @@ from hypothesis import strategies as st
 from small_programme import small_programme
 
 from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.elements.energy_chains import ENERGY_CHAINS, SHELF, ChainLines, chain_for, width_needed
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.safety_distances import FENCES, door, over, through
 from ilmek.io.plc.io_list import io_csv
@@ -24,6 +25,7 @@ from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import CORE, DENSITY, creel_of, package_size
+from ilmek.machines.automated_loom.equipment.energy_chain import CHAIN, chain_checks, energy_chain, share_of, trough_box
 from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
@@ -159,3 +161,44 @@ def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
     assert len(places) == 3 * loom.weaver.params.tubes
     apart = min(math.dist(first, other) for first, other in combinations(places, 2))
     assert apart >= creel_of(loom).size + 50 * mm
+
+
+@given(st.sampled_from(ENERGY_CHAINS), st.integers(1, 40), st.floats(3e-3, 14e-3))
+def test_lines_of_a_chain_have_their_room_on_shelves(row, number: int, diameter: float) -> None:
+    """They are laid one by one, from the bottom shelf up, then beside these."""
+    pitch, x, y = 1.2 * diameter, 0.0, 0.0
+    if pitch > row.inner[1]:
+        return
+    for _ in range(number):
+        if y + pitch > row.inner[1] * (1 + 1e-9):
+            x, y = x + pitch, 0.0
+        y += pitch + SHELF
+    laid = ChainLines("tubes", number, diameter, 0.2, 8.0, 0.02)
+    assert width_needed(row, [laid]) == pytest.approx(x + pitch)
+
+
+@given(st.sampled_from(ENERGY_CHAINS), st.floats(0.2, 3.0), st.floats(-0.5, 0.5))
+def test_a_chain_is_as_long_as_its_runs_and_its_loop(row, travel: float, place: float) -> None:
+    """The moving end is `place` of the travel from its middle, where the chain is fixed: both runs and half a turn."""
+    free = row.length(travel) - 2 * row.pitch - math.pi * row.radius
+    lower = (free + place * travel) / 2
+    upper = lower - place * travel
+    assert lower >= -1e-12
+    assert upper >= -1e-12
+    assert lower + upper == pytest.approx(travel / 2)
+    assert lower <= travel / 2 * (1 + 1e-9)  # so the loop passes its share by its own reach only
+
+
+def test_the_chain_is_the_least_that_takes_the_lines_of_its_head() -> None:
+    many = tuple(chain_for([ChainLines("tubes", number, 5 * mm, 0.2, 8.0, 0.02)], 1.0) for number in (4, 16, 48))
+    assert sorted(many, key=lambda row: row.inner[0] * row.inner[1]) == list(many)
+    for made in (_loom(), _loom(heads=3)):
+        row = energy_chain(made)
+        assert all(check.ok for check in chain_checks(made))
+        parts = {line.part: line for line in whole_list(made).parts}
+        assert parts[CHAIN].number == made.heads
+        assert parts[CHAIN].length == pytest.approx(share_of(made) / 2 + math.pi * row.radius + 2 * row.pitch)
+        low, high = trough_box(made)
+        assert high[1] - low[1] > 2 * row.radius + row.outer[1]
+    thick = [ChainLines("hoses", 2, 30 * mm, 0.2, 8.0, 0.5)]
+    assert 8 * 30 * mm > chain_for(thick, 1.0).radius

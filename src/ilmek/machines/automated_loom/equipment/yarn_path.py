@@ -16,7 +16,8 @@ from ilmek.elements.field_devices import BRAKE, BRAKE_FORCES
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CONDUIT, PACKAGE, Creel, creel_of, trough_box
+from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CONDUIT, PACKAGE, Creel, creel_of
+from ilmek.machines.automated_loom.equipment.energy_chain import energy_chain, share_of, trough_box
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.records import computed, record
@@ -119,7 +120,7 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
     y, z = max(creel.axes, key=lambda one: math.hypot(one[0] - height, one[1] - depth))
     along, up = float(low[0]) - creel.duct_end, float(low[1] + high[1]) / 2 - height
     loop = math.hypot(along, up)
-    share, long = loom.task.cloth.width / loom.heads, float(high[0] - low[0])
+    share, long = share_of(loom), float(high[0] - low[0])
     tube, middle = loom.side.head.magazine, float(low[2] + high[2]) / 2
     rise, back = tube.imag - float(low[1]), middle - tube.real
     return (
@@ -128,7 +129,7 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
         PathStep("duct over the foot", creel.duct_end - start),
         PathStep("loop to the rail", loop + loom.side.retreat, up, 2 * math.atan2(abs(up), max(along, 0.0))),
         PathStep("trough to the farthest head", long - share / 2),
-        PathStep("energy chain", share / 2, 0.0, turn / 2),
+        PathStep("energy chain", energy_chain(loom).length(share), 0.0, turn / 2),
         PathStep("to the tube", math.hypot(rise, back), rise, turn / 4),
     )
 
