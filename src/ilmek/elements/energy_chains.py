@@ -1,7 +1,7 @@
 """Energy chains that carry cables and tubes to what moves: classes of plastic chains, their fill and their bend.
 
     w = sum ceil(n / k) q + s,   k = floor((h + s) / (q + s)),   q = d (1 + room)      lines in layers on shelves
-    R >= b d, b 7.5 to 10      10 % of room about a cable, 20 % about a tube; w within the inner width, h the inner height
+    R >= b d, b 7.5 to 10      10 % of room about a cable, 20 % about a tube; w at most the inner width, h inner height
     l = S / 2 + pi R + 2 p                                 fixed in the middle of the travel S, a pitch at each end
 
 n lines of the diameter d, s thickness of shelves and separators, R bend radius.      [rules of makers for their chains]
