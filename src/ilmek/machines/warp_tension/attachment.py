@@ -37,7 +37,7 @@ SAFETY = 1.5
 
 BRIGHT = MATERIALS["heat-treatable steel"]
 
-_ASIDE = placement(about=(0.0, 0.0, 1.0), angle=-turn / 8)
+BAR_ASIDE = placement(about=(0.0, 0.0, 1.0), angle=-turn / 8)
 """Where the slot is on the cylinder while the first row is woven."""
 
 
@@ -49,6 +49,11 @@ def diameter(cylinder: Cylinder) -> float:
 def depth(cylinder: Cylinder) -> float:
     """Depth of the slot [m]: half the bar, or half the wall where that is less."""
     return min(diameter(cylinder), cylinder.outer - cylinder.inner) / 2
+
+
+def over(cylinder: Cylinder) -> float:
+    """How far the bar stands out of the cylinder [m]."""
+    return diameter(cylinder) - depth(cylinder)
 
 
 def width(cylinder: Cylinder) -> float:
@@ -74,8 +79,8 @@ def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tu
     wide, thick = params.cloth.width, diameter(cylinder)
     at = cylinder.outer - depth(cylinder) + thick / 2
     return (
-        Occurrence(tube, (_ASIDE.after(placement(z=-params.span / 2)),)),
-        Occurrence(attachment_bar(thick, wide), (_ASIDE.after(placement(x=at, z=-wide / 2)),)),
+        Occurrence(tube, (BAR_ASIDE.after(placement(z=-params.span / 2)),)),
+        Occurrence(attachment_bar(thick, wide), (BAR_ASIDE.after(placement(x=at, z=-wide / 2)),)),
     )
 
 
