@@ -12,6 +12,7 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.head_shape import BELL_CRANKS
 from ilmek.machines.weaver.knife import eye_at
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tool_parts import part_id
@@ -28,8 +29,10 @@ YARN_GUIDE = part_id("yarn-guide")
 RING, STEM = (5 * mm, 1 * mm, 4 * mm), 2 * mm
 """Diameter, wall and length of the guide, diameter of its stem [m]; assumed by this project, as all sizes here."""
 
-INSIDE, OVER, SHARE = 6 * mm, 9 * mm, 0.43
-"""Axis of the guide from the side plate, over the eye [m], and its share of the way from the eye to the tube."""
+INSIDE, OVER, ABOVE_AXLE, SHARE = 6 * mm, 9 * mm, 14.5 * mm, 0.43
+"""Axis of the guide from the side plate, over the eye and over the bell cranks' axle at least [m], and its share of the
+way from the eye to the tube.
+"""
 
 
 def yarn_line(weaver: Weaver) -> Float[np.ndarray, "3 3"]:
@@ -37,11 +40,12 @@ def yarn_line(weaver: Weaver) -> Float[np.ndarray, "3 3"]:
     shape, eye = weaver.shape, eye_at(weaver)
     tube_top = complex(shape.magazine.real, (shape.magazine + shape.magazine_size).imag)
     inner, face = stack_width(weaver.params) / 2, shape.body.real
+    axle = max(lever.pivot.imag for track, lever in shape.levers.items() if track in BELL_CRANKS)
     depth = face + SHARE * (tube_top.real - face)
     return np.array(
         [
             (0.0, tube_top.imag, tube_top.real + weaver.magazine.pitch / 2),
-            (inner - INSIDE, eye.imag + OVER, depth),
+            (inner - INSIDE, max(eye.imag + OVER, axle + ABOVE_AXLE), depth),
             (eye.real, eye.imag, face),
         ]
     )
