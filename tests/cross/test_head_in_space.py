@@ -4,7 +4,7 @@ Volumes by `manifold3d`; poses of the bodies by their joints.
 """
 
 from functools import cache
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any
 
 import numpy as np
@@ -17,9 +17,11 @@ from ilmek.machines.automated_loom.in_space.heads import head_alone
 from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams
 from ilmek.machines.weaver.case import BRACKET, FACE
 from ilmek.machines.weaver.followers import follower_id
-from ilmek.machines.weaver.parts import cam_id
+from ilmek.machines.weaver.knife import EYE
+from ilmek.machines.weaver.parts import TUBE, cam_id
 from ilmek.machines.weaver.transmissions import CAM_SHAFT
 from ilmek.machines.weaver.tree import HEAD, MAGAZINE, head_tree
+from ilmek.machines.weaver.yarn_lead import YARN_GUIDE, yarn_line
 from ilmek.part.contacts import groups
 from ilmek.part.part import Part
 from ilmek.part.poses import chains, poses
@@ -139,3 +141,27 @@ def test_every_part_of_a_head_touches_the_others(number: int) -> None:
     """One group; the motor of the carriage, under the rail's axis, is no part of what the carriage moves."""
     (group,) = groups(head_tree(_head(number)))
     assert {FACE, BRACKET} <= set(group.parts)
+
+
+@pytest.mark.parametrize("number", range(len(LOOMS)))
+def test_the_yarn_from_its_tube_to_the_eye_meets_no_part_of_the_head(number: int) -> None:
+    """As a thin bar along its line, beside the parts through which it is led."""
+    weaver = LOOM.design(LOOM.params.read(LOOMS[number])).weaver
+    led, line = {TUBE, YARN_GUIDE, EYE, FACE}, yarn_line(weaver) / mm
+    bars = [_bar(begin, end, weaver.params.yarn / mm / 2) for begin, end in pairwise(line)]
+    for piece in _pieces(_moving(number)):
+        if piece.part.id not in led:
+            for step in range(len(FEW)):
+                met = sum((piece.at(step) ^ bar).volume() for bar in bars)
+                assert met < VOLUME, (piece.part.id, round(np.degrees(FEW[step])), met)
+
+
+def _bar(begin: Float[np.ndarray, " 3"], end: Float[np.ndarray, " 3"], radius: float) -> Manifold:
+    along = end - begin
+    length = float(np.linalg.norm(along))
+    level = float(np.degrees(np.arccos(along[2] / length)))
+    return (
+        Manifold.cylinder(length, radius, circular_segments=12)
+        .rotate((0.0, level, float(np.degrees(np.arctan2(along[1], along[0])))))
+        .translate(tuple(begin.tolist()))
+    )

@@ -16,6 +16,8 @@ from hypothesis import strategies as st
 from small_programme import small_programme
 
 from ilmek.elements.carpet_yarns import YarnProperties
+from ilmek.elements.energy_chains import ENERGY_CHAINS, SHELF, ChainLines, chain_for, width_needed
+from ilmek.elements.field_devices import ROWS
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.safety_distances import FENCES, door, over, through
 from ilmek.io.plc.io_list import io_csv
@@ -23,7 +25,8 @@ from ilmek.io.plc.project import plc_project
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.creel import CORE, DENSITY, creel_of, package_size
+from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CORE, DENSITY, creel_of, package_size
+from ilmek.machines.automated_loom.equipment.energy_chain import CHAIN, chain_checks, energy_chain, share_of, trough_box
 from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
@@ -40,22 +43,49 @@ def _loom(**wishes: object) -> LoomDesign:
     return design(AutomatedLoomParams(**wishes))  # type: ignore[arg-type]
 
 
+def _kind(settings: dict[str, object]) -> LoomDesign:
+    (item,) = settings.items()
+    return _loom(**{item[0]: item[1]}) if not isinstance(item[1], dict) else _tiers()
+
+
+@cache
+def _tiers() -> LoomDesign:
+    return design(AutomatedLoomParams.read({"weaver.tube_tiers": "2"}))
+
+
 def _rows(heads: int) -> list[dict[str, str]]:
     program = plc_project(small_programme(heads=heads)).units[-1]
     return [row for row in csv.DictReader(io.StringIO(io_csv(program))) if row["address"]]
 
 
-def test_every_signal_has_its_parts_in_the_loom_and_every_device_its_signal() -> None:
-    placed = {part.id: number for part, number in loom_tree(_loom()).occurrences()}
-    rows = _rows(heads=1)
-    named = {part for row in rows for part in row["parts"].split()}
-    assert len(rows) == signals.signal_count(1)
-    assert named <= set(placed)
-    own = {part.id for tree in equipment_trees(_loom()) for part, _ in tree.occurrences()}
-    devices = {name for name in vars(signals).values() if isinstance(name, str) and name in own}
+_KINDS = (
+    *({"beat": beat} for beat in ("travelling", "comb", "linkage")),
+    {"knotting": "arms"},
+    {"weft": "rapier"},
+    {"tiers": {}},
+)
+
+
+def test_signals_and_devices_of_looms_of_all_kinds_name_each_other() -> None:
+    """Each sensor and motor of the list is named by a signal, and each part of a signal is in a loom of some kind."""
     wired = {signals.RESET, signals.ACTUATOR, signals.SUPPLY, signals.TERMINAL}  # in the safety circuit, or between
-    assert devices - wired == named
-    assert 2 * placed[signals.TERMINAL] >= len(rows)
+    named = {part for row in _rows(heads=1) for part in row["parts"].split()}
+    kinds, every = {"clutch and brake", *(row.kind for row in ROWS)}, set[str]()
+    for kind in _KINDS:
+        placed = {part.id: part for part, _ in loom_tree(_kind(kind)).occurrences()}
+        devices = {name for name, part in placed.items() if part.process in kinds}
+        drives = {name for name, part in placed.items() if part.purchase and part.purchase.drives}
+        creel = {BRAKE_ID}  # brakes are set by hand
+        assert (devices | drives) - creel - wired == named & set(placed)
+        every |= set(placed)
+    assert named <= every
+
+
+def test_terminals_and_controller_are_enough_for_the_signals() -> None:
+    rows, placed = _rows(heads=1), dict(loom_tree(_loom()).occurrences())
+    numbers = {part.id: number for part, number in placed.items()}
+    assert len(rows) == signals.signal_count(1)
+    assert 2 * numbers[signals.TERMINAL] >= len(rows)
 
 
 def test_a_signal_of_each_head_has_a_part_on_each() -> None:
@@ -159,3 +189,44 @@ def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
     assert len(places) == 3 * loom.weaver.params.tubes
     apart = min(math.dist(first, other) for first, other in combinations(places, 2))
     assert apart >= creel_of(loom).size + 50 * mm
+
+
+@given(st.sampled_from(ENERGY_CHAINS), st.integers(1, 40), st.floats(3e-3, 14e-3))
+def test_lines_of_a_chain_have_their_room_on_shelves(row, number: int, diameter: float) -> None:
+    """They are laid one by one, from the bottom shelf up, then beside these."""
+    pitch, x, y = 1.2 * diameter, 0.0, 0.0
+    if pitch > row.inner[1]:
+        return
+    for _ in range(number):
+        if y + pitch > row.inner[1] * (1 + 1e-9):
+            x, y = x + pitch, 0.0
+        y += pitch + SHELF
+    laid = ChainLines("tubes", number, diameter, 0.2, 8.0, 0.02)
+    assert width_needed(row, [laid]) == pytest.approx(x + pitch)
+
+
+@given(st.sampled_from(ENERGY_CHAINS), st.floats(0.2, 3.0), st.floats(-0.5, 0.5))
+def test_a_chain_is_as_long_as_its_runs_and_its_loop(row, travel: float, place: float) -> None:
+    """The moving end is `place` of the travel from its middle, where the chain is fixed: both runs and half a turn."""
+    free = row.length(travel) - 2 * row.pitch - math.pi * row.radius
+    lower = (free + place * travel) / 2
+    upper = lower - place * travel
+    assert lower >= -1e-12
+    assert upper >= -1e-12
+    assert lower + upper == pytest.approx(travel / 2)
+    assert lower <= travel / 2 * (1 + 1e-9)  # so the loop passes its share by its own reach only
+
+
+def test_the_chain_is_the_least_that_takes_the_lines_of_its_head() -> None:
+    many = tuple(chain_for([ChainLines("tubes", number, 5 * mm, 0.2, 8.0, 0.02)], 1.0) for number in (4, 16, 48))
+    assert sorted(many, key=lambda row: row.inner[0] * row.inner[1]) == list(many)
+    for made in (_loom(), _loom(heads=3)):
+        row = energy_chain(made)
+        assert all(check.ok for check in chain_checks(made))
+        parts = {line.part: line for line in whole_list(made).parts}
+        assert parts[CHAIN].number == made.heads
+        assert parts[CHAIN].length == pytest.approx(share_of(made) / 2 + math.pi * row.radius + 2 * row.pitch)
+        low, high = trough_box(made)
+        assert high[1] - low[1] > 2 * row.radius + row.outer[1]
+    thick = [ChainLines("hoses", 2, 30 * mm, 0.2, 8.0, 0.5)]
+    assert 8 * 30 * mm > chain_for(thick, 1.0).radius

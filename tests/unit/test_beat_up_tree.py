@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -9,14 +10,18 @@ from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from ilmek.elements.pin_joints import PIN_DIAMETERS
+from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.machines import beat_up, hammer
 from ilmek.machines.beat_up import BeatUpParams
 from ilmek.machines.beat_up.beater import beater_checks, beater_of
+from ilmek.machines.beat_up.carriage import BELT_WIDTH, shared_checks, shared_end
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.beat_up.tree import tree as tree_of_beat_up
 from ilmek.machines.beat_up.use import in_use
 from ilmek.machines.hammer import HammerParams
 from ilmek.machines.hammer.tree import tree as tree_of_hammer
+from ilmek.machines.link_tree import PIN_STEEL
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import is_closed, volume
 from ilmek.report import Report
@@ -117,3 +122,19 @@ def test_the_flywheel_has_the_inertia_that_the_clutch_needs() -> None:
     needed = next(one.value for one in beat_up.MACHINE.report(design).results if one.name == "start_flywheel")
     assert moments.inertia[2, 2] == pytest.approx(needed, rel=1e-9)
     assert math.isfinite(wheel.mass)
+
+
+@given(st.floats(20.0, 2000.0), st.integers(1, 8))
+def test_the_shaft_of_all_cranks_bears_torque_and_last_belt_at_its_shoulder(torque: float, number: int) -> None:
+    """Stress by the section's formulas; the next thinner journal would not last."""
+    linkage = beat_up.design(BeatUpParams())
+    end = shared_end(linkage, torque, number)
+    bent = torque / (number * linkage.params.width / 2) * BELT_WIDTH / 2
+    stress = math.hypot(32 * bent, math.sqrt(3) * 16 * torque) / (math.pi * end.journal**3)
+    checks = shared_checks(linkage, torque, number)
+    assert checks[0].value == pytest.approx(stress)
+    thinner = PIN_DIAMETERS.index(end.journal) - 1
+    if all(check.ok for check in checks) and thinner >= 0:
+        weaker = replace(end, shaft=end.journal, journal=PIN_DIAMETERS[thinner])
+        assert weaker.safety < LEAST_SAFETY or weaker.stress > PIN_STEEL.strength / LEAST_SAFETY
+    assert end.shaft > end.journal

@@ -18,8 +18,18 @@ from ilmek.elements.yarns import usual_warp_density
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.analysis import history, tension_of
-from ilmek.machines.warp_tension.cylinders import cylinders, shaft_end, slots_of, spacer_load, tension_beyond
+from ilmek.machines.warp_tension.attachment import (
+    ATTACHMENT_BAR,
+    depth,
+    diameter,
+    on_cylinder,
+    slot_stress,
+    slotted,
+    width,
+)
+from ilmek.machines.warp_tension.cylinders import STUB, cylinders, shaft_end, slots_of, spacer_load, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube, worst_load
+from ilmek.part.part import Part
 from ilmek.units import deg, mm, turn
 from ilmek.weaving.shed import shed_lengthening
 
@@ -200,3 +210,24 @@ def test_a_spacer_that_no_tube_can_be_fails_its_checks() -> None:
     made = MACHINE.report(MACHINE.design(WarpTensionParams(cloth=cloth(tension=1e4), width=6.0)))
     assert {"slope of the spacer", "deflection of the spacer"} <= {check.name for check in made.failed}
     assert not MACHINE.report(usual()).warnings
+
+
+def test_the_slot_takes_its_metal_from_the_tube_and_holds_the_bar_by_half() -> None:
+    made = usual()
+    params, upper = made.params, cylinders(made)[0]
+    tube = slotted(upper, params.span)
+    _, rod = on_cylinder(upper, Part("tube", "tube", "steel tube", "", tube, STUB), params)
+    whole = math.pi * (upper.outer**2 - upper.inner**2)
+    sagitta = upper.outer - math.sqrt(upper.outer**2 - (width(upper) / 2) ** 2)
+    taken = whole - tube.section.area
+    assert width(upper) * (depth(upper) - sagitta) < taken < width(upper) * depth(upper)
+    # The bending as if its plane went through the slot, by the exact moments of the section.
+    middle = tube.section.moment(1, 0) / tube.section.area
+    inertia = tube.section.moment(2, 0) - tube.section.area * middle**2
+    bent = abs(upper.load) * params.span**2 / 8 * (upper.outer - depth(upper)) / inertia
+    twisted = upper.torque / (2 * math.pi * (upper.inner + upper.outer - depth(upper)) ** 2 / 4)
+    twisted /= upper.outer - upper.inner - depth(upper)
+    assert slot_stress(params, upper) == pytest.approx(math.sqrt(bent**2 + 3 * twisted**2), rel=0.01)
+    lowest = math.hypot(*rod.positions[0].origin[:2]) - diameter(upper) / 2
+    assert lowest == pytest.approx(upper.outer - depth(upper))
+    assert {line.number for line in MACHINE.parts(made) if line.part == ATTACHMENT_BAR} == {2}

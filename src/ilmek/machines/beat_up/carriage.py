@@ -9,12 +9,14 @@ import cmath
 import math
 from collections.abc import Sequence
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL
 from ilmek.elements.pin_joints import PIN_DIAMETERS
+from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.machines.beat_up.beam import BEFORE_PIVOT
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
@@ -23,10 +25,10 @@ from ilmek.machines.link_tree import PIN_STEEL
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import drilled
-from ilmek.part.shapes import Prism, bar, box
+from ilmek.part.shapes import Prism, bar, box, stepped
 from ilmek.part.tree import Occurrence, in_line
 from ilmek.plane.contours import polygon, rounded_hull
-from ilmek.report import Hole
+from ilmek.report import Check, Hole, at_least, at_most
 from ilmek.units import in_mm, mm, round_size
 
 AXIS_SIDE = 80 * mm
@@ -38,11 +40,14 @@ BLOCK_HEIGHT, BLOCK_LENGTH, BLOCK_MASS = 20 * mm, 120 * mm, 1.5
 PLATE = "beat-up/carriage-plate"
 """Id of the plate of crank and rocker."""
 
-SHEAR = 40e6
-"""Allowed shear stress of the shaft that drives the cranks of a comb [Pa]; assumed by this project."""
+SHARED_SHAFT = "beat-up/shared-shaft"
+"""Id of the shaft that drives the cranks of a comb."""
 
 BELT_WIDTH = 30 * mm
 """Room for the belt from it to a crank, along the pins [m]: assumed by this project."""
+
+NECK = 20 * mm
+"""Length of the journal of that shaft before its drive [m]: assumed by this project."""
 
 _AROUND = 10 * mm
 """Of the plate about the crank's pin, beyond the width of a link [m]: assumed by this project."""
@@ -102,26 +107,67 @@ def shared_axis(linkage: BeatUp) -> complex:
     return shaft(linkage) + away * cmath.exp(0.25j * math.pi)
 
 
-def shared_diameter(torque: float) -> float:
-    """The thinnest stock that bears a torque [N m]: 16 M / (pi d³) within `SHEAR`; the thickest where none does."""
-    least = (16 * torque / (math.pi * SHEAR)) ** (1 / 3)
-    return next((size for size in PIN_DIAMETERS if size >= least), PIN_DIAMETERS[-1])
+def shared_end(linkage: BeatUp, torque: float, number: int) -> Shoulder:
+    """The end of the shaft of a number of cranks at its drive: the thinnest stock that bears a torque [N m] at its
+    shoulder, and the last belt's pull beside it; the thickest where none does.
+
+        M = T / (n r) b / 2            r radius and b width of a belt; the torque changes its sign with each beat
+    """
+    moment = 2 * torque / (number * linkage.params.width) * BELT_WIDTH / 2
+    offered = [
+        Shoulder(whole, journal, PIN_STEEL.tensile, moment, torque) for journal, whole in pairwise(PIN_DIAMETERS)
+    ]
+    return next((own for own in offered if _bears(own)), offered[-1])
+
+
+def _bears(end: Shoulder) -> bool:
+    return all(check.ok for check in _shoulder_checks(end))
+
+
+def shared_checks(linkage: BeatUp, torque: float, number: int) -> tuple[Check, ...]:
+    """Stress and fatigue of that shaft at its shoulder; torque [N m] of a number of cranks."""
+    return _shoulder_checks(shared_end(linkage, torque, number))
+
+
+def _shoulder_checks(end: Shoulder) -> tuple[Check, ...]:
+    cure, parts = "set a lower speed of the crank", (SHARED_SHAFT,)
+    yielding, source = f"{PIN_STEEL.name}, yield over {LEAST_SAFETY:g}: DIN 743-1", "Goodman, DIN 743-2"
+    return (
+        at_most(
+            "stress of the cranks' shaft at its drive",
+            end.stress,
+            PIN_STEEL.strength / LEAST_SAFETY,
+            "MPa",
+            yielding,
+            cure=cure,
+            parts=parts,
+        ),
+        at_least(
+            "fatigue of the cranks' shaft at its shoulder",
+            end.safety,
+            LEAST_SAFETY,
+            "1",
+            f"{source}, fillet of {in_mm(end.fillet)}",
+            cure=cure,
+            parts=parts,
+        ),
+    )
 
 
 def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> tuple[Occurrence, ...]:
     """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
-    diameter, thickness = shared_diameter(torque), linkage.params.thickness
+    end, thickness = shared_end(linkage, torque, len(stations)), linkage.params.thickness
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
-    size = round_size(diameter)
-    shared = Part("beat-up/shared-shaft", "shaft of all cranks", "turned part", size, bar(diameter, length), PIN_STEEL)
-    pulley = max(linkage.params.width / 2, diameter / 2 + _AROUND)
+    size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
+    shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
+    pulley = max(linkage.params.width / 2, end.shaft / 2 + _AROUND)
     ring = rounded_hull(np.array([0, axis]), pulley)
     title = "belt and pulleys of a crank"
-    shape = Prism(drilled(ring, [Hole(axis, diameter / 2)]), BELT_WIDTH)
+    band = Prism(drilled(ring, [Hole(axis, end.shaft / 2)]), BELT_WIDTH)
     bought = Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley)
-    belt = Part("beat-up/shared-belt", title, "belt and pulleys", shape=shape, purchase=bought, envelope=True)
+    belt = Part("beat-up/shared-belt", title, "belt and pulleys", shape=band, purchase=bought, envelope=True)
     places = tuple(placement(z=station + belt_begin) for station in stations)
     return Occurrence(shared, (placement(axis.real, axis.imag, begin),)), Occurrence(belt, places)
 

@@ -39,7 +39,7 @@ from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, in_mm, turn
 from ilmek.weaving.fell import Fabric
 
-MOTOR = "beat-up/motor"
+MOTOR, CLUTCH = "beat-up/motor", "beat-up/clutch"
 """Id of the motor of the crank."""
 
 CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0)
@@ -151,7 +151,7 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
 def start_checks(found: CrankStart) -> tuple[Check, ...]:
     """Whether a motor, and a clutch where there is one, start and stop the crank, in the time between two beats."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
-    source, driven = "motor table, margin 1.25", ("beat-up/motor",)
+    source, driven = "motor table, margin 1.25", (MOTOR,)
     motor = must("a motor starts and stops the crank", found.pair is not None, source, cure=slower, parts=driven)
     every, source = found.duty.every, "time from beat to beat"
     in_time = every and at_most("time of a beat", found.beat_time, every, "s", source, cure=slower, parts=driven)
@@ -159,7 +159,7 @@ def start_checks(found: CrankStart) -> tuple[Check, ...]:
     if found.drive == "servo":
         return made
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
-    clutch = ("beat-up/clutch",)
+    clutch = (CLUTCH,)
     torque = at_most(
         "torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower, parts=clutch
     )
@@ -180,9 +180,7 @@ def _coupled(found: CrankStart) -> Iterator[Part]:
     wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
     bought = Bought(format_quantity(size, "Nm"), mass)
     name = "clutch and brake"
-    yield Part(
-        "beat-up/clutch", f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True
-    )
+    yield Part(CLUTCH, f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True)
     if found.start_flywheel > 0:
         wheel = _wheel(found.start_flywheel)
         size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"

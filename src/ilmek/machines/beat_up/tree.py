@@ -22,6 +22,7 @@ from ilmek.machines.beat_up.carriage import (
     BELT_WIDTH,
     BLOCK_HEIGHT,
     BLOCK_LENGTH,
+    NECK,
     beam_corner,
     carried,
     driving,
@@ -31,8 +32,8 @@ from ilmek.machines.beat_up.carriage import (
     plate_part,
     shaft,
     shared_axis,
-    shared_diameter,
     shared_drive,
+    shared_end,
     slide_block,
 )
 from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
@@ -158,13 +159,13 @@ def loops(design: BeatUp) -> tuple[Closure, ...]:
 
 def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:
     """What stands of crank-rockers at stations along z [m]: the beam, a plate with its pins at each, and the drive."""
-    shared = shared_diameter(start.start_torque)
+    shared = shared_end(design, start.start_torque, len(stations)).shaft
     plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
     parts: dict[str, Occurrence] = {}
     for one in (part for z in stations for part in carried(design, plate, z)):
         before = parts[one.part.id].positions if one.part.id in parts else ()
         parts[one.part.id] = replace(one, positions=(*before, *one.positions))
-    end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH
+    end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH + NECK
     axis = complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
     belts = shared_drive(design, start.start_torque, stations)
     drive = driving(start_parts(start), end, axis)

@@ -24,6 +24,7 @@ from ilmek.elements.prices import PRICES
 from ilmek.machines import beat_up
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
+from ilmek.machines.beat_up.carriage import shared_checks
 from ilmek.machines.beat_up.crank_start import (
     CLUTCH_MASS,
     CLUTCHES,
@@ -102,6 +103,7 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
         ).with_cure("set a smaller hammer.leaf_reach, or narrower links", PART_IDS["rocker"], BAR_ID),
         *beat_up_strength_checks(found.strength),
         *start_checks(found.start),
+        *shared_checks(found.one, found.start.start_torque, found.number),
         *found.beam.checks,
     )
 

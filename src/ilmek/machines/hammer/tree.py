@@ -36,7 +36,7 @@ from ilmek.units import format_quantity, mm
 COMB = "hammer/comb"
 """Body of the comb."""
 
-_MOTOR = "hammer/motor"
+MOTOR = "hammer/motor"
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
@@ -183,7 +183,7 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
     drive, load = found.drive, found.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     row = drive.motor if drive else None
-    motor = catalogue.motor(_MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
+    motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
     if drive is None:
         return (motor,)
     return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row), motor
@@ -224,4 +224,4 @@ def _on_axes(hammer: Hammer) -> Tree:
     )
     axes = RigidBody("hammer/axes", parts)
     comb = (*_comb(hammer), Occurrence(block, blocks))
-    return Tree((axes, RigidBody(COMB, comb, axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0), motor=_MOTOR))))
+    return Tree((axes, RigidBody(COMB, comb, axes.id, Joint(JointKind.SLIDE, (0.0, 1.0, 0.0), motor=MOTOR))))

@@ -9,7 +9,8 @@ from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis
-from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STUB, Cylinder, part_id
+from ilmek.machines.warp_tension.attachment import attachment_checks
+from ilmek.machines.warp_tension.cylinders import LEAST_WALL, STUB, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign, outer_radii_min, tubes_within_limits
 from ilmek.report import Check, Table, at_least, at_most, columns
 from ilmek.units import format_number, format_quantity, mm
@@ -69,6 +70,7 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
             SPACER_CURE, *_SPACER
         ),
         *_end_checks(found, case),
+        *attachment_checks(params, cylinders(found.design)[:2]),
         *_warp_checks(found),
     )
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.warp_tension.attachment import on_cylinder, slotted
 from ilmek.machines.warp_tension.cylinders import STUB, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
@@ -66,6 +67,8 @@ def _bodies(
     """
     name, seat = cylinder.name, cylinder.seat
     shell, geared, driving = common
+    plain = (Occurrence(shell, (placement(z=-params.span / 2),)),)
+    shells = plain if name == SPACER else on_cylinder(cylinder, shell, params)
     far = params.span / 2 + params.stub
     rim, journal = min(RIM, params.stub / 2), seat.bearing.bore
     steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
@@ -83,7 +86,7 @@ def _bodies(
         RigidBody(
             part_id(f"{name} cylinder"),
             (
-                Occurrence(shell, (placement(z=-params.span / 2),)),
+                *shells,
                 Occurrence(driven, (placement(z=inside),)),
                 Occurrence(end, (_side(z=inside, flipped=True),)),
                 keys,
@@ -109,7 +112,7 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     """The tubes of upper and lower cylinder, which are alike [thesis 3.1], and of the spacer."""
     steel = replace(MATERIALS["structural steel"], density=design.params.density)
     upper, _, spacer = cylinders(design)
-    plain = _made("cylinder", "cylinder", "steel tube", upper.shell, _size(upper), steel)
+    plain = _made("cylinder", "cylinder", "steel tube", slotted(upper, design.params.span), _size(upper), steel)
     return plain, plain, _made("spacer", "spacer cylinder", "steel tube", spacer.shell, _size(spacer), steel)
 
 

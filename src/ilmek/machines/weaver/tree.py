@@ -25,6 +25,7 @@ from ilmek.machines.weaver.parts import MOTOR, cam_id, case_parts, shaft_parts
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.transmissions import CAM_SHAFT, transmissions
 from ilmek.machines.weaver.turning import turning_bodies
+from ilmek.machines.weaver.yarn_lead import yarn_guide
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.units import turn
@@ -73,7 +74,14 @@ def _without_guide(weaver: Weaver) -> Tree:
         Occurrence(stands.part, tuple(about.after(position) for position in stands.positions))
         for stands in case_parts(weaver)
     )
-    stands = (*closing_parts(weaver), guide(weaver), *axles(weaver), *standing_parts(weaver), *knife_stands(weaver))
+    stands = (
+        *closing_parts(weaver),
+        guide(weaver),
+        *axles(weaver),
+        *standing_parts(weaver),
+        *knife_stands(weaver),
+        *yarn_guide(weaver),
+    )
     upright, carried = placement(about=(0.0, 0.0, 1.0), angle=turn / 4), carried_parts(weaver)
     tools = (
         replace(body, occurrences=(*body.occurrences, *carried.get(body.id, ())))

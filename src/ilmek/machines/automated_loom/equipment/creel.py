@@ -16,21 +16,15 @@ import numpy as np
 
 from ilmek.elements.field_devices import BRAKE
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.energy_chain import CONDUIT_SIZE, trough_box
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_posts
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.part.extents import Corner, shape_box
 from ilmek.records import record
 from ilmek.units import mm
 
 PACKAGE, PEG, BRAKE_ID = part_id("yarn-package"), part_id("peg"), part_id("yarn-brake")
-CONDUIT, DUCT, TROUGH, CHAIN = (
-    part_id("yarn-conduit"),
-    part_id("duct"),
-    part_id("chain-trough"),
-    part_id("energy-chain"),
-)
+CONDUIT, DUCT = part_id("yarn-conduit"), part_id("duct")
 """Ids of parts."""
 
 DENSITY, CORE = 350.0, 40 * mm
@@ -42,23 +36,13 @@ BETWEEN = 60 * mm
 HIGHEST = 1.9
 """Axis of the highest package over the floor [m]: a person changes it from the floor; assumed by this project."""
 
-TUBE_OUTER, FILLED, CONDUIT_MASS = 5 * mm, 0.5, 0.02
-"""Outer diameter of a conduit of PTFE [m], share of a duct that conduits fill, mass per length [kg/m]."""
+FILLED = 0.5
+"""Share of a duct that conduits fill."""
 
 LEAST_DUCT, DUCT_MASS = 40 * mm, 0.6
 """Least side of the duct [m], mass per length of one of that side [kg/m]."""
 
-CHAIN_SIZE, CHAIN_MASS = (40 * mm, 66 * mm), 1.2
-"""Width and height of an energy chain with its bend [m], mass per length [kg/m]: a class of catalogue parts."""
-
-WALL, PLAY = 2 * mm, 1 * mm
-"""Of the trough, and between it and a chain at each side [m]."""
-
 _STEP = 10 * mm
-
-
-TROUGH_SIZE = CHAIN_SIZE[0] + 2 * (WALL + PLAY), CHAIN_SIZE[1] + WALL + 2 * PLAY
-"""Width and height of the trough [m]."""
 
 
 @record
@@ -113,7 +97,7 @@ def creel_of(loom: LoomDesign) -> Creel:
     near, fence = surroundings(loom), fence_of(loom)
     size, number = package_size(loom.params.package_mass), loom.heads * loom.weaver.params.tubes
     foot = near.of(part_id("front-foot"))[0]
-    side = max(LEAST_DUCT, math.ceil(TUBE_OUTER * math.sqrt(number / FILLED) / _STEP) * _STEP)
+    side = max(LEAST_DUCT, math.ceil(CONDUIT_SIZE * math.sqrt(number / FILLED) / _STEP) * _STEP)
     low, high = trough_box(loom)
     height = max(float(low[1] + high[1]) / 2, float(foot.high[1]) + side)
     end, start = float(foot.high[0]) + side / 2, fence.left
@@ -150,14 +134,3 @@ def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, si
         if near.free(low, np.array([end, height + half, z + half]), but=foot.part):
             return z
     return wished
-
-
-def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
-    """Corners of the trough under the heads' rail, in the axes of the scene while the heads knot [m]."""
-    body, rail, position = surroundings(loom).occurrence((part_id("rail"),))
-    assert rail.shape is not None
-    corners = np.array(shape_box(rail.shape))
-    points = body.positions[0].after(position).points(corners)
-    below, middle, half = float(points[:, 1].min()), float(points[:, 2].mean()), TROUGH_SIZE[0] / 2
-    long = loom.task.width / 2 - RAIL_AXIS
-    return np.array([-long, below - TROUGH_SIZE[1], middle - half]), np.array([long, below, middle + half])

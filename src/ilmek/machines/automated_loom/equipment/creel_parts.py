@@ -1,4 +1,4 @@
-"""The creel as bodies: its frame, pegs with packages, brakes; the conduits' duct; the chains in their trough."""
+"""The creel as bodies: its frame, pegs with packages, brakes; the conduits' duct."""
 
 import math
 from collections.abc import Iterator
@@ -11,61 +11,46 @@ from ilmek.elements.field_devices import BRAKE, YARN_SENSOR
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import (
-    BETWEEN,
     BRAKE_ID,
-    CHAIN,
-    CHAIN_MASS,
-    CHAIN_SIZE,
     CONDUIT,
-    CONDUIT_MASS,
     CORE,
     DUCT,
     DUCT_MASS,
     LEAST_DUCT,
     PACKAGE,
     PEG,
-    PLAY,
-    TROUGH,
-    TROUGH_SIZE,
-    TUBE_OUTER,
-    WALL,
     Creel,
     creel_of,
-    trough_box,
 )
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, device, placed
+from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS, CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, box, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import polygon
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, mm
 
 _SECTION = HollowSquare(POST, 3 * mm)
 
 _UPRIGHTS = 1.5
 """Greatest distance of two uprights [m]; assumed by this project."""
 
-_ALONG = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
-"""A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
-
 
 def creel_trees(loom: LoomDesign) -> Iterator[MachineTree]:
-    """The creel with the duct on the floor, and the chains in their trough on the rail."""
+    """The creel with the duct on the floor."""
     creel = creel_of(loom)
     bodies = (
         RigidBody(part_id("creel"), tuple(_creel(loom, creel))),
         RigidBody(part_id("yarn-duct"), tuple(_duct(loom, creel))),
     )
     yield MachineTree("automated-loom", Tree(bodies))
-    yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
 
 
 def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
@@ -120,7 +105,7 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     duct = Part(
         DUCT, "duct of yarns and cables", "duct", size, shape, purchase=Bought("slotted duct", mass, length=long)
     )
-    yield Occurrence(duct, (placement(start, height, depth).after(_ALONG),))
+    yield Occurrence(duct, (placement(start, height, depth).after(ACROSS),))
     clear, middle = height - side / 2 - float(foot.high[1]), float(foot.low[0] + foot.high[0]) / 2
     if clear > PLAY:
         stand = member("duct-stand", "stand of the duct", _SECTION, clear)
@@ -131,12 +116,12 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         CONDUIT,
         "bundle of the yarns' conduits",
         "conduit",
-        f"{creel.number} tubes of PTFE, {format_quantity(TUBE_OUTER, 'mm')}",
+        f"{creel.number} tubes of PTFE, {format_quantity(CONDUIT_SIZE, 'mm')}",
         box(within, 0.8 * within, long),
         purchase=Bought("PTFE", CONDUIT_MASS * creel.number * each, length=creel.number * each),
         envelope=True,
     )
-    yield Occurrence(bundle, (placement(start, height - 0.1 * within, depth).after(_ALONG),))
+    yield Occurrence(bundle, (placement(start, height - 0.1 * within, depth).after(ACROSS),))
 
 
 def _channel(wide: float, high: float, wall: float) -> Profile:
@@ -145,34 +130,3 @@ def _channel(wide: float, high: float, wall: float) -> Profile:
     corners = [-x + 1j * y, -x - 1j * y, x - 1j * y, x + 1j * y, inner + 1j * y]
     corners += [inner - 1j * (y - wall), -inner - 1j * (y - wall), -inner + 1j * y]
     return Profile(polygon(np.array(corners)))
-
-
-def _chains(loom: LoomDesign) -> RigidBody:
-    """The trough under the rail, and in it the chain of each head over its share of the row."""
-    low, high = trough_box(loom)
-    body, _, _ = surroundings(loom).occurrence((part_id("rail"),))
-    own = body.positions[0].inverse
-    middle, long = (low + high) / 2, float(high[0] - low[0])
-    section = _channel(TROUGH_SIZE[0], TROUGH_SIZE[1], WALL)
-    trough = Part(TROUGH, "trough of the energy chains", "laser-cut part", "folded sheet", Prism(section, long), STEEL)
-    share = long / loom.heads
-    # A head whose share is short has a gap of half of it.
-    gap = min(BETWEEN, share / 2)
-    chain = Part(
-        CHAIN,
-        "energy chain of a head with cables and conduits",
-        "energy chain",
-        "",
-        box(*CHAIN_SIZE, share - gap),
-        purchase=Bought("chain 40 mm", CHAIN_MASS * share, length=share),
-        envelope=True,
-    )
-    y, z = float(low[1]) + WALL + CHAIN_SIZE[1] / 2, float(middle[2])
-    starts = [float(low[0]) + k * share + gap / 2 for k in range(loom.heads)]
-    return RigidBody(
-        part_id("chains"),
-        (
-            Occurrence(trough, (own.after(placement(float(low[0]), float(middle[1]), z).after(_ALONG)),)),
-            Occurrence(chain, tuple(own.after(placement(x, y, z).after(_ALONG)) for x in starts)),
-        ),
-    )

@@ -1,13 +1,31 @@
 """Which part each signal of the control comes from or goes to: the wiring list of a loom.
 
 The signals are those of the control's program that have an address; a signal of each head has one part on each head. A
-fault is reported as a number by the motion controller, which knows it from the sensor named beside it.
+fault is reported as a number by the motion controller, which knows it from the sensor named beside it; its drives and
+their sensors are named beside the signal that they carry out.
 """
 
 from collections.abc import Mapping
 from types import MappingProxyType
 
 from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.own_parts import RETREAT_MOTOR
+from ilmek.machines.beat_up.crank_start import CLUTCH
+from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
+from ilmek.machines.beat_up.travel import MOTOR as SLIDE_MOTOR
+from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
+from ilmek.machines.knotting_dyad.arms import SERVOS
+from ilmek.machines.knotting_dyad.tree import CENTRE_MOTOR
+from ilmek.machines.shedding.stack import part_id as shedding_part
+from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
+from ilmek.machines.weaver.carriage_drive import CARRIAGE_MOTOR
+from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR, TIER_MOTOR
+from ilmek.machines.weaver.knife import CUTTER_MOTOR
+from ilmek.machines.weaver.magazine_parts import INDEX_SENSOR
+from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
+from ilmek.machines.weft.carriers import BOX_MOTOR
+from ilmek.machines.weft.carriers import MOTOR as WEFT_MOTOR
+from ilmek.machines.weft.rapier_tree import EDGE_MOTOR
 
 STOP, RESET = part_id("emergency-stop"), part_id("reset-button")
 INTERLOCK, ACTUATOR = part_id("door-interlock"), part_id("interlock-actuator")
@@ -17,6 +35,14 @@ TENSION, RETREATED = part_id("tension-sensor"), part_id("retreat-sensor")
 HEAD_ANGLE, BEAT_ANGLE, SHED_ANGLE = part_id("head-encoder"), part_id("beat-encoder"), part_id("shed-encoder")
 WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-sensor"), part_id("yarn-sensor")
 """Ids of the parts."""
+
+SHEDDING_MOTOR, CYLINDER_MOTOR = shedding_part("motor"), cylinder_part("motor")
+"""Ids of motors."""
+
+_KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR)
+_TUBE = (COLOUR_MOTOR, TIER_MOTOR, INDEX_SENSOR)
+_ROW = (SHEDDING_MOTOR, RETREAT_MOTOR, WEFT_MOTOR, BOX_MOTOR, EDGE_MOTOR)
+_BEAT = (CRANK_MOTOR, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)
 
 _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EmergencyStop": (STOP, RELAY),
@@ -32,16 +58,18 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EndDone": (CONTROLLER,),
     "EndFault": (CONTROLLER, WEFT_STOP, WARP_STOP),
     "Halt": (RELAY,),
-    "TieStart": (CONTROLLER,),
-    "TieColumn": (CONTROLLER,),
-    "TieTube": (CONTROLLER,),
-    "EndStart": (CONTROLLER,),
-    "EndCode": (CONTROLLER,),
+    "TieStart": (CONTROLLER, *_KNOT),
+    "TieColumn": (CONTROLLER, CARRIAGE_MOTOR),
+    "TieTube": (CONTROLLER, *_TUBE),
+    "EndStart": (CONTROLLER, *_ROW),
+    "EndCode": (CONTROLLER, *_BEAT),
     "JogStart": (CONTROLLER,),
 }
 
 SIGNALS: Mapping[str, tuple[str, ...]] = MappingProxyType(_BY_SIGNAL)
-"""Ids of the parts of each signal, the one that is wired to the control first."""
+"""Ids of the parts of each signal, the one that is wired to the control first, then what the motion controller reads or
+drives for it; of the kinds of beat, weft and knotting a loom has its own.
+"""
 
 PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieFault", "TieStart", "TieColumn", "TieTube"))
 """Signals of which each head has its own."""

@@ -7,6 +7,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.circuit import circuit, circuit_checks
 from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CONDUIT, PACKAGE, PEG
 from ilmek.machines.automated_loom.equipment.creel_parts import creel_trees
+from ilmek.machines.automated_loom.equipment.energy_chain import chain_checks, chain_trees
 from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
@@ -33,6 +34,7 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
         MachineTree(_NAME, guards(loom)),
         MachineTree(_NAME, circuit(loom)),
         *creel_trees(loom),
+        *chain_trees(loom),
     )
 
 
@@ -57,5 +59,5 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
 
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """The checks of guards, sensors, circuit and yarn path."""
-    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *yarn_checks(loom))
+    """The checks of guards, sensors, circuit, chains and yarn path."""
+    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *chain_checks(loom), *yarn_checks(loom))

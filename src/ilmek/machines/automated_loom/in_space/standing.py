@@ -5,6 +5,7 @@ from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
     COARSE,
+    FINE,
     STANDS,
     MachineTree,
     along_track,
@@ -16,11 +17,15 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
+from ilmek.machines.warp_tension.attachment import BAR_ASIDE, diameter, over
+from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
-from ilmek.part.shapes import tube
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
 from ilmek.part.tree import JointKind, Tree
+from ilmek.plane.contours import circle, keyed_bore
 from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
 
@@ -30,12 +35,14 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     listed = parts_of_loom(loom)
     retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
     warps = _warp_cylinders(loom).bodies
-    turned = tuple(body for body in warps if body.joint.kind is JointKind.PIN)
+    turned = [body for body in warps if body.joint.kind is JointKind.PIN]
+    winding, slotted = (tuple(body for body in turned if (SPACER in body.id) is own) for own in (False, True))
     beside = tuple(body for body in warps if body not in turned)
     return (
         MachineTree("automated-loom", frame_tree(loom, listed.frame, motors(listed.parts), retreat)),
         MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
-        MachineTree("warp-tension", Tree(turned), deviations=(COARSE,)),
+        MachineTree("warp-tension", Tree(winding), deviations=(FINE, COARSE)),
+        MachineTree("warp-tension", Tree(slotted), deviations=(COARSE,)),
         MachineTree("warp-tension", Tree(beside)),  # finer: screws in their holes
         *compensator(loom),
     )
@@ -55,9 +62,11 @@ def _warp_cylinders(loom: LoomDesign) -> Tree:
 
 
 def carpet_roll(loom: LoomDesign) -> ScenePart:
-    """The room of the whole carpet on the lower cylinder."""
-    side, half = loom.side, half_width(loom)
-    roll = tube(2 * side.roll, side.roll - side.lower.radius, 2 * half).mesh(COARSE)
-    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
+    """The room of the whole carpet on the lower cylinder, open over its attachment bar and where this goes in a row."""
+    side, half, lower = loom.side, half_width(loom), cylinders(loom.warp_tension)[1]
+    wide = diameter(lower) + 4 * loom.task.cloth.row_distance
+    bore = keyed_bore(side.lower.radius, wide, over(lower) + loom.task.yarns.warp.diameter)
+    roll = Prism(Profile(circle(0j, side.roll), (bore,)), 2 * half).mesh(FINE)
+    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH).after(BAR_ASIDE)
     solid = Solid(along.points(roll.points), roll.triangles)
     return room_part("whole carpet on the lower cylinder", STANDS, solid, "automated-loom")

@@ -1,0 +1,188 @@
+"""The energy chains of the heads: their lines, the chain that takes these, the trough below the rail, and the checks.
+
+A chain is fixed in the middle of its head's share of the row. Its loop is ahead of the head by half the way, so that it
+reaches past the share by R + h / 2 where the head is at its right end; the moving end is half of that to the left of
+its head. The chains are drawn as the room that they take at all positions of their heads, side by side in the trough.
+"""
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.columns import STEEL
+from ilmek.elements.energy_chains import ChainLines, EnergyChain, bend_needed, chain_for, width_needed
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.surroundings import surroundings
+from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.in_space.heads import arms
+from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.tree import HEAD, head_tree
+from ilmek.part.extents import Corner, shape_box
+from ilmek.part.part import Bought, Part
+from ilmek.part.placement import ALONG_WIDTH, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, box
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.plane.contours import polygon
+from ilmek.report import Check, at_least, at_most
+from ilmek.units import mm, turn
+
+TROUGH, CHAIN, CHAIN_ARM = part_id("chain-trough"), part_id("energy-chain"), part_id("chain-arm")
+"""Ids of parts."""
+
+CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
+"""Name, outer diameter of a conduit of PTFE [m], mass per length [kg/m]."""
+
+WALL, PLAY = 2 * mm, 1 * mm
+"""Of the trough, and between it and a chain at each side [m]."""
+
+ARM = (30 * mm, 5 * mm)
+"""Width and depth of the arm of a head to its chain [m]; assumed by this project."""
+
+ACROSS = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
+"""A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
+
+
+@lru_cache(maxsize=4)
+def chain_lines(loom: LoomDesign) -> tuple[ChainLines, ...]:
+    """What a chain carries: a conduit for each tube, a cable for each motor, each sensor and the encoder of a head."""
+    trees = head_tree(loom.weaver), *(branch.tree for branch in arms(loom))
+    parts = [own for tree in trees for own in tree.occurrences()]
+    motors = sum(number for part, number in parts if part.purchase and part.purchase.drives)
+    sensors = sum(number for part, number in parts if part.process == "sensor")
+    return (
+        ChainLines(CONDUITS, loom.weaver.params.tubes, CONDUIT_SIZE, 0.2, 8.0, CONDUIT_MASS),
+        ChainLines("motor cables", motors, 7.5 * mm, 0.1, 8.0, 0.09),
+        ChainLines("sensor cables", sensors + 1, 5 * mm, 0.1, 10.0, 0.035),
+    )
+
+
+def share_of(loom: LoomDesign) -> float:
+    """Travel of a head along the row [m]."""
+    return loom.task.cloth.width / loom.heads
+
+
+def energy_chain(loom: LoomDesign) -> EnergyChain:
+    """The chain of a head."""
+    return chain_for(chain_lines(loom), share_of(loom))
+
+
+def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
+    """Corners of the trough under the heads' rail, in the axes of the scene while the heads knot [m]: it reaches back
+    to the arms of the heads, and its front is below the rail.
+    """
+    row, (body, rail, position) = energy_chain(loom), surroundings(loom).occurrence((part_id("rail"),))
+    assert rail.shape is not None
+    points = body.positions[0].after(position).points(np.array(shape_box(rail.shape)))
+    below, front = float(points[:, 1].min()), float(points[:, 2].max())
+    wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
+    back = min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide)
+    long = (loom.task.cloth.width + past) / 2
+    return np.array([-long, below - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
+
+
+def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
+    """Trough and chains on the rail, and on each head the arm that moves the end of its chain."""
+    yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
+    shape, side = loom.weaver.shape, float(trough_box(loom)[1][1])
+    top = shape.rail - RAIL_AXIS / 2
+    arm = Part(
+        CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + PLAY), STEEL
+    )
+    upright = placement(0.0, side - PLAY, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
+    yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
+
+
+def _chains(loom: LoomDesign) -> RigidBody:
+    """The trough under the rail, its rear wall as high as a run, and in it the room of the chain of each head."""
+    (low, high), row, lines = trough_box(loom), energy_chain(loom), chain_lines(loom)
+    body, _, _ = surroundings(loom).occurrence((part_id("rail"),))
+    own, size = body.positions[0].inverse, high - low
+    wide, tall, rear = float(size[2]), float(size[1]), row.outer[1]
+    # x to the back, from the front of the rail; y up from the bottom.
+    corners = (
+        (0, 0),
+        (wide, 0),
+        (wide, rear),
+        (wide - WALL, rear),
+        (wide - WALL, WALL),
+        (WALL, WALL),
+        (WALL, tall),
+        (0, tall),
+    )
+    section = Profile(polygon(np.array([complex(*corner) for corner in corners])))
+    trough = Part(
+        TROUGH, "trough of the energy chains", "laser-cut part", "folded sheet", Prism(section, float(size[0])), STEEL
+    )
+    share, (loop, _) = share_of(loom), row.loop
+    long, filled = row.length(share), sum(one.number * one.line_mass for one in lines if one.name != CONDUITS)
+    room = float(size[0]) / loom.heads
+    chain = Part(
+        CHAIN,
+        "energy chain of a head with its cables",
+        "energy chain",
+        "",
+        box(row.outer[0], loop, room - PLAY),
+        purchase=Bought(row.name, (row.line_mass + filled) * long, length=long),
+        envelope=True,
+    )
+    middle = placement(0.0, float(low[1]) + WALL + PLAY + loop / 2, float(high[2] + low[2]) / 2)
+    starts = (placement(float(low[0]) + k * room) for k in range(loom.heads))
+    corner = placement(float(low[0]), float(low[1]), float(high[2]))
+    return RigidBody(
+        part_id("chains"),
+        (
+            Occurrence(trough, (own.after(corner).after(ACROSS),)),
+            Occurrence(chain, tuple(own.after(middle).after(start).after(ACROSS) for start in starts)),
+        ),
+    )
+
+
+def chain_checks(loom: LoomDesign) -> tuple[Check, ...]:
+    """Fill, bend, free length of the upper run, and the loop beside the neighbour's end and within the rail's ends."""
+    row, lines, parts = energy_chain(loom), chain_lines(loom), (CHAIN,)
+    past, cure = row.loop[1], "set fewer colours, or more heads"
+    count = ", ".join(f"{one.number} {one.name}" for one in lines)
+    ends = loom.task.rail_length - loom.task.cloth.width
+    return (
+        at_most(
+            "energy chain: width of its lines",
+            width_needed(row, lines),
+            row.inner[0],
+            "mm",
+            f"inner width of {row.name}; {count} with the makers' room",
+            cure=cure,
+            parts=parts,
+        ),
+        at_least(
+            "energy chain: bend radius",
+            row.radius,
+            bend_needed(lines),
+            "mm",
+            "8 times the thickest line, 10 times a thin one; makers: 7.5 to 10 times",
+            cure=cure,
+            parts=parts,
+        ),
+        at_most(
+            "energy chain: upper run without support",
+            share_of(loom) / 2,
+            row.free,
+            "m",
+            f"{row.name}; makers' diagrams",
+            cure="set more heads",
+            parts=parts,
+        ),
+        at_most(
+            "energy chain: loop past its share",
+            past,
+            min(ends, loom.head_distance),
+            "mm",
+            "least distance of two heads, and what the rail is longer than the cloth",
+            cure="set fewer colours, or fewer heads",
+            parts=(*parts, TROUGH),
+        ),
+    )
