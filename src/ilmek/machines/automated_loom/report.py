@@ -10,7 +10,7 @@ from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
-from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_heads
+from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_heads
 from ilmek.machines.automated_loom.cyclogram import (
     BEATER,
     CARRIAGE,
@@ -233,7 +233,8 @@ def _least_room(loom: LoomDesign) -> float:
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
-    listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
+    costs = _heads_table(found), _cost_table(found)
+    listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
     return (*listed, cloth_table(found.loom), *yarn_tables(found.loom))
 
 
@@ -252,6 +253,16 @@ def _heads_table(found: LoomAnalysis) -> Table:
         "cost of a carpet without yarn",
     )
     return Table("loom-heads", "Time, price and cost by number of heads, estimated: the frame as it is", heads_of, rows)
+
+
+def _cost_table(found: LoomAnalysis) -> Table:
+    costs = costs_by_beats(found.loom, found.listed, found.energy.total)
+    rows = tuple(
+        (heads, *(cost.cost_per_carpet for cost in row))
+        for heads, row in enumerate(zip(*costs.values(), strict=True), 1)
+    )
+    title = "Cost of a carpet without yarn by beat and number of heads, estimated: knot and frame as they are"
+    return Table("loom-cost", title, columns("heads", *costs), rows)
 
 
 def _parts_table(listed: PartsList) -> Table:
