@@ -134,13 +134,7 @@ def command(  # noqa: PLR0917 - click calls it by name
         require_mechanism(order.machine, mechanism_to)
     in_space = {"--glb": space_to, "--step": solids_to, "--mjcf": model_to}
     require_space(order.machine, in_space)
-    files = {
-        "--json": json_to,
-        "--report": page_to,
-        "--animation": animation_to,
-        "--to": mechanism_to,
-        **in_space,
-    }
+    files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to, **in_space}
     inputs = {"FILE": order.file, "--rates": rates, **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
         made = design_machine(
@@ -153,10 +147,7 @@ def command(  # noqa: PLR0917 - click calls it by name
         )
         shown = None if table is None else find_table(made.report, table)
         _give(made, call, motion, mechanism_to, pose)
-    if shown is None or call.quiet:
-        _show(made, call, mechanism_to, parts_to)
-    else:
-        show_report_table(shown)
+    show_report_table(shown) if shown and not call.quiet else _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
 
 

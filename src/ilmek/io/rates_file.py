@@ -13,9 +13,12 @@ from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import SourceText
-from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.catalogue import find_machine
 from ilmek.params import Setting, listed
 from ilmek.params.parameter import LONGEST_TEXT
+
+_GROUP = "cost"
+"""Parameters of a loom that are rates."""
 
 
 def read_rates(path: Path | None) -> dict[str, Setting]:
@@ -28,13 +31,15 @@ def read_rates(path: Path | None) -> dict[str, Setting]:
     read = read_data(path, "rates", ParameterError, longest=LONGEST_TEXT)
     try:
         root = FileEntry(read.data, (), SourceText(str(path), read.lines))
-        root.keys(*(parameter.name for parameter in listed(CostRates)))
+        loom = find_machine("automated-loom").params
+        names = (parameter.name.partition(".") for parameter in listed(loom))
+        root.keys(*(name for group, _, name in names if group == _GROUP))
         rates = dict(root.settings())
         for name, rate in rates.items():
             try:
-                CostRates.read({name: rate})
+                loom.read({f"{_GROUP}.{name}": rate})
             except IlmekError as error:
                 root.refuse(error, name)
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
-    return {f"cost.{name}": rate for name, rate in rates.items()}
+    return {f"{_GROUP}.{name}": rate for name, rate in rates.items()}
