@@ -27,7 +27,7 @@ from ilmek.machines.automated_loom.figures import figures, time_against_pitch, t
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.report import Drawing, Plot, Report, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
-from ilmek.units import deg, dm, hour, mm
+from ilmek.units import deg, dm, hour, mm, rpm
 
 
 @cache
@@ -110,7 +110,15 @@ def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
     assert peak_speed(shuttle, period) == pytest.approx(2.0)
     assert peak_acceleration(shuttle, period) < 20.0
     assert loom.shedding.params.speed == pytest.approx(2 * math.pi / (loom.row_timing.turning * period))
-    assert any("shedding cams turn at" in said for said in loom_report(loom).all_warnings)
+    assert "speed of the shedding cams" not in {check.name for check in loom_report(loom).all_checks}
+
+
+def test_a_speed_of_the_cams_that_is_required_and_not_reached_fails_a_check() -> None:
+    for speed, reached in ((1.0 * rpm, True), (20 * rpm, False)):
+        made = reported(width=0.45, length=0.6, beat="comb", heads=1, shed_speed=speed)
+        check = next(check for check in made.checks if check.name == "speed of the shedding cams")
+        assert check.ok is reached
+        assert made["cycle_time_row"] >= 2 * math.pi / speed * (1 - 1e-9)
 
 
 @pytest.mark.matrix(light=2)

@@ -213,7 +213,7 @@ def all_checks(loom: LoomDesign) -> tuple[Check, ...]:
 
 
 def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
-    """The deadline and the price, where they are limited."""
+    """The deadline, the price and the speed of the cams, where they are limited."""
     params, price = found.loom.params, found.listed.price
     cure = "set a higher price_limit, fewer heads, or a coarser quality"
     return (
@@ -223,7 +223,17 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
             if params.price_limit is None
             else (at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit", cure=cure),)
         ),
+        *(() if params.shed_speed is None else (_cam_speed_check(found.loom, params.shed_speed),)),
     )
+
+
+def _cam_speed_check(loom: LoomDesign, required: float) -> Check:
+    """Whether the shedding cams turn as quickly as required [rad/s]."""
+    turned, passage = loom.shedding.params.speed, turn / shortest_passage(loom.row_timing)
+    slowest = f"the {loom.row_timing.carrier}" if passage <= turned * (1 + 1e-9) else "the heads' retreat or the beat"
+    source = f"parameter shed_speed; {slowest} needs the time" if turned < required else "parameter shed_speed"
+    cure = "leave shed_speed out, or set a lower one"
+    return at_least("speed of the shedding cams", turned, required * (1 - 1e-9), "rpm", source, cure=cure)
 
 
 def _least_room(loom: LoomDesign) -> float:
@@ -304,17 +314,10 @@ def cam_tables(loom: LoomDesign) -> tuple[CamTable, ...]:
 
 
 def warnings(found: LoomAnalysis) -> tuple[str, ...]:
-    """Heavy cylinders, a slow row."""
+    """Heavy cylinders."""
     loom, texts = found.loom, []
-    params = loom.params
     share = loom.warp_tension.self_weight / loom.warp_tension.load
     if share > HEAVY_SHARE:
         mass, part = format_quantity(loom.warp_tension.mass, "kg", 3), format_quantity(share, "%", 2)
         texts.append(f"a cylinder weighs {mass}, {part} of what the warps pull: weave narrower, or support it between")
-    turned = loom.shedding.params.speed
-    if turned < params.shed_speed * (1 - 1e-9):
-        slower = format_quantity(turned, "rpm")
-        passing = shortest_passage(loom.row_timing) >= turn / turned * (1 - 1e-9)
-        slowest = f"the {loom.row_timing.carrier} needs" if passing else "the heads' retreat needs"
-        texts.append(f"the shedding cams turn at {slower} only: {slowest} that time")
     return tuple(texts)
