@@ -14,6 +14,7 @@ from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.finish_params import FinishParams
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
@@ -178,6 +179,7 @@ class AutomatedLoomParams(Params):
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     cost: CostRates = nested(CostRates, doc="rates from which the cost of a carpet follows")
+    finish: FinishParams = nested(FinishParams, doc="washing of the carpet, and warping of the loom")
     prices: str | None = param(
         None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
     )

@@ -26,6 +26,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_ta
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
+from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.steady_posts import steady_checks
@@ -125,7 +126,18 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
     path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
-    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed, found.cost, modes)
+    return (
+        found,
+        found.loom.side,
+        found.shares,
+        found.beat,
+        found.energy,
+        path,
+        found.listed,
+        found.cost,
+        off_loom(found.loom),
+        modes,
+    )
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
