@@ -10,7 +10,7 @@ import pytest
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
-from ilmek.machines.automated_loom.cost import CarpetCost, annuity_factor, costs_by_heads
+from ilmek.machines.automated_loom.cost import CarpetCost, annuity_factor, costs_by_beats
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.offers import CYCLES, value_of
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -117,11 +117,14 @@ def test_no_time_of_a_knot_that_is_given_beats_the_quickest_loom() -> None:
     assert "knot cycle, as required" in failing(analyse(design(replace(sizes, knot_cycle=quicker))))
 
 
-def test_estimate_over_heads_is_near_the_looms_of_these_heads() -> None:
+def test_estimate_over_heads_and_beats_is_near_these_looms() -> None:
     found = loom("comb", 1)
-    estimated = costs_by_heads(found.loom, found.listed, found.energy.total)
-    for number, cost in enumerate(estimated[:2], 1):
-        assert cost.cost_per_carpet == pytest.approx(loom("comb", number).cost.cost_per_carpet, rel=0.03)
+    estimated = costs_by_beats(found.loom, found.listed, found.energy.total)
+    assert estimated["comb"][0].cost_per_carpet == pytest.approx(found.cost.cost_per_carpet, rel=1e-9)
+    for beat, number in (("comb", 2), ("linkage", 1), ("travelling", 2)):
+        exact = loom(beat, number).cost
+        assert estimated[beat][number - 1].cost_per_carpet == pytest.approx(exact.cost_per_carpet, rel=0.02)
+        assert estimated[beat][number - 1].time == pytest.approx(exact.time, rel=1e-3)
 
 
 def test_payment_pays_off_the_loan() -> None:

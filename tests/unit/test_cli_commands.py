@@ -267,3 +267,45 @@ def test_the_aim_of_a_loom_is_an_option_too() -> None:
         for aim in (("--aim", "time"), ("--set", "aim=time"))
     )
     assert option == setting > 1
+
+
+@pytest.mark.usefixtures("not_in_space")
+def test_a_file_of_rates_stands_for_settings_which_win_over_it(tmp_path: Path) -> None:
+    rates = tmp_path / "rates.toml"
+    rates.write_text('wage = "20/h"\nlife = 10\n', encoding="utf-8")
+    of_file, of_settings = (
+        json.loads(run("design", "automated-loom", *given, "--json", "-").stdout)["parameters"]
+        for given in (("--rates", str(rates), "--set", "cost.life=5"), ("cost.wage=20/h", "cost.life=5"))
+    )
+    assert of_file == of_settings
+    assert of_file["cost.wage"] == pytest.approx(20 / 3600)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("wages = 3", "line 1, wages: unknown key .* did you mean 'wage'"),
+        ('life = 7\nwage = "-2/h"', "line 2, wage: .* out of bounds"),
+        ("interest = [1]", "line 1, interest: .* is not a value"),
+        ("wage = 12", "did you mean 12/h"),
+        ("wage 12", "line 1"),
+    ],
+)
+def test_rates_that_are_none_are_one_error(tmp_path: Path, text: str, named: str) -> None:
+    rates = tmp_path / "rates.toml"
+    rates.write_text(text, encoding="utf-8")
+    for command in (("design", "automated-loom"), ("weave", MEDALLION, "--out", str(tmp_path / "out"))):
+        result = CliRunner().invoke(main, [*command, "--rates", str(rates)])
+        assert (result.exit_code, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+        assert re.search(named, result.stderr)
+
+
+@pytest.mark.usefixtures("not_in_space")
+def test_a_table_of_the_report_is_shown_alone() -> None:
+    result = run("design", "automated-loom", "width=0.45m", "length=0.6m", "--table", "cost")
+    assert result.exit_code == 0
+    assert re.search(r"heads +travelling +linkage +comb", result.stdout)
+    assert "result" not in result.stdout
+    refused = CliRunner().invoke(main, ["design", "beat-up", "--table", "cost"])
+    assert (refused.exit_code, refused.stdout) == (2, "")
+    assert re.search(r"no table 'cost' .* its tables: ", refused.stderr)

@@ -7,11 +7,12 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import CallOutputs, call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option, motion_option
-from ilmek.cli.report import headline_of, show_report
+from ilmek.cli.options import animation_option, force_option, json_option, motion_option, rates_option
+from ilmek.cli.report import find_table, headline_of, show_report, show_report_table
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
+from ilmek.io.rates_file import read_rates
 from ilmek.jobs.design import (
     IN_SPACE,
     DesignResult,
@@ -33,6 +34,7 @@ Examples:
   ilmek design automated-loom --animation knot.gif --motion loom-knot-front
   ilmek design motion-four-bar --to gripper.toml
   ilmek design automated-loom --glb loom.glb
+  ilmek design automated-loom --rates rates.toml --table cost
   ilmek design tufting --glb needles.glb
   ilmek design automated-loom --step loom.step --pose row=90deg
   ilmek design automated-loom --mjcf loom.xml
@@ -53,7 +55,9 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     help="Set a parameter, with its unit; @FILE reads the value from FILE.",
 )
 @click.option("--aim", metavar="price|time|cost", help="The same as --set aim=price: what a loom's choice makes least.")
+@rates_option
 @json_option
+@click.option("--table", metavar="NAME", help="Print this table of the report alone, like cost of a loom.")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option
 @motion_option
@@ -101,6 +105,8 @@ def command(  # noqa: PLR0917 - click calls it by name
     more: tuple[str, ...],
     settings: tuple[str, ...],
     aim: str | None,
+    rates: Path | None,
+    table: str | None,
     json_to: str | None,
     page_to: Path | None,
     animation_to: Path | None,
@@ -123,19 +129,13 @@ def command(  # noqa: PLR0917 - click calls it by name
         {"--workshop DIR": parts_to, "--animation FILE": animation_to, "--step FILE": solids_to},
     )
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
-    order = read_machine_order(name, read_settings(given))
+    order = read_machine_order(name, {**read_rates(rates), **read_settings(given)})
     if mechanism_to is not None:
         require_mechanism(order.machine, mechanism_to)
     in_space = {"--glb": space_to, "--step": solids_to, "--mjcf": model_to}
     require_space(order.machine, in_space)
-    files = {
-        "--json": json_to,
-        "--report": page_to,
-        "--animation": animation_to,
-        "--to": mechanism_to,
-        **in_space,
-    }
-    inputs = {**({} if order.file is None else {"FILE": order.file}), **setting_files(given)}
+    files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to, **in_space}
+    inputs = {"FILE": order.file, "--rates": rates, **setting_files(given)}
     with call_outputs(files, force=force, inputs=inputs) as call:
         made = design_machine(
             order.machine,
@@ -145,8 +145,9 @@ def command(  # noqa: PLR0917 - click calls it by name
             progress=call.progress,
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
         )
+        shown = None if table is None else find_table(made.report, table)
         _give(made, call, motion, mechanism_to, pose)
-    _show(made, call, mechanism_to, parts_to)
+    show_report_table(shown) if shown and not call.quiet else _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
 
 

@@ -20,6 +20,12 @@ animation_option = click.option(
     callback=lambda _context, _option, path: checked_animation(path),
     help="Write the machine in motion; MP4 needs the extra video.",
 )
+rates_option = click.option(
+    "--rates",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Read rates of the cost of a carpet from .toml, .json: wage, interest, rent and others of cost.*.",
+)
 stops_option = click.option(
     "--stops",
     type=click.Path(path_type=Path),

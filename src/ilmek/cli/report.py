@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from ilmek.cli.terminal import say, show_checks, show_table
 from ilmek.cli.verdict import CHECKS, WEAVES, show_verdict
+from ilmek.errors import ParameterError
 from ilmek.report import Check, Choice, Column, Report, Table, result_text, rounded
 from ilmek.units import format_number, from_si, printed_unit
 
@@ -26,12 +27,24 @@ def show_report(report: Report) -> None:
         say(f"with --json also: {', '.join(more)}")
     for table in report.tables:
         if table.brief:
-            _show(table)
+            show_report_table(table)
     if report.all_choices:
         show_choices(report.all_choices)
     if report.all_checks:
         show_checks(report.all_checks)
     show_self_tests(report.all_self_tests)
+
+
+def find_table(report: Report, name: str) -> Table:
+    """The first table of a report with a name, or a name that ends so: `cost` of `loom-cost`.
+
+    Raises ParameterError, naming all tables, where there is none.
+    """
+    for table in report.tables:
+        if f"-{table.name}".endswith(f"-{name}"):
+            return table
+    names = ", ".join(table.name for table in report.tables) or "none"
+    raise ParameterError(f"no table {name!r} in the report of {report.machine}", allowed=f"its tables: {names}")
 
 
 def show_self_tests(tests: Sequence[Check]) -> None:
@@ -49,7 +62,7 @@ def show_choices(choices: Sequence[Choice]) -> None:
     show_table(("choice", "chosen", "decided by", "next cheaper", "fails"), rows)
 
 
-def _show(table: Table) -> None:
+def show_report_table(table: Table) -> None:
     """Print a table of the report, numbers in the units of their columns."""
     say(table.title)
     units = [printed_unit(column.unit) for column in table.columns]

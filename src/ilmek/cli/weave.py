@@ -8,11 +8,12 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.carpet_summary import carpet_pairs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import force_option, json_option, rates_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
+from ilmek.io.rates_file import read_rates
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -59,6 +60,7 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     help="Set a parameter of the loom or its machines: beat=comb, shedding.law=modified-sine; @FILE reads a file. "
     "FILE alone: weave on that loom, written by design automated-loom --json or by weave as machine.json.",
 )
+@rates_option
 @force_option
 @json_option
 def command(
@@ -69,6 +71,7 @@ def command(
     aim: str | None,
     warp_pitch: str | None,
     settings: tuple[str, ...],
+    rates: Path | None,
     force: bool,
     json_to: str | None,
     save_recipe: str | None,
@@ -90,11 +93,11 @@ def command(
         deadline=deadline,
         aim=aim,
         warp_pitch=warp_pitch,
-        loom=read_settings(settings),
+        loom={**read_rates(rates), **read_settings(settings)},
         loom_file=loom_file,
     )
     folder = out or free_folder(order.picture, "carpet")
-    inputs = {**carpet_inputs(order), "--loom": loom_order.given.loom_file, **setting_files(settings)}
+    inputs = {**carpet_inputs(order), "--loom": loom_order.given.loom_file, "--rates": rates, **setting_files(settings)}
     with call_outputs({"--json": json_to, "--save-recipe": save_recipe}, force=force, inputs=inputs) as call:
         woven = weave(order, loom_order, folder, outputs=call.outputs, progress=call.progress)
         call.give_json(lambda: weave_json(woven))

@@ -20,6 +20,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.frame_modes import FrameModes
+from ilmek.machines.automated_loom.off_loom import OffLoom
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, own_tree, parts_of_loom
 from ilmek.machines.automated_loom.report import (
@@ -75,6 +76,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
         YarnPath,
         PartsList,
         CarpetCost,
+        OffLoom,
         FrameModes,
         LoomAssembly,
     ),

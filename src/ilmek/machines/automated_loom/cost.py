@@ -17,12 +17,15 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from ilmek.elements.prices import PriceRates, price_of
+from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.design import LoomDesign, ready_loom
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.estimate import estimated_time
+from ilmek.machines.automated_loom.params import AUTO
 from ilmek.machines.automated_loom.parts import PartsList, motors
+from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.records import computed, record
 from ilmek.report import BillLine
 
@@ -143,6 +146,11 @@ def machine_cost(lines: Iterable[BillLine], prices: Mapping[str, PriceRates]) ->
     )
 
 
+def with_control(cost: MachineCost, prices: Mapping[str, PriceRates]) -> MachineCost:
+    """A cost without the amplifiers of the control, with those of its axes."""
+    return replace(cost, parts=cost.parts + cost.axes * prices["axis of the control"].each)
+
+
 def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float) -> CarpetCost:
     """The cost of the loom's carpet.
 
@@ -166,22 +174,32 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
     )
 
 
-def shares_of_heads(loom: LoomDesign, listed: PartsList) -> tuple[MachineCost, MachineCost]:
-    """The cost of a loom without its heads, and that of a head, with what of the creel is for it."""
-    of_heads = {line.part for name in loom.head.children for line in loom.machines[name].parts} | OF_A_HEAD
-    on_heads = machine_cost((line for line in listed.parts if line.part in of_heads), listed.prices)
-    others = machine_cost((line for line in listed.parts if line.part not in of_heads), listed.prices)
-    return others, on_heads.times(1 / loom.heads)
+def costs_by_heads(
+    loom: LoomDesign, listed: PartsList, energy: float, beat: BeatOption | None = None
+) -> tuple[CarpetCost, ...]:
+    """Costs with 1, 2, ... heads up to what fits: an estimate, with frame and energy as they are.
 
-
-def costs_by_heads(loom: LoomDesign, listed: PartsList, energy: float) -> tuple[CarpetCost, ...]:
-    """Costs with 1, 2, ... heads up to what fits: an estimate, with frame and energy as they are."""
+    beat  in place of the loom's
+    """
     own = carpet_cost(loom, listed, 1.0, energy)
-    without, of_one = shares_of_heads(loom, listed)
+    of_heads = {line.part for name in loom.head.children for line in loom.machines[name].parts} | OF_A_HEAD
+    of_one = machine_cost((line for line in listed.parts if line.part in of_heads), listed.prices).times(1 / loom.heads)
+    exchanged = {AMPLIFIER} if beat is None else {AMPLIFIER, *(line.part for line in loom.beat.parts)}
+    others = (line for line in listed.parts if line.part not in of_heads | exchanged)
+    without = machine_cost((*others, *(() if beat is None else beat.drive.parts)), listed.prices)
 
     def with_heads(number: int) -> CarpetCost:
-        cost = without.plus(of_one.times(number))
+        cost = with_control(without.plus(of_one.times(number)), listed.prices)
         made, sold = cost.sold(own.rates)
-        return replace(own, time=estimated_time(loom, number), parts=cost.parts, made=made, sold=sold)
+        time = estimated_time(loom, number, None if beat is None else beat.period)
+        return replace(own, time=time, parts=cost.parts, made=made, sold=sold)
 
     return tuple(with_heads(number) for number in range(1, loom.heads_max + 1))
+
+
+def costs_by_beats(loom: LoomDesign, listed: PartsList, energy: float) -> Mapping[str, tuple[CarpetCost, ...]]:
+    """Costs by heads with each kind of beat whose drive keeps its limits, estimated; with the loom's own as it is."""
+    options = ready_loom(replace(loom.params, beat=AUTO)).options
+    own = loom.params.beat
+    good = [option for option in options if option.kind == own or all(check.ok for check in option.checks)]
+    return {one.kind: costs_by_heads(loom, listed, energy, None if one.kind == own else one) for one in good}

@@ -7,6 +7,7 @@ the slower of two heads is not in the estimate; a programme has it.
 """
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,9 +21,9 @@ from ilmek.machines.automated_loom.design import LoomDesign, times_at, with_chan
 from ilmek.records import computed, record, result
 
 
-def estimated_time(loom: LoomDesign, heads: int | None = None) -> float:
-    """Weaving time [s] without a chart, for the loom's heads or another number."""
-    busy = with_changes(loom.times, loom.params.changes_per_knot)
+def estimated_time(loom: LoomDesign, heads: int | None = None, weft: float | None = None) -> float:
+    """Weaving time [s] without a chart, for the loom's heads or another number, wefts and beats or their time [s]."""
+    busy = with_changes(replace(loom.times, weft=weft or loom.times.weft), loom.params.changes_per_knot)
     return least_time(loom.rows, loom.columns, heads or loom.heads, busy, loom.bobbins)
 
 

@@ -20,7 +20,7 @@ from ilmek.loom.programme import least_time
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.automated_loom.choice import BeatOption
-from ilmek.machines.automated_loom.cost import MachineCost, machine_cost
+from ilmek.machines.automated_loom.cost import MachineCost, machine_cost, with_control
 from ilmek.machines.automated_loom.design import ReadyLoom, ready_loom, times_at, with_changes
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
@@ -193,7 +193,7 @@ class Bounds:
 
     def _cost(self, one: LoomRest, others: MachineCost, head: MachineCost, heads: int) -> MachineCost:
         cost = one.rest.plus(others).plus(head.plus(one.creel).times(heads))
-        return replace(cost, parts=cost.parts + cost.axes * self.simplest.listed.prices["axis of the control"].each)
+        return with_control(cost, self.simplest.listed.prices)
 
     def _value(self, cost: MachineCost, floor: float, time: float, slack: float) -> float:
         if self.params.aim == TIME:

@@ -14,6 +14,7 @@ from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.finish_params import FinishParams
 from ilmek.machines.catalogue import MACHINES
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
@@ -28,6 +29,9 @@ AUTO = "auto"
 
 PRICE, TIME, COST = AIMS = ("price", "time", "cost")
 """What the choice of a loom makes least."""
+
+CAM_SPEED = 5 * rpm
+"""Speed of the shedding cams at most, where none is required. [thesis, 3.3]"""
 
 WIDEST = 12.0
 """The widest loom [m]."""
@@ -102,7 +106,12 @@ class AutomatedLoomParams(Params):
     )
     margin: float = kind.length(50 * mm, at_least=0.0, at_most=1.0, doc="from the carpet's edge to a bearing")
     lift: float = kind.length(60 * mm, at_least=1 * mm, at_most=0.5, doc="lift of the warps for the shed")
-    shed_speed: float = kind.angular_speed(5 * rpm, at_least=0.01 * rpm, at_most=60 * rpm, doc="speed of the cams")
+    shed_speed: float | None = kind.angular_speed(
+        None,
+        at_least=0.01 * rpm,
+        at_most=60 * rpm,
+        doc="required speed of the cams; default: 5 rpm, or less where weft, beat or the heads' retreat need it",
+    )
     shaft_span: float = kind.length(
         1.5, unit="m", at_least=0.1, at_most=20.0, doc="largest span of the cam shaft between its supports"
     )
@@ -165,6 +174,7 @@ class AutomatedLoomParams(Params):
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     cost: CostRates = nested(CostRates, doc="rates from which the cost of a carpet follows")
+    finish: FinishParams = nested(FinishParams, doc="washing of the carpet, and warping of the loom")
     prices: str | None = param(
         None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
     )
@@ -180,6 +190,11 @@ class AutomatedLoomParams(Params):
         """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
         across = self.knots_across or 0.5 / self._pitch
         return Quality(across, self.knots_along or across)
+
+    @property
+    def cam_speed(self) -> float:
+        """Speed of the shedding cams at most [rad/s]."""
+        return self.shed_speed or CAM_SPEED
 
     @property
     def knot_grid(self) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
-from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_heads
+from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_heads
 from ilmek.machines.automated_loom.cyclogram import (
     BEATER,
     CARRIAGE,
@@ -26,6 +26,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_ta
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
+from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.steady_posts import steady_checks
@@ -127,7 +128,18 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
     path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
-    return (found, found.loom.side, found.shares, found.beat, found.energy, path, found.listed, found.cost, modes)
+    return (
+        found,
+        found.loom.side,
+        found.shares,
+        found.beat,
+        found.energy,
+        path,
+        found.listed,
+        found.cost,
+        off_loom(found.loom),
+        modes,
+    )
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
@@ -216,7 +228,7 @@ def all_checks(loom: LoomDesign) -> tuple[Check, ...]:
 
 
 def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
-    """The deadline and the price, where they are limited."""
+    """The deadline, the price and the speed of the cams, where they are limited."""
     params, price = found.loom.params, found.listed.price
     cure = "set a higher price_limit, fewer heads, or a coarser quality"
     return (
@@ -226,7 +238,17 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
             if params.price_limit is None
             else (at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit", cure=cure),)
         ),
+        *(() if params.shed_speed is None else (_cam_speed_check(found.loom, params.shed_speed),)),
     )
+
+
+def _cam_speed_check(loom: LoomDesign, required: float) -> Check:
+    """Whether the shedding cams turn as quickly as required [rad/s]."""
+    turned, passage = loom.shedding.params.speed, turn / shortest_passage(loom.row_timing)
+    slowest = f"the {loom.row_timing.carrier}" if passage <= turned * (1 + 1e-9) else "the heads' retreat or the beat"
+    source = f"parameter shed_speed; {slowest} needs the time" if turned < required else "parameter shed_speed"
+    cure = "leave shed_speed out, or set a lower one"
+    return at_least("speed of the shedding cams", turned, required * (1 - 1e-9), "rpm", source, cure=cure)
 
 
 def _least_room(loom: LoomDesign) -> float:
@@ -236,7 +258,8 @@ def _least_room(loom: LoomDesign) -> float:
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
-    listed = _heads_table(found), _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
+    costs = _heads_table(found), _cost_table(found)
+    listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
     return (*listed, cloth_table(found.loom), *yarn_tables(found.loom))
 
 
@@ -255,6 +278,16 @@ def _heads_table(found: LoomAnalysis) -> Table:
         "cost of a carpet without yarn",
     )
     return Table("loom-heads", "Time, price and cost by number of heads, estimated: the frame as it is", heads_of, rows)
+
+
+def _cost_table(found: LoomAnalysis) -> Table:
+    costs = costs_by_beats(found.loom, found.listed, found.energy.total)
+    rows = tuple(
+        (heads, *(cost.cost_per_carpet for cost in row))
+        for heads, row in enumerate(zip(*costs.values(), strict=True), 1)
+    )
+    title = "Cost of a carpet without yarn by beat and number of heads, estimated: knot and frame as they are"
+    return Table("loom-cost", title, columns("heads", *costs), rows)
 
 
 def _parts_table(listed: PartsList) -> Table:
@@ -296,17 +329,10 @@ def cam_tables(loom: LoomDesign) -> tuple[CamTable, ...]:
 
 
 def warnings(found: LoomAnalysis) -> tuple[str, ...]:
-    """Heavy cylinders, a slow row."""
+    """Heavy cylinders."""
     loom, texts = found.loom, []
-    params = loom.params
     share = loom.warp_tension.self_weight / loom.warp_tension.load
     if share > HEAVY_SHARE:
         mass, part = format_quantity(loom.warp_tension.mass, "kg", 3), format_quantity(share, "%", 2)
         texts.append(f"a cylinder weighs {mass}, {part} of what the warps pull: weave narrower, or support it between")
-    turned = loom.shedding.params.speed
-    if turned < params.shed_speed * (1 - 1e-9):
-        slower = format_quantity(turned, "rpm")
-        passing = shortest_passage(loom.row_timing) >= turn / turned * (1 - 1e-9)
-        slowest = f"the {loom.row_timing.carrier} needs" if passing else "the heads' retreat needs"
-        texts.append(f"the shedding cams turn at {slower} only: {slowest} that time")
     return tuple(texts)

@@ -65,7 +65,7 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         drive="linkage" if kind == "linkage" else "comb",
         warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         stroke=stroke,
-        shed_speed=params.shed_speed,
+        shed_speed=params.cam_speed,
         ground=beat_up.ground_for(stroke + SPARE * params.clearance),
         beam_length=task.rail_length + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,

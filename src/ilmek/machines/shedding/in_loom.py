@@ -95,7 +95,7 @@ def _with_spans(task: LoomTask, room: ShedRoom, outline: _Outline, given: Mappin
         compensation=planned_compensation(task, _gain(task, front, back, beside)),
         shuttle_height=room.opening,
         guideway=False,
-        speed=params.shed_speed,
+        speed=params.cam_speed,
         stop_time=params.shed_stop / 2 if params.shed_stop > 0 else None,
         shaft_length=task.width,
         spans=math.ceil(task.width / params.shaft_span - 1e-9),

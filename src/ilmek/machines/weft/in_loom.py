@@ -36,7 +36,7 @@ def fit(task: LoomTask) -> WeftParams:
         lift=params.lift,
         open_share=params.open_share,
         play=SPARE * params.clearance,
-        turn_time=turn / params.shed_speed,
+        turn_time=turn / params.cam_speed,
         prices=params.prices,
     )
 

@@ -1,0 +1,75 @@
+"""The carpet off the loom, and the warping before it.
+
+    off the loom   length  l (1 - s_l) / (1 + T / EA),   width  w (1 - s_w),   mass  (yarns that stay in it) (1 - loss)
+    warping        each warp  l (1 + crimp) + 2 fringe + waste;   time  set-up + n (t_warp + length / speed)
+
+T tension of a warp, EA its stiffness: its elastic strain goes when the carpet is cut off, and the ground follows it.
+s_l, s_w shrinkage in washing. The pile is shorn to its height; what is shorn off is in the yarn bill's waste. The
+carpet's width and length are those on the loom. Rates of washing and warping are assumed by this project.
+"""
+
+from ilmek.carpet.ground import ground_yarns, selvedge_yarn
+from ilmek.carpet.sizes import CarpetSize
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.finish_params import FinishParams
+from ilmek.records import computed, record
+
+
+@record
+class OffLoom:
+    """A carpet of a width and a length on the loom [m], its warps stretched by a strain, its yarns of a mass [kg].
+
+    warps, crimp  number of warps, and their length in the carpet over its own, less 1
+    ends          of each warp beside the carpet: fringes and what is lost in the loom [m]
+    """
+
+    finish: FinishParams
+    width: float
+    length: float
+    strain: float
+    yarns: float
+    warps: int
+    crimp: float
+    ends: float
+
+    @computed("m", "width and length of the carpet off the loom, shorn and washed")
+    def size_off_loom(self) -> dict[str, float]:
+        along = (1 - self.finish.shrink_along) / (1 + self.strain)
+        return {"width": self.width * (1 - self.finish.shrink_across), "length": self.length * along}
+
+    @computed("mm", "how much longer a carpet is to be woven that has the length off the loom")
+    def woven_longer(self) -> float:
+        size: dict[str, float] = self.size_off_loom
+        return self.length * (self.length / size["length"] - 1)
+
+    mass_off_loom = computed("kg", "the carpet, shorn and washed", lambda it: it.yarns * (1 - it.finish.wash_loss))
+    warp_strain = computed("%", "elastic strain of the warps on the loom, which goes off it", lambda it: it.strain)
+    warp_cut = computed(
+        "m",
+        "length of a warp to be wound: carpet, take-up by its crimp, fringes, what is lost in the loom",
+        lambda it: it.length * (1 + it.crimp) + it.ends,
+    )
+
+    @computed("h", "preparing, drawing in and winding of all warps")
+    def dressing_time(self) -> float:
+        finish, each = self.finish, float(self.warp_cut)
+        return finish.warp_set_up + self.warps * (finish.warp_time + each / finish.warp_speed)
+
+
+def off_loom(loom: LoomDesign) -> OffLoom:
+    """The loom's carpet off the loom."""
+    params, cloth, ground = loom.params, loom.task.cloth, loom.params.ground
+    size, quality, pile = CarpetSize(params.width, params.length), params.quality, cloth.carpet_yarns.pile
+    of_ground = ground_yarns(size, quality, loom.rows, loom.columns, ground)
+    bound = (*of_ground, selvedge_yarn(size, quality, pile.linear_density, ground))
+    knots = loom.rows * loom.columns * loom.weaver.yarn_in_knot * pile.linear_density
+    return OffLoom(
+        finish=params.finish,
+        width=params.width,
+        length=params.length,
+        strain=cloth.warp_tension / cloth.carpet_yarns.warp.stiffness,
+        yarns=knots + sum(one.mass * one.kept for one in bound),
+        warps=loom.warps,
+        crimp=loom.warp_tension.params.crimp,
+        ends=2 * ground.fringe + ground.loom_waste,
+    )
