@@ -22,6 +22,7 @@ from ilmek.viz.svg import svg
 
 EXAMPLES = Path(__file__).parent
 OUT = EXAMPLES.parent / "docs" / "_static" / "overview.svg"
+LOOM = OUT.with_name("loom.webp")
 WIDTH, HEIGHT = 1240, 1100
 INK, MUTED = "#1f2933", "#52606d"
 
@@ -78,7 +79,7 @@ def draw() -> str:
     size, quality = parse_size("seccade"), parse_quality("25x25/dm")
     chart = make_chart(photo, size, quality, default_yarns())
     params = AutomatedLoomParams(
-        width=size.width, length=size.length, knots_across=quality.across, knots_along=quality.along, heads=4
+        width=size.width, length=size.length, knots_across=quality.across, knots_along=quality.along
     )
     loom = MACHINE.report(design(params))
     figures = {one.name: one for made in (loom, *loom.children) for one in made.figures}
@@ -93,8 +94,10 @@ def draw() -> str:
         caption(550, 40, "the carpet", "as it will look"),
         picture(545, 68, 216, 320, embedded(draw_carpet(chart, longest=700).jpeg)),
         arrow(775, 225),
-        caption(830, 40, "and the loom that weaves it", f"{design(params).warps} warps at 2 mm, four knotting heads"),
-        figure(figures["loom-side"], 815, 68, 400, 330),
+        caption(
+            830, 40, "and the loom that weaves it", f"{design(params).warps} warps at 2 mm, all parts held and driven"
+        ),
+        picture(830, 68, 330, 320, embedded(jpeg(np.asarray(Image.open(LOOM).convert("RGB")), 825, 800))),
         caption(30, 440, "beat-up linkage", "synthesised, its forces checked"),
         figure(figures["beat-up"], 10, 470, 420, 290),
         caption(30, 790, "shedding cams", "sized for pressure angle and shaft"),

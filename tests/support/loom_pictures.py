@@ -1,4 +1,4 @@
-"""The pictures of the loom in the documentation: its standard views, and one knot in twelve steps.
+"""The pictures of the loom in the documentation: the whole loom, its standard views, and one knot in twelve steps.
 
     PYTHONPATH=src:tests/support .venv/bin/python -m loom_pictures build/medallion/loom.html docs/_static
 
@@ -16,7 +16,8 @@ from playwright.sync_api import Page, sync_playwright
 from studio_browser import PATIENCE, launched
 
 VIEWS = ("Whole loom", "Front", "Side", "Above", "Fell", "Shed")
-STEPS = 12
+STEPS = (20, 62, 95, 110, 165, 180, 190, 198, 235, 280, 320, 350)
+"""Angles of the knot [deg]: each shows what has just been done, or is being done."""
 SLIDER_STEP = math.pi / 360
 CAPTION = 26
 """Height of the line over a picture [px]."""
@@ -32,11 +33,12 @@ def main() -> None:
         page.add_style_tag(content="nav { display: none !important }")
         page.get_by_role("button", name="Show the loom in space").click()
         views = [(name, _view(page, name)) for name in VIEWS]
-        page.locator(".loom-picture input[value=knot]").check(force=True)
-        page.get_by_label("Follow a head").select_option("0")
-        angles = [360 * step / STEPS for step in range(STEPS)]
-        knot = [(f"{angle:.0f}°", _step(page, angle)) for angle in angles]
+        page.set_viewport_size({"width": 1040, "height": 720})
+        page.get_by_role("button", name="Head", exact=True).click()
+        pictures = [(angle, _step(page, angle), page.locator(".loom-moving").inner_text()) for angle in STEPS]
+        knot = [(f"{angle}°  {moving}", picture) for angle, picture, moving in pictures]
         browser.close()
+    views[0][1].save(folder / "loom.webp", quality=82)
     _sheet(views, 2, 620).save(folder / "loom-views.webp", quality=82)
     _sheet(knot, 3, 430).save(folder / "loom-knot.webp", quality=82)
 

@@ -247,6 +247,15 @@ def test_all_that_moves_is_held_down_to_the_floor_and_led_by_a_motor(settings: t
     assert led[1:] == [*(f"weaver/{one}" for one in between), "motor of a head"]
 
 
+def test_a_screw_is_as_large_as_itself_wherever_its_copies_stand() -> None:
+    _, found = _made()
+    screw = _part(found, "warp-tension/upper-bearing-screw")
+    assert screw.copies == 8
+    assert np.ptp(screw.solids[0].points, axis=0).max() > 1.0
+    assert sorted(screw.extents)[2] < 0.1
+    assert screw.extents[1] == pytest.approx(screw.extents[2], rel=1e-2)
+
+
 def _about(axis: complex, line: np.ndarray) -> float:
     """Angle by which a line goes about an axis [rad]."""
     return float(np.angle((line[1:] - axis) / (line[:-1] - axis)).sum())

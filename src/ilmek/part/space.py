@@ -128,6 +128,7 @@ def parts_of(
                     checks=tuple(check for check in checks if part.id in check.parts),
                     plate=f"{machine}-{plate_name(part)}" if is_flat(part) else "",
                     envelope=part.envelope,
+                    copies=len(positions),
                     ids=(part.id, body.id),
                 )
             )

@@ -70,6 +70,7 @@ class ScenePart:
     number       of the parts list              checks    that concern it
     plate        name of its drawing for the workshop; "": none
     envelope     the solid is the room that the design keeps for it: its shape is not designed
+    copies       of it in each solid
     ids          of the part, and of the body that it is on; "": it is no part of the tree
     """
 
@@ -85,7 +86,14 @@ class ScenePart:
     checks: tuple[Check, ...] = ()
     plate: str = ""
     envelope: bool = False
+    copies: int = 1
     ids: tuple[str, str] = ("", "")
+
+    @property
+    def extents(self) -> FloatArray:
+        """Of a copy along x, y and z of the frame [m]."""
+        points = self.solids[0].points
+        return np.asarray(np.ptp(points[: len(points) // self.copies], axis=0))
 
 
 @record

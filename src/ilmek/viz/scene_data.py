@@ -168,6 +168,7 @@ def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:
         "checks": [check.as_json() for check in one.checks],
         "plate": one.plate,
         "envelope": one.envelope,
+        "extents": one.extents.tolist(),
         "ids": list(one.ids),
     }
 

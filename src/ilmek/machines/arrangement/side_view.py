@@ -154,7 +154,12 @@ class SideView:
             *(one.at.real - one.radius for one in (self.upper, self.spacer)),
             self.lower.at.real - self.roll,
         )
-        return (self.rail.corner + self.rail.size + self.retreat * RETREAT).real - rear
+        return self.front - rear
+
+    @property
+    def front(self) -> float:
+        """The foremost x of the rail of the retreated heads [m]."""
+        return (self.rail.corner + self.rail.size + self.retreat * RETREAT).real
 
     @property
     def cam_front(self) -> float:

@@ -1,7 +1,8 @@
 """A loom from the side, from the front and from above: projections of its parts, its warps and carpet, names and sizes.
 
 Every part with a shape is drawn where the tree has it, at the start of a row; dashed: the rooms of parts whose form is
-the maker's or not designed. The guards are drawn from above alone: from the front they stand before all else.
+the maker's or not designed. The guards are drawn from above alone: from the front they stand before all else. What
+stands beside the loom is left out of the side view.
 """
 
 from collections.abc import Iterable
@@ -15,7 +16,10 @@ from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.beat_motion import beat_windows
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.circuit import CIRCUIT
+from ilmek.machines.automated_loom.equipment.creel_parts import CREEL, YARN_DUCT
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
+from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.projection import PieceOutline, View, outlines
@@ -23,6 +27,9 @@ from ilmek.part.tree import Tree
 from ilmek.report import Dot, Drawing, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import format_quantity, turn
+
+BESIDE = (CREEL, YARN_DUCT, CIRCUIT)
+"""Bodies beside the loom and in its cabinet, which from the side stand before or behind it."""
 
 NAMED = 16
 """Bodies that have a name in a drawing, at most: those that are seen largest."""
@@ -36,7 +43,7 @@ _WARPS = 40
 
 def side(loom: LoomDesign) -> Drawing:
     """The whole loom from the side."""
-    view, seen = loom.side, outlines(_without_guards(loom), View.SIDE)
+    view, seen = loom.side, outlines(_without(loom, *GUARDS, *BESIDE), View.SIDE)
     box = _box(seen)
     left = box.real[0]
     floor = np.array([left - 0.05, box.real[1] + 0.1]) + 1j * view.floor
@@ -48,7 +55,7 @@ def side(loom: LoomDesign) -> Drawing:
         *_heights(view, left),
         *_names(seen, box),
     )
-    note = "every part where it stands at the start of a row; the even shed is open"
+    note = "every part but creel and guards, where it stands at the start of a row; the even shed is open"
     return Drawing("loom-side", "The loom from the side", strokes, (Dot(0j, "fell", "point"),), "m", note)
 
 
@@ -64,7 +71,7 @@ def above(loom: LoomDesign) -> Drawing:
 
 def room(loom: LoomDesign) -> Drawing:
     """What moves between fell and guide cams, at the start of a row, and dashed while it is beaten."""
-    tree, windows = _without_guards(loom), beat_windows(loom.row_cyclogram)
+    tree, windows = _without(loom, *GUARDS, *BESIDE), beat_windows(loom.row_cyclogram)
     low, high = -0.25 * loom.side.cams[0].at.imag, loom.side.cams[0].at.imag
     moving = {body.id for body in tree.bodies if body.joint.motion is not None}
     at_fell = _angle_at_fell(loom, windows[0])
@@ -83,10 +90,10 @@ def room(loom: LoomDesign) -> Drawing:
     )
 
 
-def _without_guards(loom: LoomDesign) -> Tree:
-    """The bodies of a loom but its guards, which stand before all that is seen from the front or a side."""
+def _without(loom: LoomDesign, *left_out: str) -> Tree:
+    """The bodies of a loom but those that stand before all that is seen."""
     tree = loom_tree(loom)
-    return replace(tree, bodies=tuple(body for body in tree.bodies if body.id not in GUARDS))
+    return replace(tree, bodies=tuple(body for body in tree.bodies if body.id not in left_out))
 
 
 def _angle_at_fell(loom: LoomDesign, window: tuple[float, float]) -> float:
@@ -96,13 +103,14 @@ def _angle_at_fell(loom: LoomDesign, window: tuple[float, float]) -> float:
 
 
 def _inside(outline: PieceOutline, low: float, high: float) -> bool:
-    """Whether it lies between two heights, or reaches a little beyond them [m]."""
-    every = np.concatenate(outline.curves)
-    return bool(low < outline.middle.imag < 1.2 * high and np.ptp(every.imag) < 1.5 * (high - low))
+    """Whether it lies between two heights and not far from the warps, or reaches a little beyond [m]."""
+    every, middle = np.concatenate(outline.curves), outline.middle
+    is_small = np.ptp(every.imag) < 1.5 * (high - low)
+    return bool(is_small and low < middle.imag < 1.2 * high and abs(middle.real) < 1.2 * high)
 
 
 def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
-    tree = _without_guards(loom) if view is View.FRONT else loom_tree(loom)
+    tree = _without(loom, *GUARDS) if view is View.FRONT else loom_tree(loom)
     seen, half = outlines(tree, view), half_width(loom)
     box = _box(seen)
     low, high = box.imag
@@ -138,7 +146,7 @@ def _names(seen: tuple[PieceOutline, ...], box: ComplexArray) -> tuple[Stroke, .
     """Leaders from the bodies to their names at the right, in the order of their heights."""
     largest: dict[str, PieceOutline] = {}
     for outline in sorted(seen, key=_extent, reverse=True):
-        largest.setdefault(outline.body.rpartition("/")[2], outline)
+        largest.setdefault(_name(outline.body), outline)
     order = sorted(list(largest.items())[:NAMED], key=lambda item: _right_end(item[1]).imag)
     size = complex(box[1] - box[0])
     kink, end = box[1].real + 0.06 * size.real, box[1].real + 0.45 * max(size.real, size.imag)
@@ -147,6 +155,11 @@ def _names(seen: tuple[PieceOutline, ...], box: ComplexArray) -> tuple[Stroke, .
         Stroke(np.array([complex(end, height), complex(kink, height), _right_end(outline)]), "construction", name)
         for height, (name, outline) in zip(heights, order, strict=True)
     )
+
+
+def _name(body: str) -> str:
+    """What a body is called: of a machine of the loom, after that."""
+    return body.removeprefix(part_id("")).replace("/", ": ").replace("-", " ")
 
 
 def _extent(outline: PieceOutline) -> float:
@@ -208,7 +221,7 @@ def _heights(view: SideView, left: float) -> tuple[Stroke, ...]:
     """Dimensions at the left: spans, fell over the floor, the whole; below the floor: the depth."""
     inner, outer, rest = left - 0.08, left - 0.22, view.spans.back_rest
     cams = [0.0, *(cam.at.imag for cam in view.cams), rest]
-    width = np.array([left, left + view.loom_depth]) + 1j * (view.floor - 0.1)
+    width = view.front + np.array([-view.loom_depth, 0.0]) + 1j * (view.floor - 0.1)
     return (
         _upright(inner, view.floor, 0.0),
         *(_upright(inner, low, high) for low, high in pairwise(cams)),

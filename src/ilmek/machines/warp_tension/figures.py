@@ -10,7 +10,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.figures import deflection_plot, tube_drawing
 from ilmek.machines.warp_tension.analysis import WarpTensionAnalysis, history
 from ilmek.report import Animation, Axis, Drawing, Figure, MovingDot, MovingStroke, Plot, Reading, Series, Stroke
-from ilmek.units import turn
+from ilmek.units import format_quantity, turn
 
 SHOWN_ROWS = 4
 _RING = np.exp(1j * np.linspace(0, turn, 73))
@@ -54,9 +54,10 @@ def side_view(found: WarpTensionAnalysis) -> Drawing:
     strokes = [Stroke(side.path, "yarn", "warps")]
     for one in found.cylinders:
         at = side.middle[one.name]
+        force = format_quantity(abs(one.load), "kN", 3)
         load = at + np.array([0.0, one.load / longest * height / 3])
         strokes += [Stroke(at + one.outer * _RING, "outline", one.name, closed=True, filled=True)]
-        strokes += [Stroke(at + one.inner * _RING, "outline", closed=True), Stroke(load, "dimension")]
+        strokes += [Stroke(at + one.inner * _RING, "outline", closed=True), Stroke(load, "dimension", force)]
     note = "the warps come off the upper cylinder and slip over the spacer, the carpet goes to the lower; arrows: loads"
     return Drawing("warp-tension-side", "The three cylinders from the side", tuple(strokes), unit="m", note=note)
 

@@ -25,15 +25,15 @@ def plan_view(weaver: Weaver) -> Drawing:
     by = weaver.grippers
     start, end = (_bent(by, np.array([at])) for at in (by.opening, by.opening + by.crossing))
     path = by.tip(np.linspace(by.opening, by.opening + by.crossing, EACH))
-    grip = np.array([-1j * by.depth, 1j * ROD])
+    grip = np.array([1j * 2 * ROD, -1j * by.depth])
     strokes = (
         *(Stroke(warp + by.warp / 2 * _RING, "outline", closed=True, filled=True) for warp in by.warps),
         *(Stroke(one[0], "construction") for one in (start, _mirrored(start))),
         *(Stroke(one, "path") for one in (path, _mirrored(path))),
-        Stroke(end[0], "link", "side gripper"),
-        Stroke(_mirrored(end)[0], "link"),
+        Stroke(end[0], "link", "left side gripper"),
+        Stroke(_mirrored(end)[0], "link", "right side gripper"),
         Stroke(grip, "outline", "centre gripper"),
-        Stroke(_yarn(weaver), "yarn"),
+        Stroke(_yarn(weaver), "yarn", "yarn"),
     )
     dots = tuple(Dot(complex(tip), "", "point") for tip in (by.end, -by.end.conjugate()))
     note = f"{weaver.knot_why}; the pile is upwards, seen along the warps; dashed: before the grippers turn"

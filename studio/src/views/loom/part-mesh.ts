@@ -24,6 +24,9 @@ const DENSE = 8;
 const ROOM = 0.25;
 const MARKED = 0.55;
 
+/** Of a part with the room around it [kg/m3]. */
+const BOX_DENSITY = 300;
+
 /** Copies that are looked at for the box of a part. */
 const MOST_BOXED = 9;
 
@@ -170,9 +173,10 @@ export class PartMesh {
     return this.anchor.clone().applyMatrix4(matrix);
   }
 
-  /** How large it is [m]. */
-  get reach(): number {
-    return this.sphere.radius;
+  /** Its mass, or about that of its box where it is not weighed [kg]. */
+  get weight(): number {
+    const size = this.finest.boundingBox?.getSize(new three.Vector3()) ?? new three.Vector3();
+    return this.part.mass ?? BOX_DENSITY * size.x * size.y * size.z;
   }
 
   private get isCrowd(): boolean {

@@ -3,6 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useId } from "preact/hooks";
 import { t, textIfKnown } from "../../text";
 import { Button, formatQuantity } from "../../ui";
+import { isRoom } from "./look";
 import { carriers, failures, movers, type SceneAbout, type SceneCheck, type SceneModel, type ScenePart } from "./scene";
 
 interface ListProps {
@@ -89,17 +90,6 @@ export function Failures({ checks, parts, onChoose }: FailuresProps) {
   );
 }
 
-/** Extents of a part as it is made [m]: across, upright, front to back. */
-export function extents(model: SceneModel, part: ScenePart): [number, number, number] {
-  const points = part.solids[0] ? model.floats(part.solids[0].points) : new Float32Array();
-  const [low, high] = [Array(3).fill(Number.POSITIVE_INFINITY), Array(3).fill(Number.NEGATIVE_INFINITY)];
-  points.forEach((value, k) => {
-    low[k % 3] = Math.min(low[k % 3], value);
-    high[k % 3] = Math.max(high[k % 3], value);
-  });
-  return [0, 1, 2].map((k) => high[k] - low[k]) as [number, number, number];
-}
-
 interface DetailsProps {
   model: SceneModel;
   part: ScenePart;
@@ -115,12 +105,7 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
     [t("loom.material"), part.material || t("loom.notStated")],
     [t("loom.mass"), part.mass === null ? t("loom.notWeighed") : formatQuantity(part.mass, "kg")],
     [t("loom.number"), String(part.number)],
-    [
-      t("loom.extents"),
-      extents(model, part)
-        .map((one) => formatQuantity(one, "mm"))
-        .join(" × "),
-    ],
+    [t("loom.extents"), part.extents.map((one) => formatQuantity(one, "mm")).join(" × ")],
   ];
   return (
     <section class="loom-part" aria-live="polite">
@@ -132,7 +117,7 @@ export function PartDetails({ model, part, onLook, children }: DetailsProps) {
           </Button>
         )}
       </div>
-      {part.envelope && <p class="ui-muted">{t("loom.envelope")}</p>}
+      {part.envelope && <p class="ui-muted">{t(isRoom(part) ? "loom.room" : "loom.envelope")}</p>}
       <dl class="loom-facts">
         {facts.map(([name, value]) => (
           <div key={name}>

@@ -49,6 +49,8 @@ export interface ScenePart {
   checks: SceneCheck[];
   plate: string;
   envelope: boolean;
+  /** Of one of it where it stands [m]: across, upright, front to back. */
+  extents: [number, number, number];
   /** Of the part, and of the body that it is on. */
   ids: [part: string, body: string];
 }

@@ -32,10 +32,10 @@ const OTHERS = 0.1;
 const BEHIND_KNOT = 0.15;
 const AROUND_KNOT = 0.55;
 
-/** A pair of warps where a knot is tied, in a head [m]. */
-const PAIR: [low: [number, number, number], high: [number, number, number]] = [
-  [-0.01, 0, -0.01],
-  [0.01, 0.04, 0.03],
+/** Where a knot is tied in a head whose yarn is not known [m]. */
+const TIED: [low: [number, number, number], high: [number, number, number]] = [
+  [-0.06, 0, -0.03],
+  [0.06, 0.08, 0.12],
 ];
 
 /** What a standard view leaves free around what it shows. */
@@ -407,31 +407,30 @@ export class Stage {
     return hits.find((one) => !this.isCut(one.point));
   }
 
-  /** Names of parts with their positions in the picture, the largest first; in a head those of its tools. */
+  /** Names of parts with their positions in the picture, the heaviest first; in a head those of its tools. */
   labels(): Label[] {
     if (this.opened) return this.toolLabels();
-    const parts = this.parts.filter((one) => !one.hidden).sort((a, b) => b.reach - a.reach);
+    const parts = this.parts.filter((one) => !one.hidden).sort((a, b) => b.weight - a.weight);
     return parts.flatMap((one) => {
       const warning = one.failed ? "⚠ " : "";
       return this.labelAt(one.shownAt(), warning + (one.part.title.split(/[:,]/)[0] ?? ""));
     });
   }
 
-  /** The tools of the head that is shown, each at that of its parts which is nearest to the middle of the picture. */
+  /** The tools of the head that is shown, each at that of its parts which is farthest behind: its tip. */
   private toolLabels(): Label[] {
-    const nearest = new Map<string, Label>();
+    const tips = new Map<string, { z: number; label: Label }>();
     const heads = this.frames.byName.get(this.model.about.heads)?.count ?? 1;
     for (const one of this.parts) {
       const { tool, placed } = one;
       if (tool === undefined) continue;
       const copy = Math.floor(((this.followed ?? 0) * placed.count) / heads);
-      for (const label of this.labelAt(one.shownAt(copy), tool.name)) {
-        const other = nearest.get(tool.name);
-        if (other === undefined || Math.hypot(label.x, label.y) < Math.hypot(other.x, other.y))
-          nearest.set(tool.name, label);
-      }
+      const at = one.shownAt(copy);
+      const { z } = at;
+      for (const label of this.labelAt(at, tool.name))
+        if (z < (tips.get(tool.name)?.z ?? Number.POSITIVE_INFINITY)) tips.set(tool.name, { z, label });
     }
-    return [...nearest.values()];
+    return [...tips.values()].map((one) => one.label);
   }
 
   /** A text at a point in space; none where it is not seen. */
@@ -470,12 +469,9 @@ export class Stage {
     const cut = SHED_CUT * carpet.width;
     if (name === "shed") return box([cut - 0.1, -0.12, -0.1], [cut, lifted + 0.12, 0.15]);
     const at = name === "head" ? this.headAt(this.followed ?? 0) : null;
-    return at === null
-      ? this.box
-      : this.threads
-          .knot()
-          .union(box(...PAIR))
-          .translate(at);
+    if (at === null) return this.box;
+    const knot = this.threads.knot();
+    return (knot.isEmpty() ? box(...TIED) : knot).translate(at);
   }
 
   private headAt(number: number): three.Vector3 | null {

@@ -33,7 +33,7 @@ void main() {
   mvPosition.xyz += normalize(end - begin) * cap * radius * (2.0 * position.y - 1.0);
   across = position.x;
   along = position.y * length(end - begin) / radius;
-  thick = clamp(radius / least - 1.0, 0.0, 1.0);
+  thick = clamp(0.25 * (radius / least - 1.0), 0.0, 1.0);
   covered = min(radius / least, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
@@ -51,7 +51,7 @@ varying float covered;
 void main() {
   #include <clipping_planes_fragment>
   float lit = mix(0.45, 1.15, sqrt(max(0.0, 1.0 - across * across)));
-  lit *= 1.0 + 0.08 * sin(2.1 * along + 2.2 * across); // two plies that are twisted
+  lit *= 1.0 + 0.08 * thick * sin(2.1 * along + 2.2 * across); // two plies that are twisted
   vec3 shown = mix(colour, vec3(0.85, 0.2, 0.15), 0.7 * mark);
   gl_FragColor = vec4(shown * mix(1.0, lit, thick), covered * mix(others, 1.0, mark));
 }`;

@@ -28,6 +28,9 @@ RAIL, RAIL_MASS = (35 * mm, 7.5 * mm), 0.32
 _FREE = 50 * mm
 """Of the cabinet's height above and below a rail [m]; assumed by this project."""
 
+CIRCUIT = part_id("circuit")
+"""Id of the body."""
+
 _DEPTH = 125 * mm
 """Of the cabinet before its amplifiers [m]."""
 
@@ -61,7 +64,7 @@ def circuit(loom: LoomDesign) -> Tree:
     terminal = device(signals.TERMINAL, "terminal of two signals", TERMINAL)
     stands.append(Occurrence(terminal, tuple(_on_wall(control, y, left=at) for y, at in levels)))
     stands.append(Occurrence(_rail(long), tuple(_rails(control, both=number > left))))
-    return Tree((RigidBody(part_id("circuit"), tuple(stands)),))
+    return Tree((RigidBody(CIRCUIT, tuple(stands)),))
 
 
 def _rail_length(control: Extent) -> float:

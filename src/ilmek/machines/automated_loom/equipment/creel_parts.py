@@ -37,6 +37,9 @@ from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
 
+CREEL, YARN_DUCT = part_id("creel"), part_id("yarn-duct")
+"""Ids of the bodies that stand beside the loom."""
+
 _SECTION = HollowSquare(POST, 3 * mm)
 
 _UPRIGHTS = 1.5
@@ -47,8 +50,8 @@ def creel_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     """The creel with the duct on the floor."""
     creel = creel_of(loom)
     bodies = (
-        RigidBody(part_id("creel"), tuple(_creel(loom, creel))),
-        RigidBody(part_id("yarn-duct"), tuple(_duct(loom, creel))),
+        RigidBody(CREEL, tuple(_creel(loom, creel))),
+        RigidBody(YARN_DUCT, tuple(_duct(loom, creel))),
     )
     yield MachineTree("automated-loom", Tree(bodies))
 
