@@ -327,7 +327,8 @@ def test_a_carpet_woven_longer_has_its_length_off_the_loom() -> None:
 def test_the_mass_off_the_loom_is_that_of_the_yarns_in_the_carpet() -> None:
     made = reported()
     yarns, rows, warps = AutomatedLoomParams().cloth.carpet_yarns, made["rows"], made["warps"]
-    pile = made["knots"] * next(one for one in made.children if one.machine == "weaver")["yarn_in_knot"] * yarns.pile.linear_density
+    weaver = next(child for child in made.children if child.machine == "weaver")
+    pile = made["knots"] * weaver["yarn_in_knot"] * yarns.pile.linear_density
     warp = warps * (1.8 + 0.2) * yarns.warp.linear_density
     # The sinuous weft is at most a quarter longer than the straight one; ends and selvedges are a few percent.
     straight = rows * warps * 2 * mm * yarns.straight_weft.linear_density

@@ -53,13 +53,12 @@ def yarn_line(weaver: Weaver) -> Float[np.ndarray, "3 3"]:
 
 def yarn_wraps(weaver: Weaver) -> tuple[float, float, float]:
     """Wrap of the yarn at tube, guide and eye [rad]: it comes up in its tube and is drawn across before the eye."""
-    ways = np.diff(yarn_line(weaver), axis=0)
-    up, first, last, out = (0.0, 1.0, 0.0), *(ways / np.linalg.norm(ways, axis=1)[:, None]), (0.0, 0.0, -1.0)
-    angles = [
-        float(np.arccos(np.clip(np.dot(one, then), -1.0, 1.0)))
-        for one, then in ((up, first), (first, last), (last, out))
-    ]
-    return angles[0], angles[1], angles[2] + turn / 4
+    legs = np.diff(yarn_line(weaver), axis=0)
+    legs /= np.linalg.norm(legs, axis=1)[:, None]
+    headings = np.vstack([(0.0, 1.0, 0.0), legs, (0.0, 0.0, -1.0)])
+    cosines = np.einsum("ij,ij->i", headings[:-1], headings[1:])
+    angles = np.arccos(np.clip(cosines, -1.0, 1.0))
+    return float(angles[0]), float(angles[1]), float(angles[2]) + turn / 4
 
 
 def yarn_guide(weaver: Weaver) -> Iterator[Occurrence]:

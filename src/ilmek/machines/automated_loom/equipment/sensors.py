@@ -26,6 +26,9 @@ from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
+from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
+from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
 from ilmek.part.extents import Corner, shape_box
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -34,7 +37,7 @@ from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
 
-ROW_MOTORS = (signals.CRANK_MOTOR, signals.HAMMER_MOTOR, signals.SHEDDING_MOTOR)
+ROW_MOTORS = (CRANK_MOTOR, HAMMER_MOTOR, signals.SHEDDING_MOTOR)
 """Motors of beat and shedding, each with an encoder behind it."""
 
 _STEP = 10 * mm
@@ -59,8 +62,8 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     """The sensors of a loom."""
     near = surroundings(loom)
     return (
-        _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (signals.HEAD_MOTOR,)),
-        _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (signals.CRANK_MOTOR, signals.HAMMER_MOTOR)),
+        _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)),
+        _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)),
         _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (signals.SHEDDING_MOTOR,)),
         _on_the_axis(near),
         _strain(near),
