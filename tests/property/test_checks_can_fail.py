@@ -92,6 +92,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"roller_radius": "12mm"},
         {"pressure_angle_limit": "22deg"},
         {"cutter_turn": "15ms", "cloth.yarns.pile_density": "2g/m"},
+        {"carriage_acceleration": "50m/s^2", "head_mass": "400kg"},
     ),
     "weft": (
         {"carrier": "shuttle", "crossed": "no"},

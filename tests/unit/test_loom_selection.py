@@ -9,7 +9,7 @@ import pytest
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.motors import MOTORS, find_motor
 from ilmek.machines.arrangement.side_view import RETREAT
-from ilmek.machines.automated_loom import LoomDesign, selection
+from ilmek.machines.automated_loom import MACHINE, LoomDesign, selection
 from ilmek.machines.automated_loom.frame_modes import frame_modes, sway_checks
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
@@ -46,7 +46,7 @@ def test_a_beat_without_room_in_space_is_exchanged_for_the_next_that_holds(
     other = selection.with_room(first, params)
     assert other.params.beat != first.params.beat
     assert other.params.heads == first.params.heads
-    (choice,) = (one for one in other.choices if one.name == "beat")
+    (choice,) = (choice for choice in MACHINE.choices(other) if choice.name == "beat")
     assert choice.chosen == other.params.beat
     assert first.params.beat != choice.next_cheaper or choice.decided_by == "parts through each other"
 
