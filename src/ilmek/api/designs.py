@@ -32,12 +32,7 @@ def list_machines() -> dict[str, str]:
 
 
 def design(
-    name: str,
-    parameters: Settings = MappingProxyType({}),
-    /,
-    *,
-    progress: Progress = SILENT,
-    **settings: Setting,
+    name: str, parameters: Settings = MappingProxyType({}), /, *, progress: Progress = SILENT, **settings: Setting
 ) -> Report:
     """Design a machine of the catalogue and report it.
 

@@ -150,12 +150,7 @@ def write_mechanism(
 
 
 def solve(
-    mechanism: Solvable,
-    values: Values,
-    *,
-    speed: Values = 0.0,
-    acceleration: Values = 0.0,
-    jerk: Values = 0.0,
+    mechanism: Solvable, values: Values, *, speed: Values = 0.0, acceleration: Values = 0.0, jerk: Values = 0.0
 ) -> Motion:
     """Motion of a mechanism for a batch of input values.
 

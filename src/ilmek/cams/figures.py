@@ -111,12 +111,7 @@ def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
     strokes = (
         Stroke(guide_radius * circle, "construction", f"guide cam {format_quantity(guide_radius, 'mm')}", closed=True),
         Stroke(cam.trace(angle).surface, "outline", "cam", closed=True, filled=True),
-        Stroke(
-            cam.prime_radius * circle,
-            "construction",
-            f"Rp {format_quantity(cam.prime_radius, 'mm')}",
-            closed=True,
-        ),
+        Stroke(cam.prime_radius * circle, "construction", f"Rp {format_quantity(cam.prime_radius, 'mm')}", closed=True),
         *pitch,
         Stroke(corners, "outline", f"bore {format_quantity(bore_side, 'mm')}", closed=True),
         Stroke(tip, "dimension", format_quantity(float(np.abs(tip[1])), "mm")),

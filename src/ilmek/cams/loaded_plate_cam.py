@@ -279,11 +279,7 @@ class CamShaftDrive:
     )
 
 
-def drive_for(
-    cams: Sequence[LoadedPlateCam],
-    speed: float,
-    belt: float = 1.0,
-) -> CamShaftDrive:
+def drive_for(cams: Sequence[LoadedPlateCam], speed: float, belt: float = 1.0) -> CamShaftDrive:
     """The drive of a cam shaft with these cams at a speed [rad/s].
 
     belt  ratio of a belt between reducer and shaft; default: the reducer is on it

@@ -246,13 +246,7 @@ def _merge(  # noqa: PLR0917
 
 
 def merge_patches(
-    knots: Indices,
-    rgb: Rgb,
-    yarn_labs: Labs,
-    least: int,
-    *,
-    kept: BoolArray | None = None,
-    progress: Progress = SILENT,
+    knots: Indices, rgb: Rgb, yarn_labs: Labs, least: int, *, kept: BoolArray | None = None, progress: Progress = SILENT
 ) -> tuple[Indices, int]:
     """The chart (rows, columns) with its confetti merged, and the number of knots that changed.
 

@@ -145,12 +145,7 @@ def of_grid(grid: tuple[int, int], size: CarpetSize | None, quality: Quality | N
 
 
 def find_drawing(
-    rgb: Rgb,
-    size: CarpetSize | None,
-    quality: Quality | None,
-    *,
-    drawn: bool = False,
-    progress: Progress = SILENT,
+    rgb: Rgb, size: CarpetSize | None, quality: Quality | None, *, drawn: bool = False, progress: Progress = SILENT
 ) -> KnotDrawing | None:
     """The drawing that a picture is; None: its pixels are not the knots.
 
@@ -366,12 +361,7 @@ def _is_mix(before: IntArray, colour: IntArray, after: IntArray) -> bool:
 
 @compiled
 def _look(  # noqa: PLR0917
-    numbers: Indices,
-    palette: Int[np.ndarray, "colours 3"],
-    first: int,
-    stop: int,
-    pairs: IntArray,
-    tally: IntArray,
+    numbers: Indices, palette: Int[np.ndarray, "colours 3"], first: int, stop: int, pairs: IntArray, tally: IntArray
 ) -> None:
     height, width = numbers.shape
     for row in range(first, stop):

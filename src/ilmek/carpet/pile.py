@@ -51,12 +51,7 @@ class PileParams(Params):
         symbol="c",
     )
     warp_diameter: float | None = param(
-        None,
-        unit="mm",
-        above=0.0,
-        at_most=10 * mm,
-        doc="diameter of a warp; default: of the usual warp",
-        symbol="D",
+        None, unit="mm", above=0.0, at_most=10 * mm, doc="diameter of a warp; default: of the usual warp", symbol="D"
     )
     fibre_density: float = param(WOOL.density, unit="kg/m^3", above=0.0, doc="density of the pile's fibre, wool 1310")
     packing: float = param(WOOL.packing, above=0.0, at_most=1.0, doc="share of fibre in the section of the pile yarn")

@@ -58,9 +58,7 @@ class Quality:
             if count > FINEST:
                 raise CarpetError(
                     Sentence(
-                        "quality.too-fine",
-                        count=format_number(count / 10),
-                        pitch=format_quantity(0.5 / count, "mm"),
+                        "quality.too-fine", count=format_number(count / 10), pitch=format_quantity(0.5 / count, "mm")
                     ),
                     allowed=Sentence("quality.most", count=format_number(FINEST / 10)),
                     do=EXAMPLE,
@@ -189,9 +187,7 @@ def _gereh(text: str) -> Fraction:
     """The town's gereh [m] from centimetres."""
     if not re.fullmatch(r"[0-9]{1,15}(\.[0-9]{0,40})?", text) or not 5 <= Fraction(text) <= 10:
         raise CarpetError(
-            f"a gereh of {text} cm is out of bounds",
-            allowed="5 to 10 cm; usual 6.5 to 7",
-            do="like 40raj/6.5cm",
+            f"a gereh of {text} cm is out of bounds", allowed="5 to 10 cm; usual 6.5 to 7", do="like 40raj/6.5cm"
         )
     return Fraction(text) / 100
 

@@ -44,10 +44,7 @@ class YarnPlanParams(Params):
         1.0, above=0.0, at_most=10.0, doc="length of yarn per knot in your own carpets over the geometric length"
     )
     cut_waste: float = kind.length(
-        1 * mm,
-        at_least=0.0,
-        at_most=100 * mm,
-        doc="pile yarn lost by knife and shears at each of a knot's two ends",
+        1 * mm, at_least=0.0, at_most=100 * mm, doc="pile yarn lost by knife and shears at each of a knot's two ends"
     )
     reserve: float = kind.ratio(0.10, unit="%", at_least=0.0, at_most=2.0, doc="yarn to buy beyond the need")
     hank: str = kind.text("100 g", doc="what a hank holds, a mass or a length, like 100 g or 200 m")

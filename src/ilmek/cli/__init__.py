@@ -28,10 +28,7 @@ main = LazyGroup(
     ),
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
     modules={
-        "weave": (
-            "ilmek.cli.weave",
-            "Turn a picture into a chart, a yarn bill, a loom and its programme.",
-        ),
+        "weave": ("ilmek.cli.weave", "Turn a picture into a chart, a yarn bill, a loom and its programme."),
         "chart": ("ilmek.cli.chart", "Make only the knot chart of a picture and the yarn bill."),
         "call": ("ilmek.cli.call", "Call a chart row by row on a terminal, for the weaver."),
         "machines": ("ilmek.cli.machines", "List the machines, or the parameters of one machine."),

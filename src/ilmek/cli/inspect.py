@@ -60,10 +60,7 @@ def show_programme(found: InspectionResult) -> None:
         [
             ("carpet", f"{setup.size}, {setup.quality}, {setup.knot} knot"),
             ("rows", f"{setup.rows:,} of {setup.columns:,} knots, {totals.knots:,} in all"),
-            (
-                "loom",
-                f"{with_heads} of {setup.tubes} tubes, warp pitch {format_quantity(setup.warp_pitch, 'mm')}",
-            ),
+            ("loom", f"{with_heads} of {setup.tubes} tubes, warp pitch {format_quantity(setup.warp_pitch, 'mm')}"),
             ("weaving time", f"{format_quantity(totals.duration, 'h')}"),
             ("colour changes", f"{totals.changes:,}, {totals.changes_per_knot:.3f} per knot"),
             ("stops", stops_in_words(found)),

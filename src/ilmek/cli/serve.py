@@ -16,16 +16,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.users_file import check_user_name
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import RunOrder, read_run_order
-from ilmek.jobs.serve import (
-    PORT,
-    RIGHTS,
-    ServeOrder,
-    add_user,
-    checked_order,
-    loom_server,
-    nodeset_text,
-    require_extra,
-)
+from ilmek.jobs.serve import PORT, RIGHTS, ServeOrder, add_user, checked_order, loom_server, nodeset_text, require_extra
 
 EXAMPLES = """\b
 Examples:

@@ -142,11 +142,8 @@ def carpet_checks(
     same = "; ".join(existing.differs[:5])
     return (
         must(
-            "loom: as in its file",
-            not existing.differs,
-            f"{existing.path.name}{f' differs in {same}' if same else ''}",
-            cure="design the loom again with this version of ilmek, or leave its file as it was written",
-        ),
+            "loom: as in its file", not existing.differs, f"{existing.path.name}{f' differs in {same}' if same else ''}"
+        ).with_cure("design the loom again with this version of ilmek, or leave its file as it was written"),
         *_fit_checks(made, chart),
         *_row_checks(existing, chart),
         colours_check(chart, heads, params),
@@ -163,8 +160,7 @@ def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Chec
         params.head_tubes,
         "1",
         "tubes of a head, against the colours of a part of a row; packages are changed between the parts",
-        cure=f"set --colours {params.head_tubes}, or more heads, or take a loom with {needed} tubes a head",
-    )
+    ).with_cure(f"set --colours {params.head_tubes}, or more heads, or take a loom with {needed} tubes a head")
 
 
 def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
@@ -176,35 +172,21 @@ def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
     source = f"cams, slots and heads of the loom stand at warps {pitch} apart: {dense} knots/dm"
     return (
         at_most(
-            "carpet: knots across beside those of the loom",
-            abs(quality.across / own - 1),
-            SAME_PITCH,
-            "%",
-            source,
-            cure=f"set --quality {dense}x{quality.along * dm:.4g}/dm",
-        ),
+            "carpet: knots across beside those of the loom", abs(quality.across / own - 1), SAME_PITCH, "%", source
+        ).with_cure(f"set --quality {dense}x{quality.along * dm:.4g}/dm"),
         at_most(
             "carpet: warps",
             2 * chart.columns + params.selvedge_warps,
             made.warps,
             "1",
             "cams, slots and healds of the loom",
-            cure=f"set a size of at most {widest} width",
-        ),
-        must(
-            "carpet: knot",
-            chart.knot == params.knot,
-            f"the heads tie the {params.knot} knot",
-            cure=f"set --knot {params.knot}",
+        ).with_cure(f"set a size of at most {widest} width"),
+        must("carpet: knot", chart.knot == params.knot, f"the heads tie the {params.knot} knot").with_cure(
+            f"set --knot {params.knot}"
         ),
         at_most(
-            "carpet: length",
-            chart.size.length,
-            params.length,
-            "m",
-            "warp and roll of the loom's cylinders",
-            cure=f"set a size of at most {format_quantity(params.length, 'm')} length",
-        ),
+            "carpet: length", chart.size.length, params.length, "m", "warp and roll of the loom's cylinders"
+        ).with_cure(f"set a size of at most {format_quantity(params.length, 'm')} length"),
     )
 
 
@@ -216,21 +198,11 @@ def _row_checks(existing: ExistingLoom, chart: Chart) -> tuple[Check, ...]:
     dense = f"{existing.design.params.quality.along * dm:.4g}"
     return (
         at_most(
-            "carpet: distance of the rows that the beat leaves",
-            row_pitch_left(existing, row_pitch),
-            most,
-            "mm",
-            source,
-            cure="set a coarser quality along, or take a loom with a stronger beat",
-        ),
+            "carpet: distance of the rows that the beat leaves", row_pitch_left(existing, row_pitch), most, "mm", source
+        ).with_cure("set a coarser quality along, or take a loom with a stronger beat"),
         at_most(
-            "carpet: take-up of a row",
-            row_pitch,
-            own,
-            "mm",
-            "the take-up is timed for the loom's own rows",
-            cure=f"set {dense} rows/dm or more",
-        ),
+            "carpet: take-up of a row", row_pitch, own, "mm", "the take-up is timed for the loom's own rows"
+        ).with_cure(f"set {dense} rows/dm or more"),
     )
 
 
@@ -240,43 +212,22 @@ def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tupl
     finer = "take a finer yarn"
     return (
         at_most(
-            "carpet: diameter of a warp",
-            yarns.warp.diameter,
-            own.warp.diameter,
-            "mm",
-            "slots of the spacer",
-            cure=finer,
-        ),
+            "carpet: diameter of a warp", yarns.warp.diameter, own.warp.diameter, "mm", "slots of the spacer"
+        ).with_cure(finer),
         at_most(
-            "carpet: stiffness of a warp",
-            yarns.warp.stiffness,
-            own.warp.stiffness,
-            "N",
-            "tension of the open shed",
-            cure=finer,
-        ),
+            "carpet: stiffness of a warp", yarns.warp.stiffness, own.warp.stiffness, "N", "tension of the open shed"
+        ).with_cure(finer),
         at_least(
             "carpet: strength of a warp",
             yarns.warp.breaking_force,
             own.warp.breaking_force,
             "N",
             "tension of the open shed and of the beat",
-            cure="take a stronger warp",
-        ),
+        ).with_cure("take a stronger warp"),
         at_most(
-            "carpet: thickness of the pile in a gripper",
-            yarns.pressed,
-            own.pressed,
-            "mm",
-            "grippers and gaps",
-            cure=f"{finer}: --yarn-count",
-        ),
+            "carpet: thickness of the pile in a gripper", yarns.pressed, own.pressed, "mm", "grippers and gaps"
+        ).with_cure(f"{finer}: --yarn-count"),
         at_most(
-            "carpet: pile yarn of a knot",
-            knot_yarn,
-            made.weaver.drawn,
-            "mm",
-            "motion of the pile handler",
-            cure="set a lower --pile-height",
-        ),
+            "carpet: pile yarn of a knot", knot_yarn, made.weaver.drawn, "mm", "motion of the pile handler"
+        ).with_cure("set a lower --pile-height"),
     )

@@ -196,8 +196,7 @@ def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
         "programme: compiled for this loom",
         loom_digest(loom.design.params) == digest,
         "digest of the loom's parameters",
-        cure="weave the picture on this loom: ilmek weave PICTURE --loom FILE",
-    )
+    ).with_cure("weave the picture on this loom: ilmek weave PICTURE --loom FILE")
     failed = tuple(check for check in (compiled, *loom.report.all_checks) if not check.ok)
     return LoomFit(None if failed else time, failed)
 

@@ -269,11 +269,7 @@ def _pictures(
 
 
 def picture_pixels(
-    path: Path,
-    smallest: int,
-    progress: Progress,
-    ground: str | None = None,
-    rendering: Rendering | None = None,
+    path: Path, smallest: int, progress: Progress, ground: str | None = None, rendering: Rendering | None = None
 ) -> tuple[Pixels, tuple[str, ...]]:
     """The pixels of a picture, or of a chart that is none, which has its yarns' colours; and notes."""
     chosen = format_of(path)

@@ -82,10 +82,7 @@ def checked_order(order: ServeOrder) -> ServeOrder:
             do="give the certificate that the clients trust",
         )
     if not order.users_file.exists():
-        raise LoomError(
-            f"there is no users file {order.users_file}",
-            do="ilmek serve --add-user NAME writes one",
-        )
+        raise LoomError(f"there is no users file {order.users_file}", do="ilmek serve --add-user NAME writes one")
     _users(order)
     return order
 

@@ -275,10 +275,7 @@ def _traced(way: _Way, grid: FloatArray) -> _Trace:
             break
         _check_cells(way.pair, len(grid) + 2 * int(np.count_nonzero(split)))
         a, b = np.append(a[split], middle[split]), np.append(middle[split], b[split])
-        start, end = (
-            np.append(start[split], passed.direction[split]),
-            np.append(passed.direction[split], end[split]),
-        )
+        start, end = (np.append(start[split], passed.direction[split]), np.append(passed.direction[split], end[split]))
     at, middle, start, between, first, second = (np.concatenate(rows) for rows in zip(*cells, strict=True))
     order = np.argsort(at, kind="stable")
     at, middle, start, between, first, second = (row[order] for row in (at, middle, start, between, first, second))

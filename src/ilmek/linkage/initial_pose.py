@@ -143,10 +143,7 @@ def configuration(free: FreeInput, known: Known, values: Float[np.ndarray, " row
 
 
 def straight(
-    plan: Plan,
-    start: Known,
-    reference: Mapping[str, float],
-    targets: Mapping[str, Float[np.ndarray, " samples"]],
+    plan: Plan, start: Known, reference: Mapping[str, float], targets: Mapping[str, Float[np.ndarray, " samples"]]
 ) -> dict[str, BodyMotion]:
     """The bodies of the groups without a closed form at each sample: all inputs move evenly from the pose to it.
 

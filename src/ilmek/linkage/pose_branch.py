@@ -23,14 +23,7 @@ from ilmek.arrays import BoolArray, Float, FloatArray, IntArray
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.configuration import Configurations, FreeInput, free_input
-from ilmek.linkage.initial_pose import (
-    assembled,
-    configuration,
-    inputs_in_pose,
-    newton_steps,
-    on_branches,
-    straight,
-)
+from ilmek.linkage.initial_pose import assembled, configuration, inputs_in_pose, newton_steps, on_branches, straight
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan
 from ilmek.linkage.tracing import ConfigurationCurve, trace

@@ -17,12 +17,7 @@ from ilmek.linkage.model import Pin
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import cross, dot
 
-_TURNING = {
-    "ground": "double-crank",
-    "crank": "crank-rocker",
-    "coupler": "double-rocker",
-    "rocker": "rocker-crank",
-}
+_TURNING = {"ground": "double-crank", "crank": "crank-rocker", "coupler": "double-rocker", "rocker": "rocker-crank"}
 
 
 @dataclass(frozen=True, slots=True)

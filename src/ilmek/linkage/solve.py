@@ -125,8 +125,7 @@ def drives_of(
     samples = _samples(fields)
     return {
         name: InputMotion(
-            np.broadcast_to(values[name], samples),
-            *(_spread(given.get(name, 0.0), samples) for given in rates),
+            np.broadcast_to(values[name], samples), *(_spread(given.get(name, 0.0), samples) for given in rates)
         )
         for name in names
     }

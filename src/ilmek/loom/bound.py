@@ -58,11 +58,7 @@ _NEVER = 1 << 40
 
 @compiled
 def _add_rows(
-    lines: Indices,
-    layout: Layout,
-    first: int,
-    times: FourTimes,
-    state: tuple[np.ndarray, np.ndarray, IntArray],
+    lines: Indices, layout: Layout, first: int, times: FourTimes, state: tuple[np.ndarray, np.ndarray, IntArray]
 ) -> None:
     total, by_head, ends = state
     heads, edges = layout

@@ -73,13 +73,7 @@ Out: TypeAlias = tuple[Bytes, Bytes, FloatArray]
 
 @compiled
 def plan(  # noqa: PLR0917 - the arrays of a kernel
-    lines: Bytes,
-    layout: Layout,
-    first: int,
-    commit: int,
-    times: FourTimes,
-    stand: IntArray,
-    keys: Bytes,
+    lines: Bytes, layout: Layout, first: int, commit: int, times: FourTimes, stand: IntArray, keys: Bytes
 ) -> None:
     """Choose the order of every part of the first `commit` of some rows.
 

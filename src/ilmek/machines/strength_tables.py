@@ -25,12 +25,8 @@ def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
         (pin, one.diameter, one.force, one.shear, one.bending, one.pressure, one.wear / MPa)
         for pin, one in found.pins.items()
     )
-    heads = columns(
-        "link", "section", "stress [MPa]", "at", "safety, fatigue", "safety, buckling", "natural frequency [Hz]"
-    )
-    of_pins = columns(
-        "pin", "diameter [mm]", "force [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "p v in MPa m/s"
-    )
+    heads = columns("link | section | stress [MPa] | at | safety, fatigue | safety, buckling | natural frequency [Hz]")
+    of_pins = columns("pin | diameter [mm] | force [N] | shear [MPa] | bending [MPa] | pressure [MPa] | p v in MPa m/s")
     return (
         Table(f"{name}-link-strength", "Strength of the links", heads, links),
         Table(f"{name}-pin-strength", "Strength of the pins", of_pins, pins),

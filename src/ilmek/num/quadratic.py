@@ -60,11 +60,7 @@ def back_solve(factor: Matrix, size: int, vector: Vector) -> None:
 
 @compiled
 def limited_step(
-    H: Matrix,
-    g: Vector,
-    rows: Float[np.ndarray, "m n"],
-    slack: Float[np.ndarray, " m"],
-    step: Vector,
+    H: Matrix, g: Vector, rows: Float[np.ndarray, "m n"], slack: Float[np.ndarray, " m"], step: Vector
 ) -> int:
     """Write the minimum s to `step`; the number of active constraints, -1 if H is not positive definite."""
     n = g.size

@@ -47,11 +47,7 @@ def closures(mechanism: Mechanism, ids: Mapping[str, str]) -> tuple[Closure, ...
     """The pins that close the loops of a mechanism, and its couplings, between bodies of a tree by their ids."""
     carrying = {number for _, number in carriers(mechanism).values()}
     pins = (
-        Closure(
-            JointKind.PIN,
-            (ids[joint.bodies[0]], ids[joint.bodies[1]]),
-            placement(point.real, point.imag),
-        )
+        Closure(JointKind.PIN, (ids[joint.bodies[0]], ids[joint.bodies[1]]), placement(point.real, point.imag))
         for number, joint in enumerate(mechanism.joints)
         if number not in carrying
         for point in [mechanism.body(joint.bodies[0]).points[joint.name]]

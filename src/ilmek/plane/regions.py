@@ -81,10 +81,7 @@ def _edge_squares(f: Distance, corner: complex, side: float, cells: int) -> Int[
 
 
 def _chords(
-    square: Int[np.ndarray, " 2"],
-    at: Float[np.ndarray, " 4"],
-    middle_outside: bool,
-    positions: dict[Crossing, complex],
+    square: Int[np.ndarray, " 2"], at: Float[np.ndarray, " 4"], middle_outside: bool, positions: dict[Crossing, complex]
 ) -> Iterator[tuple[Crossing, Crossing]]:
     """The edge's chords in a square, with the region on their left: pairs of sides where they leave and enter it."""
     i, j = int(square[0]), int(square[1])

@@ -35,10 +35,13 @@ _HEADING = re.compile(r"(.*?)(?:\s*\[([^\]]*)\](?:\s*(\d+))?)?$")
 def columns(*headings: str | Column) -> tuple[Column, ...]:
     """Columns by their headings, the unit in brackets behind, and after it the number of significant digits.
 
-    >>> columns("link", "length [mm]", "mass of one [kg] 3")[1:]
+    headings  one by one, or several in a text as in a table's head, divided by " | "
+
+    >>> columns("link | length [mm] | mass of one [kg] 3")[1:]
     (Column(heading='length', unit='mm', digits=4), Column(heading='mass of one', unit='kg', digits=3))
     """
-    return tuple(_column(heading) if isinstance(heading, str) else heading for heading in headings)
+    written = (one.split(" | ") if isinstance(one, str) else (one,) for one in headings)
+    return tuple(_column(one) if isinstance(one, str) else one for part in written for one in part)
 
 
 def _column(written: str) -> Column:

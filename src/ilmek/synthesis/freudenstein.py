@@ -152,9 +152,7 @@ def _forms(
 
 
 def _roots(
-    forms: _Forms,
-    crank_axes: Complex[np.ndarray, " crank_axes"],
-    rocker_axes: Complex[np.ndarray, " rocker_axes"],
+    forms: _Forms, crank_axes: Complex[np.ndarray, " crank_axes"], rocker_axes: Complex[np.ndarray, " rocker_axes"]
 ) -> list[Float[np.ndarray, "2"]]:
     """All (p, q), up to a factor, with Im(Q conj(Z) W) = 0; a link with given direction counts as its direction."""
     if len(crank_axes) + len(rocker_axes) == 2:

@@ -106,8 +106,7 @@ def checks(design: FourBarDesign) -> tuple[Check, ...]:
         required or TRANSMISSION,
         "deg",
         "transmission_min" if required else RULE,
-        cure="" if required else cure,
-    )
+    ).with_cure("" if required else cure)
     return found, angle
 
 

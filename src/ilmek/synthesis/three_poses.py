@@ -87,9 +87,7 @@ class ThreePoseSynthesis:
     )
     chosen = computed("", "number of the four-bar to build, from 1", lambda it: it.choices.index(it.best) + 1)
     pivots = computed(
-        "mm",
-        "positions of O1 and O1'",
-        lambda it: [[arm.pivot.real, arm.pivot.imag] for arm in (it.crank, it.rocker)],
+        "mm", "positions of O1 and O1'", lambda it: [[arm.pivot.real, arm.pivot.imag] for arm in (it.crank, it.rocker)]
     )
 
     def arm_as_json(self, arm: TwoLinkArm) -> dict[str, Json]:

@@ -31,14 +31,7 @@ PAPER = "beat-up"
 
 def claims() -> tuple[Claim, ...]:
     """All computable claims of the paper, in its order."""
-    return (
-        *beat_up_equations.claims(),
-        *_bounds(),
-        *beat_up_table.claims(),
-        *_choice(),
-        *_sizes(),
-        *_beat(),
-    )
+    return (*beat_up_equations.claims(), *_bounds(), *beat_up_table.claims(), *_choice(), *_sizes(), *_beat())
 
 
 _claim = partial(Claim, PAPER)

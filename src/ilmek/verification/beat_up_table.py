@@ -57,10 +57,7 @@ PRINTED = {
 
 CASES = dict(zip(PRINTED, ("I", "II", "III", "IV", "V"), strict=True))
 
-NOTES = {
-    (160, 55, "c"): "Eq 3 gives 0.8215: one digit is wrong",
-    (180, 35, "c"): "Eq 17, sin β/cos(ψ/2), gives 0.5938",
-}
+NOTES = {(160, 55, "c"): "Eq 3 gives 0.8215: one digit is wrong", (180, 35, "c"): "Eq 17, sin β/cos(ψ/2), gives 0.5938"}
 
 
 class TableRow(NamedTuple):

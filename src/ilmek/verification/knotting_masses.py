@@ -76,11 +76,7 @@ def _link_2() -> tuple[Claim, ...]:
 
 def _inertia_2() -> tuple[Claim, ...]:
     """Parallel axes about the common centre; the report goes on from its rounded masses and its 19.30 mm."""
-    printed = {
-        "link": ("127.1e-9", "12.32e-9"),
-        "holder": ("0.64e-9", "23.22e-9"),
-        "gripper": ("0.49e-9", "45.17e-9"),
-    }
+    printed = {"link": ("127.1e-9", "12.32e-9"), "holder": ("0.64e-9", "23.22e-9"), "gripper": ("0.49e-9", "45.17e-9")}
     whole = "moment of inertia of link 2"
 
     def own_moment(of: Mapping[str, float], name: str) -> float:
@@ -125,12 +121,5 @@ def _others(number: str) -> tuple[Claim, ...]:
         _claim(f"volume of link {number}", volume, "mm³", _of(number, 0, PARAMS.density * mm**3), AT),
         _claim(f"mass of link {number}", mass, "g", _of(number, 0, g), AT),
         _claim(f"weight of link {number}", weight, "N", _of(number, 0, 1 / GRAVITY), AT),
-        _claim(
-            f"moment of inertia of link {number}",
-            moment,
-            "kg m²",
-            partial(_moment, number),
-            AT,
-            follows=from_mass,
-        ),
+        _claim(f"moment of inertia of link {number}", moment, "kg m²", partial(_moment, number), AT, follows=from_mass),
     )

@@ -182,14 +182,7 @@ def _places() -> tuple[Claim, ...]:
             slips=("G2 at mid-length",),
             right=_second_centre,
         ),
-        *vector(
-            "O2' from O1'",
-            ("-63.87", "-14.19"),
-            "mm",
-            arm("rocker", params.rocker),
-            at,
-            follows=_third_arm,
-        ),
+        *vector("O2' from O1'", ("-63.87", "-14.19"), "mm", arm("rocker", params.rocker), at, follows=_third_arm),
         *vector(
             "G3 from O1'",
             ("-31.935", "-7.095"),
@@ -255,12 +248,7 @@ def _accelerations() -> tuple[Claim, ...]:
     parts = {centre: tuple(f"a of {centre}: {term}" for term in terms) for centre, terms in TERMS.items()}
     return (
         *vector(
-            "a of G1",
-            ("29.115", "-29.115"),
-            "mm/s²",
-            of_centre("crank"),
-            at,
-            follows=lambda of: -xy(of, "G1 from O1"),
+            "a of G1", ("29.115", "-29.115"), "mm/s²", of_centre("crank"), at, follows=lambda of: -xy(of, "G1 from O1")
         ),
         *vector("a of O2", ("58.23", "-58.23"), "mm/s²", pin, at, follows=lambda of: -xy(of, "O2 from O1")),
         *vector(

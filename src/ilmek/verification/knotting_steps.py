@@ -271,11 +271,7 @@ def _first() -> Iterator[Claim]:
     yield from vector("m1 a of G1", ("0.1", "-0.1"), "mN", lambda: mass * -_arm("crank"), at)
     yield _claim("link 1: moment of the weight", "1.0", "N mm", lambda: -_arm("crank").real * _weight("crank"), at)
     yield _claim(
-        "link 1: moment of the inertia force, each part",
-        "2.9",
-        "mN mm",
-        lambda: mass * _arm("crank").imag ** 2,
-        at,
+        "link 1: moment of the inertia force, each part", "2.9", "mN mm", lambda: mass * _arm("crank").imag ** 2, at
     )
     pin = R1 * complex(math.cos(TH1), math.sin(TH1))
     for what, of, printed in ((AT_REST, rest, ("-1886.7", "-4561.7")), (BY_SPEED, swing, ("-22967.7", "-461747"))):

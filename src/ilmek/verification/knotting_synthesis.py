@@ -115,9 +115,7 @@ def _equations() -> tuple[Claim, ...]:
 
     return (
         _equation(
-            "objective function",
-            "P1 f1 + P2 f2 + P3 f3 = F - λ f4,  f4 = -ρ²",
-            lambda: _residual_of_poses(steps().F),
+            "objective function", "P1 f1 + P2 f2 + P3 f3 = F - λ f4,  f4 = -ρ²", lambda: _residual_of_poses(steps().F)
         ),
         _equation(
             "F",

@@ -59,9 +59,7 @@ def _error_function() -> tuple[Claim, ...]:
     delta = required - had
     return (
         _equation(
-            "2.31, 2.33",
-            "Δ = a2 - ã2, to first order (a2² - ã2²)/(2 a2)",
-            lambda: residual(1.0, _first_order(had)),
+            "2.31, 2.33", "Δ = a2 - ã2, to first order (a2² - ã2²)/(2 a2)", lambda: residual(1.0, _first_order(had))
         ),
         _equation(
             "2.32",

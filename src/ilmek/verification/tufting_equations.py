@@ -279,9 +279,7 @@ def _balances() -> tuple[Claim, ...]:
             slips=("sign of M4",),
         ),
         _equation(
-            "38",
-            "moments of F_65, -F_54 about s5 = -M5",
-            lambda: _row(_both(5, "D", "E", "rod"), -sample().moment[5]),
+            "38", "moments of F_65, -F_54 about s5 = -M5", lambda: _row(_both(5, "D", "E", "rod"), -sample().moment[5])
         ),
         _equation("39", "m6 g - F_r + F_65,y = F_6,y, moving down", _eq_39),
     )

@@ -97,11 +97,7 @@ def compensated_tension(tension: float, gain: float, bars: int, share: float = R
 
 
 def bars_needed(
-    tension: float,
-    gain: float,
-    share: float = RATE_SHARE,
-    most: float = TENSION_MOST,
-    least: float = TENSION_LEAST,
+    tension: float, gain: float, share: float = RATE_SHARE, most: float = TENSION_MOST, least: float = TENSION_LEAST
 ) -> int:
     """Bars of a sprung back rest that keep its tensions, 1 or 2; arguments as of `compensated_tension`.
 

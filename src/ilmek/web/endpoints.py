@@ -222,12 +222,7 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "Put a picture, or a knot chart in a format that is read, into the project.",
         upload=PICTURE_TYPES,
     ),
-    Endpoint(
-        "POST",
-        "/project/pictures/delete",
-        "studio.project.pictures:delete_picture",
-        "Delete a picture.",
-    ),
+    Endpoint("POST", "/project/pictures/delete", "studio.project.pictures:delete_picture", "Delete a picture."),
     Endpoint(
         "POST", "/project/products", "studio.project.products:products", "What can be written of a file, with commands."
     ),

@@ -150,10 +150,7 @@ def _responses(endpoint: Endpoint, answer: JsonObject) -> JsonObject:
 
 
 def _error(status: int) -> JsonObject:
-    return {
-        "description": ERRORS[status],
-        "content": {JSON: {"schema": {"$ref": "#/components/schemas/Error"}}},
-    }
+    return {"description": ERRORS[status], "content": {JSON: {"schema": {"$ref": "#/components/schemas/Error"}}}}
 
 
 def _own(summary: str, parameters: list[JsonObject], answers: JsonObject, *further: int) -> JsonObject:

@@ -71,8 +71,7 @@ class CellColours:
 
 
 def cell_colours(
-    colours: Float[np.ndarray, "rows columns 3"],
-    spread: Float[np.ndarray, "rows columns"],
+    colours: Float[np.ndarray, "rows columns 3"], spread: Float[np.ndarray, "rows columns"]
 ) -> CellColours:
     """The colours that cells have; `spread`: range of the lightness within each [codes]."""
     brightness = np.log(colours @ LUMA + DARK)

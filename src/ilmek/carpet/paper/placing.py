@@ -40,9 +40,7 @@ def off_lattice(x: Float[np.ndarray, "rows columns"], y: Float[np.ndarray, "rows
 
 
 def border_beside(
-    around: Float[np.ndarray, "wider_rows wider_columns 3"],
-    palette: UInt8[np.ndarray, "colours 3"],
-    numbers: Indices,
+    around: Float[np.ndarray, "wider_rows wider_columns 3"], palette: UInt8[np.ndarray, "colours 3"], numbers: Indices
 ) -> float:
     """The share of a side beside which the drawing seems to go on in whole cells, on the worst side.
 

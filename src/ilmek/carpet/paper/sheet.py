@@ -14,15 +14,7 @@ from ilmek.arrays import BoolArray, Float, Indices, Int64, Rgb, UInt8
 from ilmek.carpet.paper.cells import MOST_ALTERNATING, Cells, read_cells
 from ilmek.carpet.paper.colours import cell_colours
 from ilmek.carpet.paper.lattice import divided, find_lattice
-from ilmek.carpet.paper.lines import (
-    NEARLY_EVERYWHERE,
-    SOMEWHERE,
-    LineEnergy,
-    Spread,
-    line_energy,
-    no_grid,
-    pitches,
-)
+from ilmek.carpet.paper.lines import NEARLY_EVERYWHERE, SOMEWHERE, LineEnergy, Spread, line_energy, no_grid, pitches
 from ilmek.carpet.paper.parts import parts
 from ilmek.carpet.paper.placing import border_beside, off_lattice
 from ilmek.errors import PictureError

@@ -127,11 +127,7 @@ ALARM_FIELDS = (
 
 def own_objects(plate: LoomNameplate) -> dict[str, str]:
     """Path and type of each object of the loom's own types."""
-    found = {
-        f"{LOOM}.Status": "LoomStatusType",
-        f"{LOOM}.Carpet": "CarpetType",
-        f"{LOOM}.Alarms": "AlarmListType",
-    }
+    found = {f"{LOOM}.Status": "LoomStatusType", f"{LOOM}.Carpet": "CarpetType", f"{LOOM}.Alarms": "AlarmListType"}
     for head in range(plate.heads):
         found[f"{LOOM}.Heads.Head{head}"] = "HeadType"
         found |= {f"{LOOM}.Heads.Head{head}.Tube{tube}": "YarnPackageType" for tube in range(plate.tubes)}

@@ -60,9 +60,7 @@ def _links_table(strength: MachineStrength) -> Table:
 
 
 def _pins_table(strength: MachineStrength) -> Table:
-    heads = columns(
-        "pin", "force up to [N]", "shear [MPa]", "bending [MPa]", "pressure [MPa]", "pressure x speed [MPa*m/s]"
-    )
+    heads = columns("pin | force up to [N] | shear [MPa] | bending [MPa] | pressure [MPa] | pressure x speed [MPa*m/s]")
     rows = tuple(
         (name, one.force, one.shear, one.bending, one.pressure, one.wear, strength.lives.get(name, ""))
         for name, one in strength.pins.items()

@@ -75,8 +75,7 @@ class LoomRun:
                 _require_proved(order.programme, progress)
             elif not self.folder.woven.exists():
                 raise LoomError(
-                    f"{self.folder.path} has a journal but no carpet",
-                    do="restore the file woven, or begin with --new",
+                    f"{self.folder.path} has a journal but no carpet", do="restore the file woven, or begin with --new"
                 )
             self.woven = stack.enter_context(open_woven(self.folder.woven, self.programme))
             rates = order.rates(self.programme.setup)

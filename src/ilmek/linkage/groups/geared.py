@@ -58,11 +58,7 @@ class Geared(Step):
         return locate_all(self.attachments, known, columns)
 
     def jerk(
-        self,
-        known: KnownJerks,
-        located: Known,
-        columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],
+        self, known: KnownJerks, located: Known, columns: Mapping[str, Columns], drives: Mapping[str, InputMotion]
     ) -> Mapping[str, BodyJerk]:
         """Jerks of the bodies, from their relations."""
         found = dict(known)

@@ -116,11 +116,7 @@ class Step(ABC):
 
     @abstractmethod
     def jerk(
-        self,
-        known: KnownJerks,
-        located: Known,
-        columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],
+        self, known: KnownJerks, located: Known, columns: Mapping[str, Columns], drives: Mapping[str, InputMotion]
     ) -> Mapping[str, BodyJerk]:
         """The bodies' jerks: the equations of `solve` differentiated once more, each with another right side.
 

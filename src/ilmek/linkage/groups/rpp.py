@@ -52,10 +52,7 @@ def gain(r: ComplexField, sliding: ComplexField, w: RealField) -> ComplexField:
 
 
 def zero(
-    outer: ComplexField,
-    inner: tuple[ComplexField, ComplexField],
-    at: ComplexField,
-    twists: tuple[complex, complex],
+    outer: ComplexField, inner: tuple[ComplexField, ComplexField], at: ComplexField, twists: tuple[complex, complex]
 ) -> ComplexField:
     """From the slide's point on the guide to the known pin at s = z = 0, in the guide's frame [m].
 

@@ -243,10 +243,7 @@ class RRRDyad(PinnedPair):
         reach = 0.0 if reach < TOUCHING * self.a else reach
         (p, q), pins = self.links, "-".join(self.known_pins)
         if gap > 0:
-            return (
-                f"|{pins}| reaches {_mm(reach)}, {p} + {q} = {_mm(self.a + self.b)}",
-                f"lengthen one by {_mm(gap)}",
-            )
+            return (f"|{pins}| reaches {_mm(reach)}, {p} + {q} = {_mm(self.a + self.b)}", f"lengthen one by {_mm(gap)}")
         longer, shorter = (p, q) if self.a > self.b else (q, p)
         return (
             f"|{pins}| falls to {_mm(reach)}, {longer} - {shorter} = {_mm(abs(self.a - self.b))}",

@@ -17,18 +17,7 @@ from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
-from ilmek.linkage.kernels import (
-    ACCELERATION,
-    ALPHA,
-    BLOCK,
-    BODY,
-    DIRECTION,
-    OMEGA,
-    VELOCITY,
-    Instruction,
-    pair,
-    put,
-)
+from ilmek.linkage.kernels import ACCELERATION, ALPHA, BLOCK, BODY, DIRECTION, OMEGA, VELOCITY, Instruction, pair, put
 from ilmek.linkage.model import Displacement, Mechanism, Slide
 from ilmek.linkage.tape import Tape
 from ilmek.num.compiled import compiled
@@ -194,11 +183,7 @@ class DrivenSlider(Step):
         return {self.body: self.track.locate(known[self.on], columns[self.body])}
 
     def jerk(
-        self,
-        known: KnownJerks,
-        located: Known,
-        columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],
+        self, known: KnownJerks, located: Known, columns: Mapping[str, Columns], drives: Mapping[str, InputMotion]
     ) -> Mapping[str, BodyJerk]:
         """Jerk of the driven body: the input's jerk along the track."""
         third = drives[self.entry].jerk

@@ -32,14 +32,7 @@ from ilmek.loom.control.exchange import (
 from ilmek.loom.control.interlocks import JOG_LIMITS, WATCHED, axes_of, jog_axis, violated
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
-from ilmek.loom.control.packml import (
-    PackMode,
-    PackState,
-    Refusal,
-    commanded,
-    mode_refused,
-    state_name,
-)
+from ilmek.loom.control.packml import PackMode, PackState, Refusal, commanded, mode_refused, state_name
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, Order, SensorsChanged, Tie
 from ilmek.loom.control.sequence import LOOM, key_of
 from ilmek.loom.control.state import MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft

@@ -108,11 +108,7 @@ _BY_HAND = frozenset(
 )
 
 MODE_STATES: Mapping[PackMode, frozenset[PackState]] = MappingProxyType(
-    {
-        PackMode.PRODUCTION: frozenset(_S),
-        PackMode.MAINTENANCE: frozenset(_S) - _SUSPENSION,
-        PackMode.MANUAL: _BY_HAND,
-    }
+    {PackMode.PRODUCTION: frozenset(_S), PackMode.MAINTENANCE: frozenset(_S) - _SUSPENSION, PackMode.MANUAL: _BY_HAND}
 )
 """The states that a mode has: there is nothing to suspend in a single step, nor to hold or complete in manual mode."""
 

@@ -11,14 +11,7 @@ from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
 from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_heads
-from ilmek.machines.automated_loom.cyclogram import (
-    BEATER,
-    CARRIAGE,
-    HEADS,
-    TAKE_UP,
-    cam_tables_of,
-    shortest_passage,
-)
+from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
@@ -168,21 +161,15 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         pile_check(loom.task.yarns.pile, params.quality),
         at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed", cure=SLOWER_CAMS),
         at_most(
-            f"{carrier}: acceleration",
-            acceleration,
-            weft.params.acceleration,
-            "m/s^2",
-            "weft.acceleration",
-            cure=SLOWER_CAMS,
-        ),
+            f"{carrier}: acceleration", acceleration, weft.params.acceleration, "m/s^2", "weft.acceleration"
+        ).with_cure(SLOWER_CAMS),
         at_least(
             f"{carrier}: room in the shed",
             _least_room(loom),
             loom.shedding.params.shuttle_height,
             "mm",
             "open_share of the lift",
-            cure="set a larger lift, or a smaller open_share",
-        ),
+        ).with_cure("set a larger lift, or a smaller open_share"),
         *(replace(check, name=f"row: {check.name}", cure=SLOWER_CAMS) for check in check_all(row, row.relations)),
         *(
             replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
@@ -216,8 +203,7 @@ def _retreat_checks(loom: LoomDesign) -> tuple[Check, ...]:
             params.retreat_acceleration,
             "m/s^2",
             "retreat_acceleration",
-            cure=cure,
-        ),
+        ).with_cure(cure),
     )
 
 
@@ -270,12 +256,7 @@ def _heads_table(found: LoomAnalysis) -> Table:
         for heads, cost in enumerate(costs_by_heads(loom, found.listed, found.energy.total), 1)
     )
     heads_of = columns(
-        "heads",
-        "weaving time [h]",
-        "a row [s]",
-        "knots a minute",
-        "price of the parts",
-        "cost of a carpet without yarn",
+        "heads | weaving time [h] | a row [s] | knots a minute | price of the parts | cost of a carpet without yarn"
     )
     return Table("loom-heads", "Time, price and cost by number of heads, estimated: the frame as it is", heads_of, rows)
 
@@ -291,9 +272,7 @@ def _cost_table(found: LoomAnalysis) -> Table:
 
 
 def _parts_table(listed: PartsList) -> Table:
-    heads = columns(
-        "part", "number", "description", "material", "mass of one [kg] 3", "mass of all [kg]", "price of all"
-    )
+    heads = columns("part | number | description | material | mass of one [kg] 3 | mass of all [kg] | price of all")
     rows = tuple(
         (
             *(part.name, part.number, part.description, part.material, part.mass),

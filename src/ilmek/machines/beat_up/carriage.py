@@ -134,23 +134,15 @@ def _shoulder_checks(end: Shoulder) -> tuple[Check, ...]:
     yielding, source = f"{PIN_STEEL.name}, yield over {LEAST_SAFETY:g}: DIN 743-1", "Goodman, DIN 743-2"
     return (
         at_most(
-            "stress of the cranks' shaft at its drive",
-            end.stress,
-            PIN_STEEL.strength / LEAST_SAFETY,
-            "MPa",
-            yielding,
-            cure=cure,
-            parts=parts,
-        ),
+            "stress of the cranks' shaft at its drive", end.stress, PIN_STEEL.strength / LEAST_SAFETY, "MPa", yielding
+        ).with_cure(cure, *parts),
         at_least(
             "fatigue of the cranks' shaft at its shoulder",
             end.safety,
             LEAST_SAFETY,
             "1",
             f"{source}, fillet of {in_mm(end.fillet)}",
-            cure=cure,
-            parts=parts,
-        ),
+        ).with_cure(cure, *parts),
     )
 
 

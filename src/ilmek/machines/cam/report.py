@@ -163,12 +163,7 @@ def tables(found: CamAnalysis) -> tuple[Table, ...]:
 def _law_table(design: CamDesign) -> Table:
     """Each law for rise and fall, at the same lift, angles, load and limit."""
     heads = columns(
-        "law",
-        "smallest prime radius [mm]",
-        "velocity [m/s]",
-        "acceleration [m/s^2]",
-        "jerk [m/s^3]",
-        "torque [N*m]",
+        "law | smallest prime radius [mm] | velocity [m/s] | acceleration [m/s^2] | jerk [m/s^3] | torque [N*m]",
         "acceleration jumps",
     )
     rows = tuple(_law_row(design, name) for name in LAWS)
@@ -222,14 +217,8 @@ def _point_table(design: CamDesign) -> Table:
     trace, lift = state.trace, state.trace.motion.s * design.params.per_unit
     shape = (angle, lift, trace.surface.real, trace.surface.imag, trace.pressure_angle, trace.curvature)
     heads = columns(
-        "cam angle [deg]",
-        "lift [mm]",
-        "x [mm]",
-        "y [mm]",
-        "pressure angle [deg]",
-        "curvature [1/m]",
-        "contact force [N]",
-        "torque [N*m]",
+        "cam angle [deg] | lift [mm] | x [mm] | y [mm] | pressure angle [deg] | curvature [1/m]",
+        "contact force [N] | torque [N*m]",
     )
     rows = np.stack([*shape, state.normal, state.torque], axis=1).tolist()
     return Table("cam-points", "The cam in steps of 5°", heads, tuple(map(tuple, rows)))

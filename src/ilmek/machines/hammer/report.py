@@ -76,11 +76,7 @@ def _row_table(design: Hammer) -> Table:
         return force, force * warps, spacing, 1 / spacing, float(fabric.fell(force)), fabric.energy(force) * warps
 
     heads = columns(
-        "force of a warp [N]",
-        "all warps [kN]",
-        "rows [mm]",
-        "rows along [1/dm]",
-        "displacement of the fell [mm]",
+        "force of a warp [N] | all warps [kN] | rows [mm] | rows along [1/dm] | displacement of the fell [mm]",
         "energy of a beat [J]",
     )
     rows = tuple(row(share * design.needed) for share in (0.1, 0.25, 0.5, 1.0, 1.5, 2.0, 4.0))
@@ -104,11 +100,7 @@ def _blow_table(design: Hammer) -> Table:
         else {"cams and comb": design.axis.mass, "comb alone": comb}
     )
     heads = columns(
-        "striking mass",
-        "mass [kg]",
-        "speed for the required rows [m/s]",
-        "momentum [N*s]",
-        "its speed [m/s]",
+        "striking mass | mass [kg] | speed for the required rows [m/s] | momentum [N*s] | its speed [m/s]",
         "rows it would leave [mm]",
     )
     rows = tuple(row(name, mass) for name, mass in masses.items())

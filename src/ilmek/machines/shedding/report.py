@@ -58,18 +58,8 @@ def tables(found: SheddingAnalysis) -> tuple[Table, ...]:
 def _shafts_table(design: SheddingDesign) -> Table:
     """Each of several shafts: where it stands, its warps, cams, bar, torque and motor."""
     heads = columns(
-        "shaft",
-        "beyond the first [mm]",
-        "even warps",
-        "odd warps",
-        "lift [mm]",
-        "prime radius [mm]",
-        "guide radius [mm]",
-        "mass [kg]",
-        "bar [mm]",
-        "torque [Nm]",
-        "bearing",
-        "motor",
+        "shaft | beyond the first [mm] | even warps | odd warps | lift [mm] | prime radius [mm]",
+        "guide radius [mm] | mass [kg] | bar [mm] | torque [Nm] | bearing | motor",
     )
     rows = tuple(
         (
@@ -109,13 +99,8 @@ def _stagger_table(found: SheddingAnalysis) -> Table:
     if params.phase == "staggered":
         sheds += [("chosen", design.shed)]
     heads = columns(
-        "cams of a parity",
-        "groups",
-        "spread [deg]",
-        "torque [Nm]",
-        "root mean square [Nm]",
-        "shed for the shuttle [deg]",
-        "time [s]",
+        "cams of a parity | groups | spread [deg] | torque [Nm] | root mean square [Nm]",
+        "shed for the shuttle [deg] | time [s]",
     )
     rows = tuple(_stagger_row(name, shed) for name, shed in sheds)
     return Table("shedding-stagger", "Cams all at once and one after another", heads, rows)
@@ -131,12 +116,7 @@ def _stagger_row(name: str, shed: Shed) -> tuple[float | int | str, ...]:
 def _law_table(design: SheddingDesign) -> Table:
     """Each motion law with the same lift, angles and pressure angle."""
     heads = columns(
-        "law",
-        "prime radius [mm]",
-        "convex radius [mm]",
-        "velocity [mm/s]",
-        "acceleration [mm/s^2]",
-        "acceleration jumps",
+        "law | prime radius [mm] | convex radius [mm] | velocity [mm/s] | acceleration [mm/s^2] | acceleration jumps"
     )
     rows = tuple(_law_row(design, name) for name in SMOOTH_LAWS)
     return Table("shedding-laws", "Motion laws compared at equal lift, angles and pressure angle", heads, rows)

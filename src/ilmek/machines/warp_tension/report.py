@@ -178,18 +178,8 @@ def _loads_table(loads: WarpLoads) -> Table:
 
 def _cylinder_table(three: tuple[Cylinder, ...]) -> Table:
     heads = columns(
-        "cylinder",
-        "tube",
-        "load [kN/m]",
-        "slope [mrad]",
-        "deflection [mm]",
-        "reaction [kN]",
-        "torque [Nm]",
-        "mass [kg]",
-        "bearing",
-        "static safety",
-        "life, turns",
-        "shaft end [MPa]",
+        "cylinder | tube | load [kN/m] | slope [mrad] | deflection [mm] | reaction [kN] | torque [Nm] | mass [kg]",
+        "bearing | static safety | life, turns | shaft end [MPa]",
     )
     rows = tuple(
         (
@@ -226,9 +216,7 @@ def _tube_table(design: WarpTensionDesign) -> Table:
         return (inner, *outer_radii_min(params, inner), sag)
 
     heads = columns(
-        "inner radius [mm]",
-        "least outer radius, slope [mm] 6",
-        "least outer radius, deflection [mm] 6",
+        "inner radius [mm] | least outer radius, slope [mm] 6 | least outer radius, deflection [mm] 6",
         "deflection of a 10 mm wall [mm]",
     )
     rows = tuple(row(inner * mm) for inner in (50, 75, 100, 125, 150))

@@ -168,20 +168,9 @@ def _accelerations(weaver: Weaver) -> Plot:
 def cams_table(weaver: Weaver) -> Table:
     """The cams one by one."""
     heads = columns(
-        "cam",
-        "driven by",
-        "lift [mm]",
-        "prime radius [mm]",
-        "largest radius [mm]",
-        "pressure angle [deg]",
-        "least convex radius [mm]",
-        "mass [kg]",
-        "spring [N/m]",
-        "preload [N]",
-        "greatest force [N]",
-        "Hertz pressure [MPa]",
-        "load of the work [N]",
-        "torque [Nm]",
+        "cam | driven by | lift [mm] | prime radius [mm] | largest radius [mm] | pressure angle [deg]",
+        "least convex radius [mm] | mass [kg] | spring [N/m] | preload [N] | greatest force [N]",
+        "Hertz pressure [MPa] | load of the work [N] | torque [Nm]",
     )
     masses = cam_masses(weaver)
     rows = tuple(

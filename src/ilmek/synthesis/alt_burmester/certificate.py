@@ -40,9 +40,7 @@ class Certificate:
 
 
 def certify(
-    task: PosesAndPoints,
-    pins: Complex[np.ndarray, "four_bars 4"],
-    turns: Complex[np.ndarray, "four_bars others"],
+    task: PosesAndPoints, pins: Complex[np.ndarray, "four_bars 4"], turns: Complex[np.ndarray, "four_bars others"]
 ) -> Certificate:
     """Prove four-bars by Krawczyk's operator.
 

@@ -90,11 +90,7 @@ def _drawn(task: PosesAndPoints, family: int, proof: Certificate, k: int) -> Com
     if found.reversed().grashof.crank_turns and not found.grashof.crank_turns:
         found = found.reversed()
     return CompleteFourBar(
-        found,
-        np.asarray(np.angle(turns / turns[0])),
-        family,
-        bool(proof.certified[k]),
-        _distance(task, proof, k),
+        found, np.asarray(np.angle(turns / turns[0])), family, bool(proof.certified[k]), _distance(task, proof, k)
     )
 
 

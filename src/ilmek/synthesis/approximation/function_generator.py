@@ -161,13 +161,7 @@ def _zero_of_error(function: Function, error: partial[FloatArray]) -> float:
     return float(bracketed_roots(error, x[first : first + 1], x[first + 1 : first + 2])[0])
 
 
-def _check(
-    function: Function,
-    criterion: str,
-    starts: Starts,
-    ground: float,
-    weight: Weight | None,
-) -> None:
+def _check(function: Function, criterion: str, starts: Starts, ground: float, weight: Weight | None) -> None:
     x = range_samples(function, SAMPLES)
     if criterion not in CRITERIA:
         raise ParameterError(f"criterion {criterion!r} of a function's approximation", allowed=", ".join(CRITERIA))

@@ -24,13 +24,7 @@ SMALL, LARGE = 1e-2, 1e2
 
 
 def random_links(
-    rng: np.random.Generator,
-    count: int,
-    bounds: tuple[Four, Four],
-    *,
-    kind: int,
-    kappa: float,
-    ratio: float = math.inf,
+    rng: np.random.Generator, count: int, bounds: tuple[Four, Four], *, kind: int, kappa: float, ratio: float = math.inf
 ) -> Links:
     """`count` sets of ground, crank, coupler, rocker, shape (count, 4); none where there is no such set.
 

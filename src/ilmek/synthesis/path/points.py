@@ -196,11 +196,7 @@ def second_arms(
 
 
 def timed_four_bars(
-    points: ComplexArray,
-    crank_angles: FloatArray,
-    *,
-    pivots: tuple[complex, complex] | None = None,
-    samples: int = 24,
+    points: ComplexArray, crank_angles: FloatArray, *, pivots: tuple[complex, complex] | None = None, samples: int = 24
 ) -> tuple[TimedFourBar, ...]:
     """Four-bars whose tracer is at given points at given crank angles.
 
@@ -269,9 +265,7 @@ def _crank(m: NumberArray, w: NumberArray, centre_frame: TaskFrame, circle_frame
     else:
         kind = CrankKind.STILL if still else CrankKind.CRANK
     return TimedCrank(
-        kind,
-        centre_frame.point_to_world(pivot) if near else -pivot,
-        circle_frame.point_to_world(arm) if close else arm,
+        kind, centre_frame.point_to_world(pivot) if near else -pivot, circle_frame.point_to_world(arm) if close else arm
     )
 
 

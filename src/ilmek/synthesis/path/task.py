@@ -185,10 +185,7 @@ def _possible(
     low: FloatArray, high: FloatArray, task: PathTask, *, kappa: float | None = None, ratio: float | None = None
 ) -> bool:
     """Whether there are lengths within the bounds for the limits of a task, or for another kappa or ratio."""
-    limits = {
-        "kappa": task.kappa if kappa is None else kappa,
-        "ratio": task.link_ratio if ratio is None else ratio,
-    }
+    limits = {"kappa": task.kappa if kappa is None else kappa, "ratio": task.link_ratio if ratio is None else ratio}
     return len(random_links(np.random.default_rng(0), 64, (low, high), kind=task.sign, **limits)) > 0
 
 

@@ -149,11 +149,7 @@ def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
     """Factor of time by which the motion u = t must be slowed down to keep every limit."""
     q1, q2, q3 = (np.abs(one) for one in path.derivatives(_at(knots, np.append(_FINE, _POINTS))))
     return float(
-        max(
-            np.max(q1 / limits.speed),
-            np.sqrt(np.max(q2 / limits.acceleration)),
-            np.cbrt(np.max(q3 / limits.jerk)),
-        )
+        max(np.max(q1 / limits.speed), np.sqrt(np.max(q2 / limits.acceleration)), np.cbrt(np.max(q3 / limits.jerk)))
     )
 
 
