@@ -129,7 +129,7 @@ def test_deadline_finds_the_heads(tmp_path: Path) -> None:
     carpet = ("weave", MEDALLION, "--size", "120x60cm", "--quality", "15x15/dm", "--loom", "beat=comb")
     found = data(*carpet, "--deadline", "5h", "--out", str(tmp_path / "out"))
     assert found["weaving_time"] <= 5 * 3600
-    assert found["heads"] > 2
+    assert found["heads"] > 1
     last = next(check for check in found["checks"] if check["name"] == "weaving time")
     assert last["ok"]
 

@@ -35,6 +35,7 @@ from ilmek.machines.weaver import Weaver
 from ilmek.machines.weft import Weft
 from ilmek.params import Params
 from ilmek.records import record
+from ilmek.report import Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
@@ -76,6 +77,11 @@ class LoomDesign:
     def search(self) -> LoomSearch | None:
         """The search in which it was chosen; None where nothing was left open."""
         return self.journal.search
+
+    @property
+    def choices(self) -> tuple[Choice, ...]:
+        """The choices of what the parameters left open."""
+        return self.search.choices if self.search else ()
 
     @property
     def weaver(self) -> Weaver:
