@@ -155,7 +155,7 @@ def test_the_pairs_that_come_nearest_are_listed_and_shown_by_a_press(page: Page,
           body: JSON.stringify({file: "machines/loom.toml"})})).text()"""
     )
     nearest = json.JSONDecoder().raw_decode(compared, compared.index("{"))[0]["nearest"]
-    shown = [float(re.sub(r"[^-.\d]", "", text)) for text in pairs.locator("b").all_inner_texts()]
+    shown = [float(re.sub(r"[^-.\d]", "", text.replace("−", "-"))) for text in pairs.locator("b").all_inner_texts()]
     assert shown == pytest.approx([1000 * pair["distance"] for pair in nearest], rel=1e-3)
     numbers = [k for k, pair in enumerate(nearest) if pair["cyclogram"] in {"row", "knot"} and pair["angle"] > 0.01]
     before = picture(page)

@@ -149,7 +149,7 @@ def _names(seen: tuple[PieceOutline, ...], box: ComplexArray) -> tuple[Stroke, .
         largest.setdefault(_name(outline.body), outline)
     order = sorted(list(largest.items())[:NAMED], key=lambda item: _right_end(item[1]).imag)
     size = complex(box[1] - box[0])
-    kink, end = box[1].real + 0.06 * size.real, box[1].real + 0.45 * max(size.real, size.imag)
+    kink, end = box[1].real + 0.06 * size.real, box[1].real + 0.55 * max(size.real, size.imag)
     heights = spread([_right_end(outline).imag for _, outline in order], _APART * max(size.real, size.imag))
     return tuple(
         Stroke(np.array([complex(end, height), complex(kink, height), _right_end(outline)]), "construction", name)

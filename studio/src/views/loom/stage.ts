@@ -159,7 +159,7 @@ export class Stage {
     const right = this.camera.lens.position.x > 0;
     const most = share < 1 && !fine ? FEW : Number.POSITIVE_INFINITY;
     for (const one of this.parts) one.detail(pixel, view, right, most, fine);
-    this.threads.setPixel(Camera.pixelAtOne(this.canvas.height), pixel);
+    this.threads.setPixel(Camera.pixelAtOne(this.canvas.height), fine);
     this.threads.dye(this.cloth.colourAt(this.headAt(this.followed ?? 0)?.x ?? 0));
     if (fine) this.shadow.throw(this.renderer, this.scene, this.shadowless(), this.cuts);
     this.light.update(this.camera.lens, this.plane, pixel);
@@ -329,10 +329,11 @@ export class Stage {
     this.changed();
   }
 
-  /** Marks the first of some parts; alone: all others are looked through. */
+  /** Marks the first of some parts; alone: all others are looked through, and the cloth is left out. */
   choose(names: readonly string[], alone = false): void {
     this.chosen = names;
     this.alone = alone;
+    this.cloth.mesh.visible = this.threads.group.visible = !alone;
     for (const one of this.parts) {
       const { name } = one.part;
       const inHead = one.tool === undefined ? BEHIND_KNOT : one.tool.number === 0 ? AROUND_KNOT : 1;

@@ -7,6 +7,7 @@ import type { Drive, SceneModel } from "./scene";
 
 /** A segment of a thread from `from` to `to`; of a warp, its ends are lifted by shares of their lifts. */
 const VERTEX = `
+#define NEIGHBOURS 60.0
 #include <clipping_planes_pars_vertex>
 attribute vec3 from;
 attribute vec3 to;
@@ -37,6 +38,7 @@ void main() {
   covered = min(radius / least, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
+  if (abs(from.x - marked.x) > NEIGHBOURS * marked.y && marked.y > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const FRAGMENT = `
@@ -80,7 +82,6 @@ export class Threads {
   ) {
     const { warps, yarns } = model.about;
     this.warps = threadMaterial(warps.diameter);
-    this.warps.transparent = true; // thinner than a pixel, they cover a part of it
     this.group.add(threadMesh(warpSegments(model), this.warps));
     yarns.forEach((yarn, number) => {
       const placed = frames.byName.get(yarn.frame);
@@ -140,10 +141,16 @@ export class Threads {
       screenColour(drive === "knot" ? look.pile : look.weft, material.uniforms["colour"]?.value);
   }
 
-  /** Size of a pixel at a distance of 1, and where the camera looks [m]. */
-  setPixel(atOne: number, there: number): void {
+  /**
+   * Size of a pixel at a distance of 1 [m].
+   *
+   * fine  warps thinner than a pixel cover a part of it: a processor takes long where many lie behind one another
+   */
+  setPixel(atOne: number, fine: boolean): void {
     for (const { uniforms } of this.materials) if (uniforms["pixel"]) uniforms["pixel"].value = atOne;
-    this.warps.depthWrite = this.model.about.warps.diameter > there && this.warps.uniforms["others"]?.value === 1;
+    const looksThrough = this.warps.uniforms["others"]?.value < 1;
+    this.warps.transparent = fine || looksThrough;
+    this.warps.depthWrite = !looksThrough;
   }
 }
 
