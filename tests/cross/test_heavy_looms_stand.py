@@ -8,10 +8,12 @@ from functools import cache
 import pytest
 
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.assembly import holds_in_space
 from ilmek.machines.automated_loom.in_space.beating import beating
 from ilmek.machines.automated_loom.in_space.cams import cams
 from ilmek.machines.automated_loom.in_space.machines import joined
 from ilmek.machines.automated_loom.in_space.standing import standing
+from ilmek.machines.automated_loom.report import all_checks
 from ilmek.machines.shedding.stack import part_id
 from ilmek.part.contacts import contacts
 from ilmek.part.tree import Tree
@@ -20,7 +22,17 @@ LOOMS = (
     {"width": "3.4m", "length": "3.5m", "knots_across": "20/dm", "tension": "30N", "lift": "60mm", "beat": "comb"},
     {"width": "1.7m", "length": "2.2m", "knots_across": "25/dm", "tension": "30N", "lift": "70mm"},
     {"width": "1m", "length": "1m", "knots_across": "50/dm", "beat": "comb"},
+    {"width": "3.9m", "tension": "30N", "beat": "travelling"},
 )
+
+CLOSE = (
+    {"width": "0.6m", "knots_across": "15/dm", "beat": "comb", "weft": "rapier"},
+    {"width": "1.4m", "knots_across": "36/dm", "knot": "asymmetric", "beat": "linkage", "weft": "rapier"},
+    {"width": "2m", "knots_across": "40/dm", "beat": "guide-cams"},
+    {"width": "0.66m", "knots_across": "30/dm", "beat": "linkage", "heads": "3"},
+    {"width": "1.7m", "length": "2m", "knots_across": "36/dm", "knot": "asymmetric", "beat": "linkage"},
+)
+"""Wide heads at the edges, couplers at a bar, drives over a rapier's arms, motors at crank-rockers, tipping."""
 
 
 @cache
@@ -41,6 +53,14 @@ def standing_parts(made: LoomDesign) -> Tree:
 def test_nothing_that_stands_is_through_another(number: int) -> None:
     found = contacts(standing_parts(loom(number)))
     assert [pair.parts for pair in found.through] == []
+
+
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("settings", CLOSE)
+def test_what_moves_close_together_has_room(settings: dict[str, str]) -> None:
+    made = design(AutomatedLoomParams.read(settings))
+    assert [check.name for check in all_checks(made) if not check.ok] == []
+    assert holds_in_space(made)
 
 
 def test_the_bar_of_a_comb_goes_up_before_the_reed() -> None:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from ilmek.elements.linear_guides import LINEAR_GUIDES
 from ilmek.machines.weaver import MACHINE, Weaver, WeaverParams
 from ilmek.machines.weaver.carriage_belt import BELT, CLAMP, LOOP, RADIUS, ROLLER, loop
-from ilmek.machines.weaver.carriage_drive import belt_length, drive_checks, tension_check
+from ilmek.machines.weaver.carriage_drive import drive_checks, tension_check
 from ilmek.machines.weaver.carriage_guide import BALLS, GUIDE_CARRIAGE, carriages, guide_for, guide_load
 from ilmek.machines.weaver.tree import HEAD, carriage_guide, drive_of, head_tree
 from ilmek.plane.contours import area
@@ -68,7 +68,7 @@ def test_a_heavy_head_fails() -> None:
 @given(st.sampled_from(HEADS), st.integers(1, 8), st.data())
 def test_the_belt_lags_as_springs_between_the_heads_and_stays_taut(weaver: Weaver, heads: int, data) -> None:
     """Heads anywhere in their shares, each of which pulls: springs from clamp to clamp in series, by linear algebra."""
-    drive, long = drive_of(weaver), belt_length(weaver) - 2 * CLAMP
+    drive, long = drive_of(weaver), weaver.belt_length - 2 * CLAMP
     places = [(k + data.draw(st.floats(0.01, 0.99))) / heads * long for k in range(heads)]
     spans = np.diff([0.0, *places, long])
     rates = BELT.stiffness * drive.width / spans

@@ -126,6 +126,17 @@ def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings:
     assert compensator.swing <= loom.side.room.swing
 
 
+def test_slack_warps_are_longer_instead_of_a_second_bar() -> None:
+    """A bar for each parity would keep them as short: the lower one has no room over the cams."""
+    usual, slack = (design(AutomatedLoomParams.read(one)) for one in ({}, {"tension": "8N"}))
+    compensator = slack.machines["tension-compensator"].design
+    assert compensator.bars == 1
+    assert compensator.tension_open <= 1.5 * 8
+    assert compensator.tension_low >= 0.5 * 8
+    assert slack.side.back_span > usual.side.back_span + 0.1
+    assert slack.side.front_span == pytest.approx(usual.side.front_span)
+
+
 @pytest.mark.parametrize("kind", ["travelling", "comb"])
 def test_the_beat_pulls_at_the_warps_that_it_beats(kind: str) -> None:
     loom = design(AutomatedLoomParams.read({"beat": kind}))

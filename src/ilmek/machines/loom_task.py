@@ -98,8 +98,7 @@ class LoomTask:
         and its step.
         """
         room, cloth = self.weaver.width / 2 + self.params.clearance, self.cloth
-        of_belt = cloth.width - cloth.knot_pitch + 2 * self.weaver.beside_belt
-        return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, of_belt)
+        return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, self.weaver.belt_length)
 
     def parameters(self, name: str, derived: P) -> P:
         """The parameters of one of its machines: those derived for it, with those that the user set in their place.

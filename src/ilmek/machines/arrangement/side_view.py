@@ -36,9 +36,10 @@ from ilmek.machines.arrangement.spans import (
 )
 from ilmek.machines.shedding.tree import front_of
 from ilmek.machines.warp_tension.cylinders import spacer_tube
+from ilmek.machines.weaver.carriage_drive import motor_corner
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
-from ilmek.machines.weaver.tree import head_mass
+from ilmek.machines.weaver.tree import drive_of, head_mass, least_rail
 from ilmek.records import computed, record, result
 from ilmek.units import deg, mm
 
@@ -109,6 +110,7 @@ class SideView:
     compensator   of the warps' tension, between back rest and upper cylinder
     head          while it knots                                   rail  of the heads while they knot
     rail_side     side of the rail's section, in front of its axis, before the frame is designed [m]
+    carriage_motor  upper corner in front of a carriage's motor, while its head knots
     """
 
     room: ShedRoom
@@ -126,6 +128,7 @@ class SideView:
     head: HeadShape
     rail: SideBox
     rail_side: float
+    carriage_motor: complex
     retreat: float = result(
         "mm", "retreat of the heads for wefts and beats, down and to the front", name="head_retreat"
     )
@@ -239,6 +242,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         head=shape,
         rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
         rail_side=_rail_side(task),
+        carriage_motor=motor_corner(head, drive_of(head)),
         retreat=(shape.top + room.clearance + below(path)) / -RETREAT.imag,
     )
 
@@ -252,7 +256,8 @@ def _rail_side(task: "LoomTask") -> float:
     span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
     weight = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
     sections = ascending()
-    bearing = (one for one in sections if mid_loaded(one, span, weight)[0] <= params.rail_sag)
+    least = least_rail(head, params.clearance)
+    bearing = (one for one in sections if one.side >= least and mid_loaded(one, span, weight)[0] <= params.rail_sag)
     return next(bearing, sections[-1]).side
 
 

@@ -77,7 +77,7 @@ class FrameTask:
     rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     room            for the side of a column [m]               rail_drop  of a support before the rail, below it [m]
-    frequency       least natural frequency of the rail [Hz]
+    frequency       least natural frequency of the rail [Hz]   rail_least  side of the rail at least [m]
     """
 
     width: float
@@ -97,6 +97,7 @@ class FrameTask:
     room: float = math.inf
     rail_drop: float = 0.0
     frequency: float = 0.0
+    rail_least: float = 0.0
 
     @property
     def force(self) -> float:
@@ -148,7 +149,8 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] 
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
     columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
-    (_, rail), of_rail = _chosen("rail", [(1, one) for one in sections], lambda one: rail_checks(task, one[1]))
+    high = [(1, one) for one in sections if one.side >= task.rail_least]
+    (_, rail), of_rail = _chosen("rail", high, lambda one: rail_checks(task, one[1]))
 
     def framed(column: tuple[int, HollowSquare], *choices: Choice) -> LoomFrame:
         number, section = column

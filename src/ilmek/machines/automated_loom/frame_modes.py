@@ -150,7 +150,11 @@ def _levels(loom: LoomDesign, beams: Iterable[float]) -> tuple[list[float], list
 
 
 def _apart(*coordinates: float) -> list[float]:
-    """Coordinates of nodes in ascending order, one where several are the same but for rounding [m]."""
+    """Coordinates of nodes in ascending order, one where several are the same but for rounding [m].
+
+    >>> _apart(1.0, 0.0, 1.0 + 1e-15)
+    [0.0, 1.000000000000001]
+    """
     return [low for low, high in pairwise([*sorted(coordinates), math.inf]) if high - low > _NEAR]
 
 

@@ -19,6 +19,7 @@ from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.tree import least_rail
 from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
@@ -134,6 +135,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         room=before - behind - 2 * ROOM,
         rail_drop=_rail_drop(loom),
         frequency=least_frequency(loom),
+        rail_least=least_rail(loom.weaver, params.clearance),
     )
 
 

@@ -133,6 +133,7 @@ def _in_side_view(linkage: BeatUp, pin: ComplexArray) -> ComplexArray:
 
 
 def _corners(side: SideView) -> Iterator[complex]:
-    """Upper corners in front of a head that knots, and of its rail, in the side view [m]."""
+    """Upper corners in front of a head that knots, of its carriage's motor, and of its rail, in the side view [m]."""
     yield from side.head.corners
+    yield side.carriage_motor
     yield side.rail.corner + side.rail.size / 2 + side.rail_side * (1 + 0.5j)

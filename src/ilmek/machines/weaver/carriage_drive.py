@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from ilmek.elements.columns import STEEL
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor, smallest_motor
-from ilmek.machines.weaver.carriage_belt import ASIDE, BELT, BESIDE, CLAMP, LOOP, RADIUS, ROLLER, TEETH, loop
+from ilmek.machines.weaver.carriage_belt import ASIDE, BELT, CLAMP, LOOP, RADIUS, ROLLER, TEETH, loop
 from ilmek.machines.weaver.carriage_guide import carriages, guide_load
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
@@ -82,11 +82,6 @@ class CarriageDrive:
         return self.low + self.width + PLAY
 
 
-def belt_length(weaver: Weaver) -> float:
-    """Length of the heads' belt on its straight line, its clamps included [m]."""
-    return weaver.params.cloth.width - weaver.params.cloth.knot_pitch + 2 * BESIDE
-
-
 def carriage_drive(weaver: Weaver, mass: float, guide: LinearGuide) -> CarriageDrive:
     """The drive of a head of a mass without its motor [kg] on a guide; where it is given, the mass is that."""
     params, seals = weaver.params, DRAG * carriages(weaver, guide)
@@ -114,7 +109,7 @@ def _width(weaver: Weaver, drag: float) -> float:
 
 def _lag(weaver: Weaver, drag: float, width: float) -> float:
     """Lag of a head in the middle of the row behind its motor [m]."""
-    return drag * (belt_length(weaver) - 2 * CLAMP) / (4 * BELT.stiffness * width)
+    return drag * (weaver.belt_length - 2 * CLAMP) / (4 * BELT.stiffness * width)
 
 
 def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
@@ -156,6 +151,15 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     yield Occurrence(about_pulley, (_upright(about, drive.low),))
 
 
+def motor_corner(weaver: Weaver, drive: CarriageDrive) -> complex:
+    """Upper corner in front of the motor on a head that knots, in the side view [m]."""
+    face, long = (
+        (drive.motor.face, drive.motor.length) if drive.motor else (catalogue.SPECIAL_FACE, 2 * catalogue.SPECIAL_FACE)
+    )
+    at = complex(weaver.shape.front + PULLEY_AT, weaver.shape.rail)
+    return at + complex(face / 2, drive.high + PLATE + long)
+
+
 def drive_mass(weaver: Weaver, drive: CarriageDrive) -> float:
     """Mass of what the drive adds to the head [kg]."""
     return math.fsum(len(one.positions) * one.part.mass for one in drive_parts(weaver, drive))
@@ -167,7 +171,7 @@ def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float) -> Iterator[Occu
     In the axes of the rail, 0 in its middle: y from its axis, z from its back to the front. A screw on one of the
     clamps sets the tension. Beside a pulley the belt is drawn straight, too.
     """
-    long, depth = belt_length(weaver), PULLEY_AT + ROLLER - RAIL_AXIS
+    long, depth = weaver.belt_length, PULLEY_AT + ROLLER - RAIL_AXIS
     straight = box(drive.width, BELT.height, long)
     line = placement(-long / 2, drive.low + drive.width / 2, depth + BELT.height / 2).after(ALONG_WIDTH)
     belt = _belt(HEADS_BELT, "belt of the heads", straight, drive.width, long)

@@ -120,9 +120,10 @@ class Weaver:
         return {cam.name: cam for cam in self.cams}[track]
 
     @property
-    def beside_belt(self) -> float:
-        """Belt that is needed beyond the axis of the head at an end of the row [m]."""
-        return BESIDE
+    def belt_length(self) -> float:
+        """Length of the belt on its straight line, with its clamps, for the row and the steps at its ends [m]."""
+        cloth = self.params.cloth
+        return cloth.width + cloth.knot_pitch + 2 * BESIDE
 
     @property
     def tools(self) -> tuple[Track, ...]:

@@ -65,6 +65,11 @@ def carriage_guide(weaver: Weaver) -> LinearGuide:
     return guide_for(weaver, weaver.params.head_mass or driven + tied + own)
 
 
+def least_rail(weaver: Weaver, clearance: float) -> float:
+    """Least side of the heads' rail [m]: the guide's carriages keep a clearance [m] from what is under and on it."""
+    return carriage_guide(weaver).block + 2 * clearance
+
+
 @lru_cache(maxsize=8)
 def _without_guide(weaver: Weaver) -> Tree:
     """The head beside what guides it."""

@@ -13,7 +13,7 @@ import numpy as np
 from ilmek.elements.columns import STEEL
 from ilmek.elements.energy_chains import ChainLines, EnergyChain, bend_needed, chain_for, width_needed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.surroundings import surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import GAP, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.heads import arms
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
@@ -37,7 +37,7 @@ CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
 """Name, outer diameter of a conduit of PTFE [m], mass per length [kg/m]."""
 
 WALL, PLAY = 2 * mm, 1 * mm
-"""Of the trough, and between it and a chain at each side [m]."""
+"""Of the trough, and between it and a chain at each side [m]; over a chain, where the heads pass, it is `GAP`."""
 
 ARM = (30 * mm, 5 * mm)
 """Width and depth of the arm of a head to its chain [m]; assumed by this project."""
@@ -81,7 +81,7 @@ def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
     wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
     back = min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide)
     long = (loom.task.cloth.width + past) / 2
-    return np.array([-long, below - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
+    return np.array([-long, below - high - WALL - PLAY - GAP, back]), np.array([long, below, back + wide])
 
 
 def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
@@ -90,9 +90,9 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     shape, side = loom.weaver.shape, float(trough_box(loom)[1][1])
     top = shape.rail - RAIL_AXIS / 2
     arm = Part(
-        CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + PLAY), STEEL
+        CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + GAP), STEEL
     )
-    upright = placement(0.0, side - PLAY, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    upright = placement(0.0, side - GAP, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
 
