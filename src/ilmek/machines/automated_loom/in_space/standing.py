@@ -17,8 +17,9 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
-from ilmek.machines.warp_tension.attachment import BAR_ASIDE, diameter, over
+from ilmek.machines.warp_tension.attachment import BAR_ASIDE
 from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.warp_tension.slot import diameter, over
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
