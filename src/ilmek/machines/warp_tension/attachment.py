@@ -17,7 +17,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.warp_tension.cylinders import Cylinder, part_id
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.machines.warp_tension.slot import depth, diameter, width
+from ilmek.machines.warp_tension.slot import SLOT_AT, depth, diameter, width
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import bar
@@ -33,9 +33,6 @@ SAFETY = 1.5
 
 BRIGHT = MATERIALS["heat-treatable steel"]
 
-BAR_ASIDE = placement(about=(0.0, 0.0, 1.0), angle=-turn / 8)
-"""Where the slot is on the cylinder while the first row is woven."""
-
 
 @lru_cache(maxsize=8)
 def attachment_bar(thick: float, wide: float) -> Part:
@@ -47,10 +44,10 @@ def attachment_bar(thick: float, wide: float) -> Part:
 def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tuple[Occurrence, ...]:
     """The tube, and its bar in the slot as wide as the warps; about z, 0 in the middle of the width."""
     wide, thick = params.cloth.width, diameter(cylinder)
-    at = cylinder.outer - depth(cylinder) + thick / 2
+    at = (cylinder.outer - depth(cylinder) + thick / 2) * SLOT_AT
     return (
-        Occurrence(tube, (BAR_ASIDE.after(placement(z=-params.span / 2)),)),
-        Occurrence(attachment_bar(thick, wide), (BAR_ASIDE.after(placement(x=at, z=-wide / 2)),)),
+        Occurrence(tube, (placement(z=-params.span / 2),)),
+        Occurrence(attachment_bar(thick, wide), (placement(at.real, at.imag, -wide / 2),)),
     )
 
 
