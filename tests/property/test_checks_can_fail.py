@@ -79,6 +79,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
     ),
     "motion-four-bar": ({"transmission_min": "10deg"}, {"transmission_min": "60deg"}),
     "weaver": (
+        {"head_mass": "500kg", "carriage_acceleration": "100m/s^2"},
         {"relation_gap": "4deg"},
         {"crossing_turn": "60deg"},
         {"clearance": "3mm"},

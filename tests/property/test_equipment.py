@@ -218,7 +218,7 @@ def test_a_chain_is_as_long_as_its_runs_and_its_loop(row, travel: float, place: 
 
 
 def test_the_chain_is_the_least_that_takes_the_lines_of_its_head() -> None:
-    many = tuple(chain_for([ChainLines("tubes", number, 5 * mm, 0.2, 8.0, 0.02)], 1.0) for number in (4, 16, 48))
+    many = tuple(chain_for([ChainLines("tubes", number, 5 * mm, 0.2, 8.0, 0.02)]) for number in (4, 16, 48))
     assert sorted(many, key=lambda row: row.inner[0] * row.inner[1]) == list(many)
     for made in (_loom(), _loom(heads=3)):
         row = energy_chain(made)
@@ -229,4 +229,4 @@ def test_the_chain_is_the_least_that_takes_the_lines_of_its_head() -> None:
         low, high = trough_box(made)
         assert high[1] - low[1] > 2 * row.radius + row.outer[1]
     thick = [ChainLines("hoses", 2, 30 * mm, 0.2, 8.0, 0.5)]
-    assert 8 * 30 * mm > chain_for(thick, 1.0).radius
+    assert 8 * 30 * mm > chain_for(thick).radius

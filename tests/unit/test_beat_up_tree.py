@@ -10,12 +10,11 @@ from cloths import cloth
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.elements.pin_joints import PIN_DIAMETERS
 from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.machines import beat_up, hammer
 from ilmek.machines.beat_up import BeatUpParams
 from ilmek.machines.beat_up.beater import beater_checks, beater_of
-from ilmek.machines.beat_up.carriage import BELT_WIDTH, shared_checks, shared_end
+from ilmek.machines.beat_up.carriage import BELT_WIDTH, SHAFTS, shared_checks, shared_end
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.beat_up.tree import tree as tree_of_beat_up
 from ilmek.machines.beat_up.use import in_use
@@ -133,8 +132,8 @@ def test_the_shaft_of_all_cranks_bears_torque_and_last_belt_at_its_shoulder(torq
     stress = math.hypot(32 * bent, math.sqrt(3) * 16 * torque) / (math.pi * end.journal**3)
     checks = shared_checks(linkage, torque, number)
     assert checks[0].value == pytest.approx(stress)
-    thinner = PIN_DIAMETERS.index(end.journal) - 1
+    thinner = SHAFTS.index(end.journal) - 1
     if all(check.ok for check in checks) and thinner >= 0:
-        weaker = replace(end, shaft=end.journal, journal=PIN_DIAMETERS[thinner])
+        weaker = replace(end, shaft=end.journal, journal=SHAFTS[thinner])
         assert weaker.safety < LEAST_SAFETY or weaker.stress > PIN_STEEL.strength / LEAST_SAFETY
     assert end.shaft > end.journal

@@ -18,17 +18,10 @@ from ilmek.elements.yarns import usual_warp_density
 from ilmek.errors import ParameterError
 from ilmek.machines.warp_tension import MACHINE, WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.analysis import history, tension_of
-from ilmek.machines.warp_tension.attachment import (
-    ATTACHMENT_BAR,
-    depth,
-    diameter,
-    on_cylinder,
-    slot_stress,
-    slotted,
-    width,
-)
+from ilmek.machines.warp_tension.attachment import ATTACHMENT_BAR, on_cylinder, slot_stress
 from ilmek.machines.warp_tension.cylinders import STUB, cylinders, shaft_end, slots_of, spacer_load, tension_beyond
 from ilmek.machines.warp_tension.design import keeps_limits, lightest_tube, worst_load
+from ilmek.machines.warp_tension.slot import depth, diameter, slotted, width
 from ilmek.part.part import Part
 from ilmek.units import deg, mm, turn
 from ilmek.weaving.shed import shed_lengthening

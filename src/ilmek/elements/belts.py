@@ -58,6 +58,7 @@ with steel cords from makers' data, rounded down."""
 class OpenBelt:
     """A belt by the metre, clamped at both ends, with steel cords.
 
+    widths   available by the metre [m]
     tension  allowed of its cords, and stiffness: force at an elongation of 1, both over its width [N/m]
     mass     over length and width [kg/m²]
     height, teeth, back   of the belt, of its teeth, and from the pitch line to its back [m]
@@ -65,6 +66,7 @@ class OpenBelt:
     """
 
     belt: BeltType
+    widths: tuple[float, ...]
     tension: float
     stiffness: float
     mass: float
@@ -75,7 +77,18 @@ class OpenBelt:
     idler: float
 
 
-T5_BY_THE_METRE = OpenBelt(BELTS["T5"], 36e3, 9e6, 2.1, 2.2 * mm, 1.2 * mm, 0.5 * mm, 15, 30 * mm)
+T5_BY_THE_METRE = OpenBelt(
+    BELTS["T5"],
+    (10 * mm, 16 * mm, 25 * mm, 32 * mm, 50 * mm),
+    36e3,
+    9e6,
+    2.1,
+    2.2 * mm,
+    1.2 * mm,
+    0.5 * mm,
+    15,
+    30 * mm,
+)
 """Of polyurethane, DIN 7721: tension, stiffness and mass of makers' tables (360 N, 90 kN and 21 g/m for 10 mm)."""
 
 MESHING = 12

@@ -58,6 +58,9 @@ class ChainLines:
         return math.ceil(self.number / layers) * pitch if layers else math.inf
 
 
+GLIDING = 50.0
+"""Travel of a chain whose upper run glides on its lower one, at most [m]: makers allow more with rollers."""
+
 SHELF = 2 * mm
 """Thickness of shelves and separators [m]: usual."""
 
@@ -106,12 +109,18 @@ def bend_needed(lines: Sequence[ChainLines]) -> float:
     return max(one.bend * one.diameter for one in lines)
 
 
-def chain_for(lines: Sequence[ChainLines], travel: float) -> EnergyChain:
-    """The chain with the least loop, then the lightest, that takes the lines; the largest where none does."""
+def chain_for(lines: Sequence[ChainLines], widest: float = math.inf) -> EnergyChain:
+    """The chain with the least loop, then the lightest, that takes the lines and is no wider than its room [m]; the
+    largest that has room where none does.
+    """
 
     def holds(row: EnergyChain) -> bool:
-        fits = width_needed(row, lines) <= row.inner[0] and bend_needed(lines) <= row.radius
-        return fits and travel / 2 <= row.free
+        return width_needed(row, lines) <= row.inner[0] and bend_needed(lines) <= row.radius
 
-    enough = [row for row in ENERGY_CHAINS if holds(row)]
-    return min(enough, key=lambda row: (row.loop[0], row.line_mass), default=ENERGY_CHAINS[-1])
+    offered = [row for row in ENERGY_CHAINS if row.outer[0] <= widest * (1 + 1e-9)] or ENERGY_CHAINS[:1]
+    enough = [row for row in offered if holds(row)]
+    return min(enough, key=lambda row: (row.loop[0], row.line_mass), default=max(offered, key=_capacity))
+
+
+def _capacity(row: EnergyChain) -> tuple[float, float]:
+    return row.inner[0] * row.inner[1], -row.radius

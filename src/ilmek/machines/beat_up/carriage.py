@@ -40,6 +40,9 @@ BLOCK_HEIGHT, BLOCK_LENGTH, BLOCK_MASS = 20 * mm, 120 * mm, 1.5
 PLATE = "beat-up/carriage-plate"
 """Id of the plate of crank and rocker."""
 
+SHAFTS = (*PIN_DIAMETERS[4:], 125 * mm, 160 * mm)
+"""Diameters of that shaft and its journal to choose from [m]."""
+
 SHARED_SHAFT = "beat-up/shared-shaft"
 """Id of the shaft that drives the cranks of a comb."""
 
@@ -77,7 +80,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     shared  diameter of the shaft that drives the cranks of a comb [m]; 0: none
     """
     eye, centre, arm = linkage.params.width / 2, shaft(linkage), linkage.lengths["beater"]
-    corner, about, driving = beam_corner(linkage), eye + _AROUND, shared_axis(linkage)
+    corner, about, driving = beam_corner(linkage), max(eye, shared / 2) + _AROUND, shared_axis(linkage)
     low, end = corner.imag + top, corner.real + wide
     corners = np.array(
         [
@@ -114,9 +117,7 @@ def shared_end(linkage: BeatUp, torque: float, number: int) -> Shoulder:
         M = T / (n r) b / 2            r radius and b width of a belt; the torque changes its sign with each beat
     """
     moment = 2 * torque / (number * linkage.params.width) * BELT_WIDTH / 2
-    offered = [
-        Shoulder(whole, journal, PIN_STEEL.tensile, moment, torque) for journal, whole in pairwise(PIN_DIAMETERS)
-    ]
+    offered = [Shoulder(whole, journal, PIN_STEEL.tensile, moment, torque) for journal, whole in pairwise(SHAFTS)]
     return next((own for own in offered if _bears(own)), offered[-1])
 
 

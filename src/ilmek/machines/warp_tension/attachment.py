@@ -17,54 +17,21 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.materials import MATERIALS
 from ilmek.machines.warp_tension.cylinders import Cylinder, part_id
 from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.machines.warp_tension.slot import SLOT_AT, depth, diameter, width
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, bar
+from ilmek.part.shapes import bar
 from ilmek.part.tree import Occurrence
-from ilmek.plane.contours import circle, keyed_bore
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, turn
 
 ATTACHMENT_BAR = part_id("attachment-bar")
 """Id of the part."""
-
-DIAMETER, PLAY = 6 * mm, 0.03
-"""Of a bar [m], and play in the slot over it; the thesis gives no size, assumed by this project."""
 
 SAFETY = 1.5
 """Of slot and cylinder against yielding; assumed by this project."""
 
 BRIGHT = MATERIALS["heat-treatable steel"]
-
-BAR_ASIDE = placement(about=(0.0, 0.0, 1.0), angle=-turn / 8)
-"""Where the slot is on the cylinder while the first row is woven."""
-
-
-def diameter(cylinder: Cylinder) -> float:
-    """Diameter of the bar [m]: no more than half the radius of the cylinder."""
-    return min(DIAMETER, cylinder.outer / 2)
-
-
-def depth(cylinder: Cylinder) -> float:
-    """Depth of the slot [m]: half the bar, or half the wall where that is less."""
-    return min(diameter(cylinder), cylinder.outer - cylinder.inner) / 2
-
-
-def over(cylinder: Cylinder) -> float:
-    """How far the bar stands out of the cylinder [m]."""
-    return diameter(cylinder) - depth(cylinder)
-
-
-def width(cylinder: Cylinder) -> float:
-    """Width of the slot [m]."""
-    return (1 + PLAY) * diameter(cylinder)
-
-
-def slotted(cylinder: Cylinder, length: float) -> Prism:
-    """The tube of a length with its slot, about z from z = 0 [m]."""
-    bore = (circle(0j, cylinder.inner),) if cylinder.inner > 0 else ()
-    return Prism(Profile(keyed_bore(cylinder.outer, width(cylinder), -depth(cylinder)), bore), length)
 
 
 @lru_cache(maxsize=8)
@@ -77,10 +44,10 @@ def attachment_bar(thick: float, wide: float) -> Part:
 def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tuple[Occurrence, ...]:
     """The tube, and its bar in the slot as wide as the warps; about z, 0 in the middle of the width."""
     wide, thick = params.cloth.width, diameter(cylinder)
-    at = cylinder.outer - depth(cylinder) + thick / 2
+    at = (cylinder.outer - depth(cylinder) + thick / 2) * SLOT_AT
     return (
-        Occurrence(tube, (BAR_ASIDE.after(placement(z=-params.span / 2)),)),
-        Occurrence(attachment_bar(thick, wide), (BAR_ASIDE.after(placement(x=at, z=-wide / 2)),)),
+        Occurrence(tube, (placement(z=-params.span / 2),)),
+        Occurrence(attachment_bar(thick, wide), (placement(at.real, at.imag, -wide / 2),)),
     )
 
 

@@ -20,6 +20,7 @@ turns, the torque stands.
 """
 
 import math
+from dataclasses import replace
 from functools import cache, lru_cache
 
 import numpy as np
@@ -43,6 +44,7 @@ from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, tube_weight, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.machines.warp_tension.slot import slotted
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Turned
 from ilmek.part.shapes import tube as hollow
@@ -158,8 +160,9 @@ def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     lower = _cylinder(design, "lower", sizes, (plain, tube), 1j * load, design.holding_torque)
     chosen = spacer_tube(params, design.outer_radius)
     under = (chosen.inner_radius + metal_left(params, chosen), chosen.inner_radius)
-    slotted = spacer_shell(params, chosen), chosen
-    return upper, lower, _cylinder(design, "spacer", under, slotted, spacer_load(params, load), 0.0)
+    shell = spacer_shell(params, chosen), chosen
+    upper, lower = (replace(one, mass=slotted(one, params.span).volume * params.density) for one in (upper, lower))
+    return upper, lower, _cylinder(design, "spacer", under, shell, spacer_load(params, load), 0.0)
 
 
 def metal_left(params: WarpTensionParams, section: Tube) -> float:

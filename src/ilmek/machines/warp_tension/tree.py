@@ -9,10 +9,11 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
-from ilmek.machines.warp_tension.attachment import on_cylinder, slotted
+from ilmek.machines.warp_tension.attachment import on_cylinder
 from ilmek.machines.warp_tension.cylinders import STUB, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
+from ilmek.machines.warp_tension.slot import slotted
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement

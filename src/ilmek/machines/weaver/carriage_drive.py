@@ -102,7 +102,7 @@ def carriage_drive(weaver: Weaver, mass: float, guide: LinearGuide) -> CarriageD
 
 def _width(weaver: Weaver, drag: float) -> float:
     """The narrowest belt with which the head's lag is within the error of the opener; the widest where none is [m]."""
-    widths = BELT.belt.widths
+    widths = BELT.widths
     enough = (width for width in widths if _lag(weaver, drag, width) <= weaver.params.opener.placing)
     return next(enough, widths[-1])
 

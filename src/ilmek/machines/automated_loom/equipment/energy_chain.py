@@ -11,13 +11,14 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.elements.columns import STEEL
-from ilmek.elements.energy_chains import ChainLines, EnergyChain, bend_needed, chain_for, width_needed
+from ilmek.elements.energy_chains import GLIDING, ChainLines, EnergyChain, bend_needed, chain_for, width_needed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.surroundings import GAP, surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.heads import arms
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD, head_tree
 from ilmek.part.extents import Corner, shape_box
@@ -41,6 +42,9 @@ WALL, PLAY = 2 * mm, 1 * mm
 
 ARM = (30 * mm, 5 * mm)
 """Width and depth of the arm of a head to its chain [m]; assumed by this project."""
+
+BEHIND = 17 * mm
+"""Room of the trough behind the ends of the heads' brackets, before their drives [m]; assumed by this project."""
 
 ACROSS = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
 """A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
@@ -66,8 +70,9 @@ def share_of(loom: LoomDesign) -> float:
 
 
 def energy_chain(loom: LoomDesign) -> EnergyChain:
-    """The chain of a head."""
-    return chain_for(chain_lines(loom), share_of(loom))
+    """The chain of a head, no wider than lets its trough reach from the arm of the head to the front of the rail."""
+    widest = RAIL_AXIS + parts_of_loom(loom).frame.rail.side + BEHIND - 2 * (WALL + PLAY)
+    return chain_for(chain_lines(loom), widest)
 
 
 def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
@@ -81,18 +86,17 @@ def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
     wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
     back = min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide)
     long = (loom.task.cloth.width + past) / 2
-    return np.array([-long, below - high - WALL - PLAY - GAP, back]), np.array([long, below, back + wide])
+    top = min(below, loom.weaver.shape.rail - RAIL_AXIS / 2 - loom.params.clearance)
+    return np.array([-long, top - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
 
 
 def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     """Trough and chains on the rail, and on each head the arm that moves the end of its chain."""
     yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
-    shape, side = loom.weaver.shape, float(trough_box(loom)[1][1])
+    shape, end = loom.weaver.shape, float(trough_box(loom)[0][1]) + WALL + PLAY + energy_chain(loom).loop[0]
     top = shape.rail - RAIL_AXIS / 2
-    arm = Part(
-        CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + GAP), STEEL
-    )
-    upright = placement(0.0, side - GAP, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - end), STEEL)
+    upright = placement(0.0, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
 
@@ -168,11 +172,11 @@ def chain_checks(loom: LoomDesign) -> tuple[Check, ...]:
             parts=parts,
         ),
         at_most(
-            "energy chain: upper run without support",
-            share_of(loom) / 2,
-            row.free,
+            "energy chain: travel",
+            share_of(loom),
+            GLIDING,
             "m",
-            f"{row.name}; makers' diagrams",
+            f"{row.name}: free up to {2 * row.free:g} m, beyond it glides on its lower run; makers",
             cure="set more heads",
             parts=parts,
         ),

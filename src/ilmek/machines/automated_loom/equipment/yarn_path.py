@@ -29,7 +29,7 @@ from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import turn
 from ilmek.weaving.tension import capstan
 
-PTFE = 0.75
+PTFE = 0.65
 """Friction of a yarn on PTFE over that on steel; assumed by this project."""
 
 STRENGTH_USED = 0.1

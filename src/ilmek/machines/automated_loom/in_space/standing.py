@@ -17,15 +17,15 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
-from ilmek.machines.warp_tension.attachment import BAR_ASIDE, diameter, over
 from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.warp_tension.slot import over, turned_slot
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.tree import JointKind, Tree
-from ilmek.plane.contours import circle, keyed_bore
+from ilmek.plane.contours import circle
 from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
 
@@ -64,9 +64,8 @@ def _warp_cylinders(loom: LoomDesign) -> Tree:
 def carpet_roll(loom: LoomDesign) -> ScenePart:
     """The room of the whole carpet on the lower cylinder, open over its attachment bar and where this goes in a row."""
     side, half, lower = loom.side, half_width(loom), cylinders(loom.warp_tension)[1]
-    wide = diameter(lower) + 4 * loom.task.cloth.row_distance
-    bore = keyed_bore(side.lower.radius, wide, over(lower) + loom.task.yarns.warp.diameter)
+    bore = turned_slot(lower, over(lower) + loom.task.yarns.warp.diameter, 4 * loom.task.cloth.row_distance)
     roll = Prism(Profile(circle(0j, side.roll), (bore,)), 2 * half).mesh(FINE)
-    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH).after(BAR_ASIDE)
+    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
     solid = Solid(along.points(roll.points), roll.triangles)
     return room_part("whole carpet on the lower cylinder", STANDS, solid, "automated-loom")
