@@ -89,9 +89,7 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
     shape, side = loom.weaver.shape, float(trough_box(loom)[1][1])
     top = shape.rail - RAIL_AXIS / 2
-    arm = Part(
-        CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + GAP), STEEL
-    )
+    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - side + GAP), STEEL)
     upright = placement(0.0, side - GAP, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
