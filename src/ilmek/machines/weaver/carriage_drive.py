@@ -55,6 +55,9 @@ AXLE, HUB = 8 * mm, 14 * mm
 BLOCK, BEHIND = (10 * mm, 12 * mm), 22 * mm
 """Width and depth of a block under the plate, and from the pulley's axis back to its middle [m]."""
 
+PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
+"""Rear edge of the motor's plate before the end of the bracket [m]."""
+
 GRIP = 5 * mm
 """Thickness of a clamp's plate [m]."""
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
+from ilmek.machines.weaver.carriage_drive import PLATE_BEGIN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import AXLE, BESIDE_MOTOR, RAIL_AXIS
 from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER
@@ -86,8 +87,18 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
 
 
 def _index_at(weaver: Weaver) -> complex:
-    """The sensor in plan about the magazine's axis, x + i z [m]: beside the motor, between two tubes of a drum."""
-    magazine = weaver.magazine
-    radius = (selector_of(weaver.params, magazine).face + BESIDE_MOTOR) / 2
+    """The sensor in plan about the magazine's axis, x + i z [m]: beside the motor, between two tubes of a drum, before
+    the plate of the carriage's motor.
+    """
+    magazine, shape, half = weaver.magazine, weaver.shape, INDUCTIVE.size[0] / 2
+    face = selector_of(weaver.params, magazine).face
+    radius = (face + BESIDE_MOTOR) / 2
     number = magazine.per_tier
-    return cmath.rect(radius, turn * (number // 4 + 0.5) / number if magazine.kind == DRUM else turn / 4)
+    if magazine.kind != DRUM:
+        return radius * 1j
+    room = shape.front + PLATE_BEGIN - half - (shape.magazine + shape.magazine_size / 2).real
+    first = number // 4
+    gaps = (*range(first, -1, -1), *range(first + 1, number))
+    offered = [cmath.rect(radius, turn * (k + 0.5) / number) for k in gaps]
+    free = (at for at in offered if at.imag <= room and max(abs(at.real), abs(at.imag)) >= face / 2 + half)
+    return next(free, offered[0])
