@@ -56,6 +56,11 @@ def reducer_at(weaver: Weaver) -> complex:
     return complex(front, shape.rail - RAIL_AXIS / 2 - UNDER_BRACKET - high)
 
 
+def drive_front(weaver: Weaver) -> float:
+    """The foremost x of motor and reducer [m]."""
+    return reducer_at(weaver).real + _face(weaver) / 2
+
+
 def shaft_pulley(weaver: Weaver) -> Occurrence:
     """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
     radius = weaver.belt.radii[0] - TEETH - ON_PULLEY

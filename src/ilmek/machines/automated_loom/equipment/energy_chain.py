@@ -13,12 +13,13 @@ import numpy as np
 from ilmek.elements.columns import STEEL
 from ilmek.elements.energy_chains import GLIDING, ChainLines, EnergyChain, bend_needed, chain_for, width_needed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.surroundings import surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import GAP, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.heads import arms
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
+from ilmek.machines.weaver.drive_parts import drive_front
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD, head_tree
 from ilmek.part.extents import Corner, shape_box
@@ -40,8 +41,8 @@ CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
 WALL, PLAY = 2 * mm, 1 * mm
 """Of the trough, and between it and a chain at each side [m]; over a chain, where the heads pass, it is `GAP`."""
 
-ARM = (30 * mm, 5 * mm)
-"""Width and depth of the arm of a head to its chain [m]; assumed by this project."""
+ARM = (30 * mm, 12 * mm)
+"""Width and depth of the arm of a head to its chain, half of it under the bracket [m]; assumed by this project."""
 
 BEHIND = 17 * mm
 """Room of the trough behind the ends of the heads' brackets, before their drives [m]; assumed by this project."""
@@ -71,8 +72,13 @@ def share_of(loom: LoomDesign) -> float:
 
 def energy_chain(loom: LoomDesign) -> EnergyChain:
     """The chain of a head, no wider than lets its trough reach from the arm of the head to the front of the rail."""
-    widest = RAIL_AXIS + parts_of_loom(loom).frame.rail.side + BEHIND - 2 * (WALL + PLAY)
-    return chain_for(chain_lines(loom), widest)
+    behind = min(BEHIND, loom.weaver.shape.front - _behind(loom))
+    return chain_for(chain_lines(loom), RAIL_AXIS + parts_of_loom(loom).frame.rail.side + behind - 2 * (WALL + PLAY))
+
+
+def _behind(loom: LoomDesign) -> float:
+    """The rearmost x of a trough before the drive of a head [m]."""
+    return drive_front(loom.weaver) + GAP
 
 
 def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
@@ -84,7 +90,7 @@ def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
     points = body.positions[0].after(position).points(np.array(shape_box(rail.shape)))
     below, front = float(points[:, 1].min()), float(points[:, 2].max())
     wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
-    back = min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide)
+    back = max(min(loom.weaver.shape.front - ARM[1] / 2 - WALL - 2 * PLAY, front - wide), _behind(loom))
     long = (loom.task.cloth.width + past) / 2
     top = min(below, loom.weaver.shape.rail - RAIL_AXIS / 2 - loom.params.clearance)
     return np.array([-long, top - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
@@ -96,7 +102,7 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     shape, end = loom.weaver.shape, float(trough_box(loom)[0][1]) + WALL + PLAY + energy_chain(loom).loop[0]
     top = shape.rail - RAIL_AXIS / 2
     arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - end), STEEL)
-    upright = placement(0.0, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    upright = placement(0.0, end, shape.front, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
 
