@@ -27,6 +27,9 @@ QUALITY = 25 / dm
 AUTO = "auto"
 """The choice of what is left open."""
 
+LEAST_TUBES = 4
+"""Of a head; assumed by this project."""
+
 PRICE, TIME, COST = AIMS = ("price", "time", "cost")
 """What the choice of a loom makes least."""
 
@@ -66,7 +69,7 @@ class AutomatedLoomParams(Params):
     )
     colours: int = param(16, at_least=1, at_most=255, doc="yarns of the carpet")
     tubes: int | None = param(
-        None, at_least=1, at_most=255, doc="yarn tubes of a head; default: one for each of the colours"
+        None, at_least=1, at_most=255, doc="yarn tubes of a head; default: one for each of the colours, 4 at least"
     )
     package_mass: float = kind.mass(
         1.0, at_least=1e-3, at_most=100.0, doc="pile yarn of a full package, one for each tube: a cone of the trade"
@@ -229,8 +232,8 @@ class AutomatedLoomParams(Params):
 
     @property
     def head_tubes(self) -> int:
-        """Tubes of a head: as given, or one for each colour."""
-        return self.tubes or self.colours
+        """Tubes of a head: as given, or one for each colour; a drum of fewer than four is too small for a stepper."""
+        return self.tubes or max(self.colours, LEAST_TUBES)
 
     @property
     def billed(self) -> float:

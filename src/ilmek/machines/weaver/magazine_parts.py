@@ -10,7 +10,7 @@ from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
 from ilmek.machines.weaver.carriage_drive import PLATE_BEGIN
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import AXLE, BESIDE_MOTOR, RAIL_AXIS
+from ilmek.machines.weaver.head_shape import AXLE, RAIL_AXIS
 from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.selector import selector_of
@@ -27,6 +27,9 @@ INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
 
 FLAG, SENSING = (4 * mm, 2 * mm), 1 * mm
 """Width and thickness of the flag, and from it to the sensor [m]; assumed by this project."""
+
+BESIDE_INDEX = 1 * mm
+"""Between the index sensor and a motor [m]; assumed by this project."""
 
 AXLE_DIAMETER = 8 * mm
 """Of the axle between motor and carrier [m]; assumed by this project."""
@@ -87,18 +90,17 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
 
 
 def _index_at(weaver: Weaver) -> complex:
-    """The sensor in plan about the magazine's axis, x + i z [m]: beside the motor, between two tubes of a drum, before
-    the plate of the carriage's motor.
+    """The sensor in plan about the magazine's axis, x + i z [m]: as near to the motors as it clears them, before the
+    plate of the carriage's motor; of a drum between two tubes.
     """
     magazine, shape, half = weaver.magazine, weaver.shape, INDUCTIVE.size[0] / 2
-    face = selector_of(weaver.params, magazine).face
-    radius = (face + BESIDE_MOTOR) / 2
-    number = magazine.per_tier
-    if magazine.kind != DRUM:
-        return radius * 1j
+    face = selector_of(weaver.params, magazine).face / 2
     room = shape.front + PLATE_BEGIN - half - (shape.magazine + shape.magazine_size / 2).real
-    first = number // 4
-    gaps = (*range(first, -1, -1), *range(first + 1, number))
-    offered = [cmath.rect(radius, turn * (k + 0.5) / number) for k in gaps]
-    free = (at for at in offered if at.imag <= room and max(abs(at.real), abs(at.imag)) >= face / 2 + half)
-    return next(free, offered[0])
+    beside = complex(face if magazine.tiers == 1 else 2 * face, face) + (half + BESIDE_INDEX) * (1 + 1j)
+    if magazine.kind != DRUM:
+        return beside.imag * 1j
+    number, first = magazine.per_tier, magazine.per_tier // 4
+    gaps = [cmath.rect(1.0, turn * (k + 0.5) / number) for k in (*range(first, -1, -1), *range(first + 1, number))]
+    radii = (1 / max(abs(gap.real) / beside.real, abs(gap.imag) / beside.imag) for gap in gaps)
+    offered = sorted((radius * gap for radius, gap in zip(radii, gaps, strict=True)), key=lambda at: round(abs(at), 9))
+    return next((at for at in offered if at.imag <= room), offered[0])

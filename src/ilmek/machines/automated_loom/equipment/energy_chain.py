@@ -26,7 +26,7 @@ from ilmek.part.extents import Corner, shape_box
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, box
+from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
@@ -41,8 +41,10 @@ CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
 WALL, PLAY = 2 * mm, 1 * mm
 """Of the trough, and between it and a chain at each side [m]; over a chain, where the heads pass, it is `GAP`."""
 
-ARM = (30 * mm, 12 * mm)
-"""Width and depth of the arm of a head to its chain, half of it under the bracket [m]; assumed by this project."""
+ARM, TOE = (30 * mm, 5 * mm), (8 * mm, 3 * mm)
+"""Width and depth of the arm of a head to its chain, under the end of the bracket, and how far and how thick its lower
+end reaches to the front [m]; assumed by this project.
+"""
 
 BEHIND = 17 * mm
 """Room of the trough behind the ends of the heads' brackets, before their drives [m]; assumed by this project."""
@@ -90,7 +92,7 @@ def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
     points = body.positions[0].after(position).points(np.array(shape_box(rail.shape)))
     below, front = float(points[:, 1].min()), float(points[:, 2].max())
     wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
-    back = max(min(loom.weaver.shape.front - ARM[1] / 2 - WALL - 2 * PLAY, front - wide), _behind(loom))
+    back = max(min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide), _behind(loom))
     long = (loom.task.cloth.width + past) / 2
     top = min(below, loom.weaver.shape.rail - RAIL_AXIS / 2 - loom.params.clearance)
     return np.array([-long, top - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
@@ -101,8 +103,10 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
     shape, end = loom.weaver.shape, float(trough_box(loom)[0][1]) + WALL + PLAY + energy_chain(loom).loop[0]
     top = shape.rail - RAIL_AXIS / 2
-    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", box(*ARM, top - end), STEEL)
-    upright = placement(0.0, end, shape.front, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    toe = Placed(box(ARM[0], *TOE), (placement(y=-(ARM[1] + TOE[0]) / 2),))
+    bent = Sum((Placed(box(*ARM, top - end)), toe))
+    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", bent, STEEL)
+    upright = placement(0.0, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
 
