@@ -46,6 +46,9 @@ ARM, TOE = (30 * mm, 5 * mm), (8 * mm, 3 * mm)
 end reaches to the front [m]; assumed by this project.
 """
 
+FLANGE = 20 * mm
+"""Width of the trough's flange, with which it is screwed to the rail [m]; assumed by this project."""
+
 BEHIND = 17 * mm
 """Room of the trough behind the ends of the heads' brackets, before their drives [m]; assumed by this project."""
 
@@ -74,28 +77,23 @@ def share_of(loom: LoomDesign) -> float:
 
 def energy_chain(loom: LoomDesign) -> EnergyChain:
     """The chain of a head, no wider than lets its trough reach from the arm of the head to the front of the rail."""
-    behind = min(BEHIND, loom.weaver.shape.front - _behind(loom))
-    return chain_for(chain_lines(loom), RAIL_AXIS + parts_of_loom(loom).frame.rail.side + behind - 2 * (WALL + PLAY))
-
-
-def _behind(loom: LoomDesign) -> float:
-    """The rearmost x of a trough before the drive of a head [m]."""
-    return drive_front(loom.weaver) + GAP
+    widest = RAIL_AXIS + parts_of_loom(loom).frame.rail.side + BEHIND - 2 * (WALL + PLAY)
+    return chain_for(chain_lines(loom), widest)
 
 
 def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
     """Corners of the trough under the heads' rail, in the axes of the scene while the heads knot [m]: it reaches back
-    to the arms of the heads, and its front is below the rail.
+    to the arms of the heads, not into their drives, and the flange of its front is below the rail.
     """
     row, (body, rail, position) = energy_chain(loom), surroundings(loom).occurrence((part_id("rail"),))
     assert rail.shape is not None
     points = body.positions[0].after(position).points(np.array(shape_box(rail.shape)))
     below, front = float(points[:, 1].min()), float(points[:, 2].max())
     wide, (high, past) = row.outer[0] + 2 * (WALL + PLAY), row.loop
-    back = max(min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide), _behind(loom))
+    back = max(min(loom.weaver.shape.front - ARM[1] - WALL - 2 * PLAY, front - wide), drive_front(loom.weaver) + GAP)
     long = (loom.task.cloth.width + past) / 2
     top = min(below, loom.weaver.shape.rail - RAIL_AXIS / 2 - loom.params.clearance)
-    return np.array([-long, top - high - WALL - 2 * PLAY, back]), np.array([long, below, back + wide])
+    return np.array([-long, top - high - 2 * (WALL + PLAY), back]), np.array([long, below, back + wide])
 
 
 def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
@@ -125,7 +123,9 @@ def _chains(loom: LoomDesign) -> RigidBody:
         (wide - WALL, rear),
         (wide - WALL, WALL),
         (WALL, WALL),
-        (WALL, tall),
+        (WALL, tall - WALL),
+        (FLANGE, tall - WALL),
+        (FLANGE, tall),
         (0, tall),
     )
     section = Profile(polygon(np.array([complex(*corner) for corner in corners])))
