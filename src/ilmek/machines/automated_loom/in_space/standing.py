@@ -28,6 +28,7 @@ from ilmek.part.tree import JointKind, Tree
 from ilmek.plane.contours import circle
 from ilmek.report.scene import ScenePart, Solid
 from ilmek.timing.track import sample
+from ilmek.units import mm
 
 
 def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
@@ -64,8 +65,10 @@ def _warp_cylinders(loom: LoomDesign) -> Tree:
 def carpet_roll(loom: LoomDesign) -> ScenePart:
     """The room of the whole carpet on the lower cylinder, open over its attachment bar and where this goes in a row."""
     side, half, lower = loom.side, half_width(loom), cylinders(loom.warp_tension)[1]
-    bore = turned_slot(lower, over(lower) + loom.task.yarns.warp.diameter, 4 * loom.task.cloth.row_distance)
-    roll = Prism(Profile(circle(0j, side.roll), (bore,)), 2 * half).mesh(FINE)
+    deep = over(lower) + loom.task.yarns.warp.diameter
+    bore = turned_slot(lower, deep, 4 * loom.task.cloth.row_distance)
+    radius = max(side.roll, lower.outer + deep + mm)  # a short carpet lies over the bar
+    roll = Prism(Profile(circle(0j, radius), (bore,)), 2 * half).mesh(FINE)
     along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
     solid = Solid(along.points(roll.points), roll.triangles)
     return room_part("whole carpet on the lower cylinder", STANDS, solid, "automated-loom")
