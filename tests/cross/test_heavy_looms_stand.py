@@ -23,6 +23,7 @@ LOOMS = (
     {"width": "1.7m", "length": "2.2m", "knots_across": "25/dm", "tension": "30N", "lift": "70mm"},
     {"width": "1m", "length": "1m", "knots_across": "50/dm", "beat": "comb"},
     {"width": "3.9m", "tension": "30N", "beat": "travelling"},
+    {"width": "2.91m", "length": "3.74m", "knots_across": "45/dm", "colours": "15", "tension": "15N"},
 )
 
 CLOSE = (
@@ -67,3 +68,9 @@ def test_the_bar_of_a_comb_goes_up_before_the_reed() -> None:
     made = loom(2)
     assert any(cam.front > cam.guide_radius for cam in made.side.cams)  # a reed stands before its cams
     assert made.beat.design.params.reach >= made.side.cam_front + made.params.clearance
+
+
+def test_beams_across_stand_beside_each_other() -> None:
+    """Posts of the beat and of the rail on one depth, but for rounding, stand on one beam."""
+    beams = [own for own in standing_parts(loom(4)).occurrences() if own[0].id == "automated-loom/front-beam"]
+    assert [number for _, number in beams] == [1]

@@ -73,8 +73,9 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
 
 def _front_depths(loom: LoomDesign, frame: LoomFrame) -> tuple[float, ...]:
     """Axes of the beams across before the columns, on which posts of the beat and of the rail stand [m]."""
-    own = (one.depth for one in rail_supports(loom, frame) if one.name != "rail-post")
-    return tuple(dict.fromkeys((post_depth(loom, frame), *own)))
+    own = (support.depth for support in rail_supports(loom, frame) if support.name != "rail-post")
+    depths = (post_depth(loom, frame), *own)
+    return tuple({round(depth / (0.01 * mm)): depth for depth in depths}.values())  # rounding makes no second beam
 
 
 def _front(loom: LoomDesign, frame: LoomFrame) -> float:
