@@ -33,7 +33,7 @@ AMPLIFIER = part_id("control-axis")
 """Id of the amplifier of a motor, with its cable and switch."""
 
 _LEAST = 0.05 * mm
-"""Thinner spacers are left out [m]."""
+"""Thinner spacers are left out, and posts that are nearer to each other stand on one beam [m]."""
 
 
 def back_rest_tube(loom: LoomDesign) -> Tube:
@@ -74,8 +74,11 @@ def _uprights(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Oc
 def _front_depths(loom: LoomDesign, frame: LoomFrame) -> tuple[float, ...]:
     """Axes of the beams across before the columns, on which posts of the beat and of the rail stand [m]."""
     own = (support.depth for support in rail_supports(loom, frame) if support.name != "rail-post")
-    depths = (post_depth(loom, frame), *own)
-    return tuple({round(depth / (0.01 * mm)): depth for depth in depths}.values())  # rounding makes no second beam
+    depths: list[float] = []
+    for depth in (post_depth(loom, frame), *own):
+        if all(abs(depth - other) > _LEAST for other in depths):
+            depths.append(depth)
+    return tuple(depths)
 
 
 def _front(loom: LoomDesign, frame: LoomFrame) -> float:

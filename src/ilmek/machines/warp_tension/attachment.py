@@ -23,7 +23,7 @@ from ilmek.part.placement import placement
 from ilmek.part.shapes import bar
 from ilmek.part.tree import Occurrence
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, turn
+from ilmek.units import round_size, turn
 
 ATTACHMENT_BAR = part_id("attachment-bar")
 """Id of the part."""
@@ -37,8 +37,8 @@ BRIGHT = MATERIALS["heat-treatable steel"]
 @lru_cache(maxsize=8)
 def attachment_bar(thick: float, wide: float) -> Part:
     """A bar, by its diameter and length [m]."""
-    size = f"round {format_quantity(thick, 'mm')}"
-    return Part(ATTACHMENT_BAR, "attachment bar of the warps", "steel bar", size, bar(thick, wide), BRIGHT)
+    title, size = "attachment bar of the warps", round_size(thick)
+    return Part(ATTACHMENT_BAR, title, "steel bar", size, bar(thick, wide), BRIGHT)
 
 
 def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tuple[Occurrence, ...]:

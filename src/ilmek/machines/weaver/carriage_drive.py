@@ -30,7 +30,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Check, at_most, must
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, in_mm, mm, turn
 
 CARRIAGE_MOTOR, CARRIAGE_PULLEY, BELT_LOOP = part_id("carriage-motor"), part_id("carriage-pulley"), part_id("belt-loop")
 HEADS_BELT, BELT_CLAMP, BELT_COVER = (f"automated-loom/{name}" for name in ("heads-belt", "belt-clamp", "belt-cover"))
@@ -136,7 +136,10 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     size = f"{BELT.belt.name}, {TEETH} teeth"
     yield _made(CARRIAGE_PULLEY, "pulley of a carriage", turned, _upright(about, drive.low - RIM), size=size)
     aside = _upright_pair(about, drive.low, ASIDE)
-    ring, name = tube(2 * ROLLER, ROLLER - AXLE / 2, drive.width), f"idler {_mm(2 * ROLLER)}, {_mm(drive.width)} wide"
+    ring, name = (
+        tube(2 * ROLLER, ROLLER - AXLE / 2, drive.width),
+        f"idler {in_mm(2 * ROLLER)}, {in_mm(drive.width)} wide",
+    )
     bought = Bought(name, ROLLER_MASS)
     yield Occurrence(
         Part(
@@ -202,7 +205,7 @@ def drive_checks(weaver: Weaver, drive: CarriageDrive) -> tuple[Check, ...]:
             _lag(weaver, drive.drag, drive.width),
             weaver.params.opener.placing,
             "mm",
-            f"parameter opener.placing; {_mm(drive.width)} wide, drag {format_quantity(drive.drag, 'N', 3)}",
+            f"parameter opener.placing; {in_mm(drive.width)} wide, drag {format_quantity(drive.drag, 'N', 3)}",
             cure="set fewer tools or colours, or a narrower carpet",
             parts=parts,
         ),
@@ -217,7 +220,7 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
         drive.force * (heads + 1),
         BELT.tension * drive.width,
         "N",
-        f"allowed by makers for {BELT.belt.name}, {_mm(drive.width)} wide; at rest {rest}",
+        f"allowed by makers for {BELT.belt.name}, {in_mm(drive.width)} wide; at rest {rest}",
         cure="set fewer heads, or a lower weaver.carriage_acceleration",
         parts=(HEADS_BELT, BELT_CLAMP),
     )
@@ -225,7 +228,7 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
 
 def _belt(name: str, title: str, shape: Shape, wide: float, long: float) -> Part:
     """Belt of a length [m]."""
-    row = f"{BELT.belt.name}, {_mm(wide)} wide"
+    row = f"{BELT.belt.name}, {in_mm(wide)} wide"
     bought = Bought(row, BELT.mass * wide * long, length=long)
     return Part(name, title, "belt", shape=shape, purchase=bought)
 
@@ -241,7 +244,3 @@ def _upright_pair(about: Placement, height: float, aside: float) -> tuple[Placem
 
 def _made(name: str, title: str, shape: Shape, *positions: Placement, size: str = "") -> Occurrence:
     return Occurrence(Part(name, title, "machined link", size, shape, ALUMINIUM), positions)
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

@@ -31,7 +31,7 @@ RING, STEM = (5 * mm, 1 * mm, 4 * mm), 2 * mm
 
 INSIDE, OVER, ABOVE_AXLE, SHARE = 6 * mm, 9 * mm, 14.5 * mm, 0.43
 """Axis of the guide from the side plate, over the eye and over the bell cranks' axle at least [m], and its share of the
-way from the eye to the tube.
+path from the eye to the tube.
 """
 
 

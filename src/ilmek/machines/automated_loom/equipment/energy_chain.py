@@ -1,6 +1,6 @@
 """The energy chains of the heads: their lines, the chain that takes these, the trough below the rail, and the checks.
 
-A chain is fixed in the middle of its head's share of the row. Its loop is ahead of the head by half the way, so that it
+A chain is fixed in the middle of its head's share of the row. Its loop is ahead of the head by half the travel, so that it
 reaches past the share by R + h / 2 where the head is at its right end; the moving end is half of that to the left of
 its head. The chains are drawn as the room that they take at all positions of their heads, side by side in the trough.
 """
@@ -39,7 +39,7 @@ CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
 """Name, outer diameter of a conduit of PTFE [m], mass per length [kg/m]."""
 
 WALL, PLAY = 2 * mm, 1 * mm
-"""Of the trough, and between it and a chain at each side [m]; over a chain, where the heads pass, it is `GAP`."""
+"""Of the trough, and between it and a chain on all sides [m]; assumed by this project."""
 
 ARM, TOE = (30 * mm, 5 * mm), (8 * mm, 3 * mm)
 """Width and depth of the arm of a head to its chain, under the end of the bracket, and how far and how thick its lower
@@ -76,7 +76,7 @@ def share_of(loom: LoomDesign) -> float:
 
 
 def energy_chain(loom: LoomDesign) -> EnergyChain:
-    """The chain of a head, no wider than lets its trough reach from the arm of the head to the front of the rail."""
+    """The chain of a head, no wider than its room before the drive of the head, with some of it before the rail."""
     widest = RAIL_AXIS + parts_of_loom(loom).frame.rail.side + BEHIND - 2 * (WALL + PLAY)
     return chain_for(chain_lines(loom), widest)
 
