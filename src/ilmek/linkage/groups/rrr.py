@@ -34,7 +34,7 @@ from ilmek.linkage.status import TOUCHING
 from ilmek.linkage.tape import Tape
 from ilmek.num.compiled import compiled
 from ilmek.records import value_record
-from ilmek.units import format_quantity
+from ilmek.units import in_mm
 
 
 def position(A: ComplexField, B: ComplexField, a: RealField, b: RealField, branch: RealField) -> ComplexField:
@@ -243,11 +243,14 @@ class RRRDyad(PinnedPair):
         reach = 0.0 if reach < TOUCHING * self.a else reach
         (p, q), pins = self.links, "-".join(self.known_pins)
         if gap > 0:
-            return (f"|{pins}| reaches {_mm(reach)}, {p} + {q} = {_mm(self.a + self.b)}", f"lengthen one by {_mm(gap)}")
+            return (
+                f"|{pins}| reaches {in_mm(reach)}, {p} + {q} = {in_mm(self.a + self.b)}",
+                f"lengthen one by {in_mm(gap)}",
+            )
         longer, shorter = (p, q) if self.a > self.b else (q, p)
         return (
-            f"|{pins}| falls to {_mm(reach)}, {longer} - {shorter} = {_mm(abs(self.a - self.b))}",
-            f"lengthen {shorter} by {_mm(-gap)}",
+            f"|{pins}| falls to {in_mm(reach)}, {longer} - {shorter} = {in_mm(abs(self.a - self.b))}",
+            f"lengthen {shorter} by {in_mm(-gap)}",
         )
 
     @classmethod
@@ -287,7 +290,3 @@ class RRRDyad(PinnedPair):
         arms = tape.arm(p, tape.pinned(p, on_p, to), self.pin), tape.arm(q, tape.pinned(q, on_q, to + SECOND), self.pin)
         a, b = np.abs(arms[0]), np.abs(arms[1])
         tape.add(self.instruction, to, numbers=(a, b, tape.branch(self.pin, self.branch), 1 / arms[0], 1 / arms[1]))
-
-
-def _mm(length: float) -> str:
-    return format_quantity(float(length), "mm")

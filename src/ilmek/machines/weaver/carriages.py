@@ -58,7 +58,7 @@ from ilmek.part.shapes import Prism, Shape, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import format_quantity, mm
+from ilmek.units import in_mm, mm
 
 ROD, COLLAR = 5 * mm, 4 * mm
 """Diameter of the carriages' rods, and length of their collars [m]; assumed by this project, as all sizes here."""
@@ -163,7 +163,7 @@ def _cross_bar(weaver: Weaver, track: str, holes: tuple[complex, ...]) -> Part:
             polygon(rectangle(2 * weaver.params.finger, 2 * weaver.params.finger).points + 1j * _centre_height(weaver))
         )
     shape = Prism(Profile(polygon(np.array(corners)), tuple(bores)), BAR)
-    return Part(part_id("cross-bar"), "cross bar of the side carriage", "machined link", _mm(BAR), shape, ALUMINIUM)
+    return Part(part_id("cross-bar"), "cross bar of the side carriage", "machined link", in_mm(BAR), shape, ALUMINIUM)
 
 
 def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
@@ -184,7 +184,7 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     bore = polygon(rectangle(finger, finger).points + 1j * height)
     block = Prism(Profile(polygon(np.array(corners)), (bore,)), CENTRE_BAR)
     part = Part(
-        part_id("centre-block"), "carriage of the centre gripper", "machined link", _mm(CENTRE_BAR), block, ALUMINIUM
+        part_id("centre-block"), "carriage of the centre gripper", "machined link", in_mm(CENTRE_BAR), block, ALUMINIUM
     )
     yield _at(part, 0j, front)
     yield from drawbar(weaver, CENTRE_MOTION, front)
@@ -210,7 +210,7 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
         screw_id(name),
         f"{'left' if hand < 0 else 'right'} side gripper's twisted bar",
         "machined link",
-        f"square {_mm(SCREW)}",
+        f"square {in_mm(SCREW)}",
         TwistedBar(SCREW, stations, (0.0, 0.0, -hand * by.turn, -hand * by.turn)),
         STEEL,
     )
@@ -268,7 +268,7 @@ def _partition(weaver: Weaver) -> Occurrence:
         part_id("partition"),
         "plate across behind the carriages",
         "machined link",
-        _mm(PARTITION),
+        in_mm(PARTITION),
         Prism(section, PARTITION),
         ALUMINIUM,
     )
@@ -288,7 +288,7 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
         part_id("sley-block"),
         "block of the sley",
         "machined link",
-        _mm(SLEY_HEIGHT),
+        in_mm(SLEY_HEIGHT),
         Prism(section, SLEY_HEIGHT),
         ALUMINIUM,
     )
@@ -311,7 +311,7 @@ def _sley_rod(weaver: Weaver) -> Iterator[Occurrence]:
     right = side + weaver.params.cam_thickness / 2
     plate = Prism(Profile(rectangle(SLEY_BLOCK, right + inner)), SUPPORT)
     support = Part(
-        part_id("sley-support"), "support of the sley's rod", "machined link", _mm(SUPPORT), plate, ALUMINIUM
+        part_id("sley-support"), "support of the sley's rod", "machined link", in_mm(SUPPORT), plate, ALUMINIUM
     )
     yield Occurrence(support, (placement((right - inner) / 2, foot - SUPPORT, depth).after(UPRIGHT),))
     if (spring := spring_part(weaver, SLEY)) is not None:
@@ -351,7 +351,3 @@ def _several(part: Part, places: tuple[complex, ...], depth: float) -> Occurrenc
 
 def _made(name: str, title: str, shape: Shape) -> Part:
     return Part(part_id(name), title, "pin or bush", "", shape, STEEL)
-
-
-def _mm(length: float) -> str:
-    return format_quantity(length, "mm")

@@ -1,6 +1,6 @@
 """The energy chains of the heads: their lines, the chain that takes these, the trough below the rail, and the checks.
 
-A chain is fixed in the middle of its head's share of the row. Its loop is ahead of the head by half the travel, so that it
+A chain is fixed in the middle of its head's share of the row. Its loop is ahead of the head by half the travel: it
 reaches past the share by R + h / 2 where the head is at its right end; the moving end is half of that to the left of
 its head. The chains are drawn as the room that they take at all positions of their heads, side by side in the trough.
 """
