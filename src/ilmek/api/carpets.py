@@ -175,7 +175,8 @@ def weave(
     size, quality, knot, yarns  as of `make_chart`; `yarns` is a path; default: those of a chart, else a size in the
                      shape of the picture, 25 knots/dm, symmetric and the picture's own shades
     heads, deadline  knotting heads; time for the whole carpet [s], like "72h"; default: chosen by aim; any time
-    aim              "price" or "time": what is least in the choice of all that is left open; default: price
+    aim              "cost" of a carpet, "price" of the loom or "time": what is least in the choice of all that is left
+                     open; default: cost
     warp_pitch       distance of two warps; default: that of the quality
     loom             parameters of the loom by name, those of its machines dotted: {"shedding.law": "modified-sine"}
     loom_file        of a loom that exists, written by `weave` as machine.json or by `ilmek design --json`

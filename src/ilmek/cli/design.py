@@ -54,7 +54,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     metavar="NAME=VALUE",
     help="Set a parameter, with its unit; @FILE reads the value from FILE.",
 )
-@click.option("--aim", metavar="price|time|cost", help="The same as --set aim=price: what a loom's choice makes least.")
+@click.option("--aim", metavar="cost|price|time", help="The same as --set aim=price: what a loom's choice makes least.")
 @rates_option
 @json_option
 @click.option("--table", metavar="NAME", help="Print this table of the report alone, like cost of a loom.")

@@ -19,9 +19,11 @@ from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, order_in_words, time_in_words, weave, weave_json
-from ilmek.machines.automated_loom.cost import CarpetCost
+from ilmek.machines.automated_loom.cost import YEAR, CarpetCost
 from ilmek.machines.automated_loom.params import AIMS
 from ilmek.machines.automated_loom.report import analyse
+from ilmek.machines.automated_loom.search import LoomSearch
+from ilmek.units import format_number
 
 EXAMPLES = """\b
 Examples:
@@ -47,7 +49,7 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
 @click.option(
     "--aim",
     type=click.Choice(AIMS),
-    help="Choose what is left open for least price of the loom, weaving time, or cost of a carpet; default: price.",
+    help="Choose what is left open for least cost of a carpet, price of the loom, or weaving time; default: cost.",
 )
 @click.option(
     "--warp-pitch", metavar="LENGTH", help="Distance between the warps of your loom; default: that of the quality."
@@ -129,10 +131,23 @@ def show_woven(woven: WeaveResult) -> None:
 
 
 def cost_in_words(cost: CarpetCost, yarn: float | None) -> str:
-    """What a carpet and its loom cost; yarn: price of the yarn to buy."""
+    """What a carpet costs, on the loom and by hand; yarn: price of the yarn to buy."""
     of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
+    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}; tied by hand {cost.hand_cost:,.2f}"
+
+
+def price_in_words(cost: CarpetCost) -> str:
+    """What the loom costs, how much it weaves, and when it has earned its price."""
+    paid = cost.payback_time
+    earned = "never paid back" if paid is None else f"paid back in {format_number(paid / YEAR, 2)} years"
     price, year = cost.machine_price["sold"], cost.carpets_per_year
-    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}; the loom {price:,.0f}, {year:,.0f} carpets a year"
+    return f"{price:,.0f}; {year:,.0f} carpets a year; {earned} against weavers by hand"
+
+
+def rival_in_words(search: LoomSearch) -> str:
+    """The next best loom, why it lost, and how many were looked at."""
+    rival = f"{search.label(search.rival)}: {search.why}; " if search.rival else ""
+    return f"{rival}the best of {len(search.offers)} looms"
 
 
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
@@ -141,10 +156,13 @@ def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     if made is None or programme is None:
         return []
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
+    cost = analyse(made).cost
     chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
     return [
         ("weaving time", f"{time_in_words(programme.duration)}{within}; {order_in_words(programme)}"),
         ("heads", f"{programme.heads} (of {made.heads_max} that fit)"),
-        ("cost", cost_in_words(analyse(made).cost, woven.charted.bill.price)),
+        ("cost", cost_in_words(cost, woven.charted.bill.price)),
+        ("loom", price_in_words(cost)),
         *([("chosen", "; ".join(chosen))] if chosen else []),
+        *([("next best", rival_in_words(made.search))] if made.search else []),
     ]

@@ -44,7 +44,7 @@ WIDEST = 12.0
 class AutomatedLoomParams(Params):
     """The carpet, the heads, and the limits of what moves; the defaults are the thesis' loom with four heads."""
 
-    aim: str = param("price", choices=AIMS, doc="what is least in the choice of all that is left open")
+    aim: str = param(COST, choices=AIMS, doc="what is least in the choice of all that is left open")
     width: float = kind.length(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet's knots")
     length: float = kind.length(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
     knots_across: float | None = kind.knot_density(

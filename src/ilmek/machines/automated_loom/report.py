@@ -67,6 +67,16 @@ class LoomAnalysis:
     beat: BeatDrive
     cost: CarpetCost
 
+    @computed(
+        "",
+        "bound of all looms that were not designed, the chosen one, the runner-up and why it lost",
+        optional=True,
+        absent="nothing was left open",
+    )
+    def choice_bound(self) -> Json:
+        search = self.loom.search
+        return search.as_json() if search else None
+
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
     knots_per_minute = computed("1", "of all heads, wefts included, estimated", lambda it: 60 * it.knots / it.time)
@@ -92,17 +102,6 @@ class LoomAnalysis:
     )
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.cloth.warp_tension)
 
-    @computed(
-        "",
-        "bound of all looms that were not designed, the chosen one, the runner-up and why it lost",
-        shown=False,
-        optional=True,
-        absent="nothing was left open",
-    )
-    def choice_bound(self) -> Json:
-        search = self.loom.search
-        return search.as_json() if search else None
-
     @computed("mm", "stock tube of the warp cylinders")
     def tube(self) -> Json:
         diameter, wall = self.loom.tube
@@ -122,6 +121,7 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
     path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
     return (
+        found.cost,
         found,
         found.loom.side,
         found.shares,
@@ -129,7 +129,6 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
         found.energy,
         path,
         found.listed,
-        found.cost,
         off_loom(found.loom),
         modes,
     )

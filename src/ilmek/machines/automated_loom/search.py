@@ -102,9 +102,10 @@ class LoomSearch:
         if self.lost:
             offer, check = self.lost[0]
             found |= {"refused": self.label(offer), "refused_for": f"{check.name}: {failing(check)}"}
-        return {**found, "bound": self.rival_value, "runner_up": self.label(self.rival), "why": self._why()}
+        return {**found, "bound": self.rival_value, "runner_up": self.label(self.rival), "why": self.why}
 
-    def _why(self) -> str:
+    @property
+    def why(self) -> str:
         """Why the runner-up lost."""
         more = self.rival_value - self.value
         if more <= _SAME * self.value:
