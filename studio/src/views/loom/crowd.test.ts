@@ -17,3 +17,11 @@ it("each stands in the middle of its neighbours and is as wide; those out of the
   expect(thinned(matrices, 9, 3, true, into, (x) => x < 5)).toBe(2);
   expect([into[12], into[28]]).toEqual([4, 1]);
 });
+
+it("copies in several rows, or one over the other, are no row across", () => {
+  const rows = matrices.slice();
+  for (let k = 0; k < 9; k++) rows[16 * k + 12] = k % 3;
+  expect(spacingOf(rows, 9)).toBe(Number.POSITIVE_INFINITY);
+  for (let k = 0; k < 9; k++) rows[16 * k + 12] = 2;
+  expect(spacingOf(rows, 9)).toBe(Number.POSITIVE_INFINITY);
+});

@@ -13,17 +13,19 @@ export function oddFrom(needed: number): number {
 /** Distance of neighbours that are drawn each [px]. */
 const APART = 4;
 
-/** Mean distance across of so many matrices, which stand one after the other across. */
+/** Mean distance of so many matrices that stand one after the other across; infinite where they stand otherwise. */
 export function spacingOf(matrices: Float32Array, count: number): number {
-  if (count < 2) return Number.POSITIVE_INFINITY;
-  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
-  for (let k = 0; k < count; k++) {
-    const x = matrices[16 * k + 12] ?? 0;
-    if (x < low) low = x;
-    if (x > high) high = x;
+  const across = (k: number) => matrices[16 * k + 12] ?? 0;
+  const mean = (across(count - 1) - across(0)) / (count - 1);
+  for (let k = 1; k < count; k++) {
+    const step = (across(k) - across(k - 1)) / mean;
+    if (!(step > 1 / UNEVEN && step < UNEVEN)) return Number.POSITIVE_INFINITY;
   }
-  return (high - low) / (count - 1);
+  return count > 1 ? Math.abs(mean) : Number.POSITIVE_INFINITY;
 }
+
+/** A distance of neighbours in a row over their mean distance is less than this, and more than its reciprocal. */
+const UNEVEN = 10;
 
 /**
  * Copies every `stride`-th matrix that is seen, as many times wider; the number of copies.

@@ -180,7 +180,7 @@ export class PartMesh {
   }
 
   private get isCrowd(): boolean {
-    return this.placed.count > CROWD;
+    return this.placed.count > CROWD && Number.isFinite(this.spacing);
   }
 
   private get finest(): three.BufferGeometry {
