@@ -16,6 +16,8 @@ from ilmek.carpet.sizes import parse_size
 from ilmek.io.picture import read_picture
 from ilmek.io.yarn_file import default_yarns
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
+from ilmek.machines.beat_up import MACHINE as BEAT_UP
+from ilmek.machines.beat_up import BeatUpParams
 from ilmek.report import Figure
 from ilmek.viz.carpet_picture import draw_carpet
 from ilmek.viz.svg import svg
@@ -81,8 +83,8 @@ def draw() -> str:
     params = AutomatedLoomParams(
         width=size.width, length=size.length, knots_across=quality.across, knots_along=quality.along
     )
-    loom = MACHINE.report(design(params))
-    figures = {one.name: one for made in (loom, *loom.children) for one in made.figures}
+    loom, beat_up = MACHINE.report(design(params)), BEAT_UP.report(BEAT_UP.design(BeatUpParams()))
+    figures = {one.name: one for made in (loom, *loom.children, beat_up) for one in made.figures}
     tall, wide = 300, 200
     parts = [
         caption(30, 40, "A picture", "medallion.png, 120 × 180 cm"),

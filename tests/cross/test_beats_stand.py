@@ -30,7 +30,7 @@ LOOKED_AT = {"beat-up", "hammer", "weft"}
 
 @cache
 def loom(settings: tuple[tuple[str, str], ...]) -> LoomDesign:
-    return design(AutomatedLoomParams.read({**SMALL, **dict(settings)}))
+    return design(AutomatedLoomParams.read({"aim": "price", **SMALL, **dict(settings)}))
 
 
 def thinned(tree: Tree) -> Tree:

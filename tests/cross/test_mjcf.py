@@ -54,7 +54,7 @@ def _machine(name: str, *settings: str) -> tuple[object, Tree]:
 
 @cache
 def _loom() -> tuple[Tree, Judge]:
-    loom = loom_design(AutomatedLoomParams())
+    loom = loom_design(AutomatedLoomParams(aim="price"))
     tree = loom_tree(loom)
     return tree, Judge(mjcf_text(tree, "loom", periods_of(loom)))
 

@@ -22,7 +22,7 @@ _BODIES = {"automated-loom/frame", "weft/guide", "weft/box at the left edge", "w
 @cache
 def _weft_side() -> Tree:
     """The frame, and of the weft side what stands on it at the start of a row."""
-    whole = loom_tree(design(AutomatedLoomParams()))
+    whole = loom_tree(design(AutomatedLoomParams(aim="price")))
     return Tree(tuple(body for body in whole.bodies if body.id in _BODIES))
 
 

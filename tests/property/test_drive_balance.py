@@ -27,7 +27,8 @@ _LOOMS: tuple[dict[str, object], ...] = (
 
 @cache
 def _loom(number: int) -> tuple[Tree, int]:
-    loom = loom_design(AutomatedLoomParams.read({name: str(value) for name, value in _LOOMS[number].items()}))
+    settings = {name: str(value) for name, value in _LOOMS[number].items()}
+    loom = loom_design(AutomatedLoomParams.read({"aim": "price", **settings}))
     return loom_tree(loom), parts_of_loom(loom).axes
 
 

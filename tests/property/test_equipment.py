@@ -40,7 +40,7 @@ from ilmek.units import mm, turn
 
 @cache
 def _loom(**wishes: object) -> LoomDesign:
-    return design(AutomatedLoomParams(**wishes))  # type: ignore[arg-type]
+    return design(AutomatedLoomParams(aim="price", **wishes))  # type: ignore[arg-type]
 
 
 def _kind(settings: dict[str, object]) -> LoomDesign:
@@ -50,7 +50,7 @@ def _kind(settings: dict[str, object]) -> LoomDesign:
 
 @cache
 def _tiers() -> LoomDesign:
-    return design(AutomatedLoomParams.read({"weaver.tube_tiers": "2"}))
+    return design(AutomatedLoomParams.read({"aim": "price", "weaver.tube_tiers": "2"}))
 
 
 def _rows(heads: int) -> list[dict[str, str]]:

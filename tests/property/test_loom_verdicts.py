@@ -163,7 +163,7 @@ def matches(check: Check, pattern: str) -> bool:
 def test_the_verdict_has_these_reasons_and_no_other(
     settings: dict[str, Any], expected: dict[str, Figure | None]
 ) -> None:
-    loom = design(AutomatedLoomParams.read(settings))
+    loom = design(AutomatedLoomParams.read({"aim": "price", **settings}))
     found = all_checks(loom)
     failed = [check for check in found if not check.ok]
     unforeseen = [check.name for check in failed if not any(matches(check, pattern) for pattern in expected)]
@@ -182,7 +182,9 @@ def test_the_verdict_has_these_reasons_and_no_other(
 
 
 def test_the_reasons_stand_in_order_of_weight() -> None:
-    report = loom_report(design(AutomatedLoomParams.read({"beat": "comb", "hammer.force": "1N", "tension": "60N"})))
+    report = loom_report(
+        design(AutomatedLoomParams.read({"aim": "price", "beat": "comb", "hammer.force": "1N", "tension": "60N"}))
+    )
     found = reasons(report.all_checks)
     assert len(found) == len(report.failed) > 1
     ratios = [one.value / one.limit if one.limit else math.inf for one in found]

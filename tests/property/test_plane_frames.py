@@ -84,7 +84,7 @@ def test_a_frame_that_nothing_holds_is_refused():
 
 @cache
 def loom(width: float) -> LoomDesign:
-    return design(AutomatedLoomParams(width=width, length=1.0))
+    return design(AutomatedLoomParams(aim="price", width=width, length=1.0))
 
 
 def lumped_sway(own: LoomDesign) -> float:

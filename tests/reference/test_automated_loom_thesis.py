@@ -15,6 +15,7 @@ from ilmek.units import deg, g, m, mm
 def loom() -> LoomDesign:
     return design(
         AutomatedLoomParams(
+            aim="price",
             selvedge_warps=0,
             beat="guide-cams",
             weft="shuttle",
@@ -78,5 +79,5 @@ def test_the_thesis_loom_has_no_room_behind_the_warps_for_what_drags_its_shuttle
 
 def test_one_head_takes_the_time_of_the_facts_sheet() -> None:
     # 135,000 knots at 2 s by one head: 75 h for the knots alone.
-    one = design(AutomatedLoomParams(heads=1))
+    one = design(AutomatedLoomParams(aim="price", heads=1))
     assert one.rows * one.columns * one.times.knot / 3600 == pytest.approx(75.0)

@@ -16,13 +16,13 @@ from ilmek.machines.automated_loom.offers import CYCLES, value_of
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import LoomAnalysis, all_checks, analyse
 
-NARROW = AutomatedLoomParams(width=0.45, length=0.6)
+NARROW = AutomatedLoomParams(aim="price", width=0.45, length=0.6)
 RATES = CostRates(wage=14 / 3600, persons=0.5, life=9.0, interest=0.08, margin=0.2, changeover=5 * 3600.0)
 
 
 @lru_cache
 def loom(beat: str, heads: int, rates: CostRates = RATES) -> LoomAnalysis:
-    return analyse(design(AutomatedLoomParams(width=0.45, length=0.6, beat=beat, heads=heads, cost=rates)))
+    return analyse(design(AutomatedLoomParams(aim="price", width=0.45, length=0.6, beat=beat, heads=heads, cost=rates)))
 
 
 def by_hand(time: float, energy: float, price: float, work: float, floor: float) -> dict[str, float]:

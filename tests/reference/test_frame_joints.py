@@ -31,7 +31,7 @@ PRELOADS = {"M12": 47e3, "M16": 88e3, "M20": 137e3, "M24": 198e3}
 
 @cache
 def loom(width: float = 1.2) -> LoomDesign:
-    return design(AutomatedLoomParams(width=width, length=1.0))
+    return design(AutomatedLoomParams(aim="price", width=width, length=1.0))
 
 
 @pytest.mark.parametrize(("name", "preload"), PRELOADS.items())

@@ -37,7 +37,7 @@ ROOM = ShedRoom(24 * mm, 36 * mm, 54 * mm, 20 * mm, 80 * mm, 30 * mm, 0.28, 0.35
 
 @cache
 def loom(**settings: str) -> LoomDesign:
-    return design(AutomatedLoomParams.read({"beat": "comb", **settings}))
+    return design(AutomatedLoomParams.read({"aim": "price", "beat": "comb", **settings}))
 
 
 def disc(centre: complex, radius: float, points: int = 720) -> ComplexArray:

@@ -35,7 +35,7 @@ from ilmek.units import deg, dm, hour, mm, rpm
 @cache
 def reported(**settings: Any) -> Report:
     """A loom's report, without its parts in space: the same settings are designed once."""
-    return loom_report(design(AutomatedLoomParams(**settings)))
+    return loom_report(design(AutomatedLoomParams(aim="price", **settings)))
 
 
 @pytest.mark.matrix(light=2)
@@ -51,7 +51,7 @@ def reported(**settings: Any) -> Report:
     ],
 )
 def test_looms_for_other_carpets_keep_all_limits_but_those_in_space(settings: dict[str, Any]) -> None:
-    loom = design(AutomatedLoomParams(**settings))
+    loom = design(AutomatedLoomParams(aim="price", **settings))
     made = loom_report(loom)
     # Frames of the heaviest and the widest sway too near to the drives: their sections are chosen by strength and sag.
     frame = "frame: (.*: natural frequency)|deflection of an arm of the rail between its ends"
@@ -94,7 +94,7 @@ def test_results_and_figures() -> None:
 
 
 def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
-    loom = design(AutomatedLoomParams())
+    loom = design(AutomatedLoomParams(aim="price"))
     angle = np.linspace(0, 2 * math.pi, 7201)
     moving = np.abs(sample(loom.row_cyclogram.track("shuttle"), angle).slope) > 1e-6
     beating = sample(loom.row_cyclogram.track(BEATER), angle).position > 1e-6
@@ -106,7 +106,7 @@ def test_shuttle_and_beater_are_never_in_the_shed_together() -> None:
 
 
 def test_a_wide_loom_takes_the_time_that_its_shuttle_needs() -> None:
-    loom = design(AutomatedLoomParams.read({"width": 5.0, "weft.speed": 2.0, "beat": "comb"}))
+    loom = design(AutomatedLoomParams.read({"aim": "price", "width": 5.0, "weft.speed": 2.0, "beat": "comb"}))
     shuttle, period = loom.row_cyclogram.track("shuttle"), loom.row_cyclogram.period
     assert period > 12.0
     assert peak_speed(shuttle, period) == pytest.approx(2.0)
@@ -127,7 +127,7 @@ def test_a_speed_of_the_cams_that_is_required_and_not_reached_fails_a_check() ->
 @pytest.mark.parametrize("width", [0.6, 2.0, 5.0, 6.0])
 def test_a_wide_loom_is_many_narrow_ones_beside_each_other(width: float) -> None:
     """Supports of the cam shaft and strokes of the beater keep bar, cams and beat of a narrow loom."""
-    loom = design(AutomatedLoomParams(width=width, beat="travelling"))
+    loom = design(AutomatedLoomParams(aim="price", width=width, beat="travelling"))
     results = reported(width=width, beat="travelling").as_json()["results"]
     shaft, cams = results["shedding"], results["shedding"]["mass"]
     assert shaft["shaft_span"] <= 1.5
@@ -162,7 +162,7 @@ def test_one_head_has_no_neighbour_to_check() -> None:
 
 
 def test_a_slow_beat_lengthens_the_row() -> None:
-    quick, slow = (design(AutomatedLoomParams(beat="travelling", beat_speed=one)) for one in (15.5, 10.0))
+    quick, slow = (design(AutomatedLoomParams(aim="price", beat="travelling", beat_speed=one)) for one in (15.5, 10.0))
     assert slow.times.weft > quick.times.weft > 12.0
     assert [check for check in all_checks(slow) if check.name.startswith("row") and not check.ok] == []
 
@@ -172,7 +172,7 @@ def test_a_slow_beat_lengthens_the_row() -> None:
     [({}, 2 * mm, 250.0), ({"warp_pitch": 1 * mm}, 1 * mm, 500.0), ({"knots_across": 400.0}, 1.25 * mm, 400.0)],
 )
 def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: float, across: float) -> None:
-    params = AutomatedLoomParams(**settings)
+    params = AutomatedLoomParams(aim="price", **settings)
     assert params.cloth.warp_pitch == pytest.approx(pitch)
     assert (params.quality.across, params.quality.along) == pytest.approx((across, across))
 
@@ -193,7 +193,7 @@ def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: fl
 )
 def test_looms_that_cannot_be(settings: dict[str, Any], said: str) -> None:
     with pytest.raises(LoomError, match=said):
-        design(AutomatedLoomParams(**settings))
+        design(AutomatedLoomParams(aim="price", **settings))
 
 
 @pytest.mark.parametrize(
@@ -202,7 +202,7 @@ def test_looms_that_cannot_be(settings: dict[str, Any], said: str) -> None:
 )
 def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
     with pytest.raises(ParameterError):
-        AutomatedLoomParams(**settings)
+        AutomatedLoomParams(aim="price", **settings)
 
 
 @pytest.mark.matrix(light=2)
@@ -227,7 +227,7 @@ def test_extreme_looms_are_designed_or_refused_in_words(settings: dict[str, Any]
 
 
 def test_more_heads_weave_sooner() -> None:
-    loom = design(AutomatedLoomParams(beat="comb"))
+    loom = design(AutomatedLoomParams(aim="price", beat="comb"))
     times = [estimated_time(loom, heads) for heads in range(1, loom.heads_max + 1)]
     assert times == sorted(times, reverse=True)
     stops = 90.0 * sum(one.changes(450) for one in loom.bobbins)
@@ -240,7 +240,7 @@ def chart() -> Indices:
 
 
 def test_the_shares_of_a_programme_are_its_time() -> None:
-    loom = design(AutomatedLoomParams(beat="comb", heads=4))
+    loom = design(AutomatedLoomParams(aim="price", beat="comb", heads=4))
     programme = make_programme(chart(), 5, loom.heads, loom.times, bobbins=loom.bobbins)
     spent = production_time(programme)
     assert spent.total == programme.duration <= 24 * hour
@@ -266,7 +266,7 @@ def test_a_deadline_takes_the_cheapest_loom_that_keeps_it() -> None:
     others = [reported(deadline=24 * hour, beat=beat) for beat in BEATS]
     assert chosen["price"] == min(one["price"] for one in others if not one.failed)
     heads = chosen["heads"]
-    assert estimated_time(design(AutomatedLoomParams(deadline=24 * hour)), heads - 1) > 24 * hour
+    assert estimated_time(design(AutomatedLoomParams(aim="price", deadline=24 * hour)), heads - 1) > 24 * hour
 
 
 def test_a_deadline_that_no_number_of_heads_meets() -> None:
@@ -275,7 +275,7 @@ def test_a_deadline_that_no_number_of_heads_meets() -> None:
 
 def test_the_machine_reads_its_parameters() -> None:
     settings = {"width": "1.2m", "warp_pitch": "2mm", "heads": "4", "knots_along": "30 1/dm", "beat": "comb"}
-    results = loom_report(design(AutomatedLoomParams.read(settings))).as_json()["results"]
+    results = loom_report(design(AutomatedLoomParams.read({"aim": "price", **settings}))).as_json()["results"]
     assert (results["heads"], results["rows"], results["columns"]) == (4, 540, 300)
 
 
@@ -298,14 +298,14 @@ def scaling(loom: LoomDesign) -> Plot:
 @pytest.mark.parametrize("width", [0.01, 0.1])
 def test_a_loom_of_one_head_shows_its_time_over_the_pitch(width: float) -> None:
     """Knots grow as the square of the density, rows with their wefts as the density itself: between both."""
-    curve = scaling(design(AutomatedLoomParams(width=width, beat="comb"))).series[0]
+    curve = scaling(design(AutomatedLoomParams(aim="price", width=width, beat="comb"))).series[0]
     finer = curve.x[-1] / curve.x[0]
     assert finer < curve.y[0] / curve.y[-1] < finer**2
 
 
 def test_the_coarsest_carpet_has_its_loom() -> None:
     """Its page shows how time scales without asking for a carpet that is none."""
-    plot = scaling(design(AutomatedLoomParams(warp_pitch=50 * mm, beat="comb")))
+    plot = scaling(design(AutomatedLoomParams(aim="price", warp_pitch=50 * mm, beat="comb")))
     assert not any(series.label.startswith(("75 mm", "100 mm")) for series in plot.series)
 
 
@@ -326,7 +326,7 @@ def test_a_carpet_woven_longer_has_its_length_off_the_loom() -> None:
 
 def test_the_mass_off_the_loom_is_that_of_the_yarns_in_the_carpet() -> None:
     made = reported()
-    yarns, rows, warps = AutomatedLoomParams().cloth.carpet_yarns, made["rows"], made["warps"]
+    yarns, rows, warps = AutomatedLoomParams(aim="price").cloth.carpet_yarns, made["rows"], made["warps"]
     weaver = next(child for child in made.children if child.machine == "weaver")
     pile = made["knots"] * weaver["yarn_in_knot"] * yarns.pile.linear_density
     warp = warps * (1.8 + 0.2) * yarns.warp.linear_density

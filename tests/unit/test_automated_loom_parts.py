@@ -41,7 +41,7 @@ from ilmek.units import turn
 
 @cache
 def loom() -> LoomDesign:
-    return design(AutomatedLoomParams())
+    return design(AutomatedLoomParams(aim="price"))
 
 
 @cache
@@ -118,7 +118,7 @@ def test_mass_and_price_of_the_report_are_those_of_its_table():
 
 
 def test_cylinders_of_the_list_are_those_of_the_warp_tension_at_the_looms_own_pitch_and_shed():
-    loom = design(AutomatedLoomParams(width=1.0, warp_pitch=1.6e-3, lift=0.07))
+    loom = design(AutomatedLoomParams(aim="price", width=1.0, warp_pitch=1.6e-3, lift=0.07))
     results = {one.name: one.value for one in warp_tension.MACHINE.report(loom.warp_tension).results}
     masses = [part.mass_all for part in parts_of_loom(loom).parts if part.name in ("cylinder", "spacer cylinder")]
     assert sum(masses) == pytest.approx(results["mass_cylinders"])
@@ -134,7 +134,7 @@ def test_work_of_a_torque_counts_only_where_it_drives():
 
 
 def test_energy_without_losses_or_standby_is_the_work_alone():
-    bare = design(AutomatedLoomParams(drive_efficiency=1.0, standby_power=0.0))
+    bare = design(AutomatedLoomParams(aim="price", drive_efficiency=1.0, standby_power=0.0))
     usual, work = energy_of(loom(), listed().axes), energy_of(bare, listed().axes)
     assert work.shares["standing by"] == 0
     assert usual.total - usual.shares["standing by"] == pytest.approx(work.total / 0.7)
@@ -254,14 +254,16 @@ def test_heads_are_busy_but_for_the_wefts_and_their_unequal_parts() -> None:
 def test_shares_of_the_time_name_the_bottleneck():
     assert time_shares(loom()).bottleneck == "knotting"
     quick = design(
-        AutomatedLoomParams(width=0.4, length=0.2, knot_cycle=0.3, head_acceleration=1e4, heads=1, shed_speed=0.02)
+        AutomatedLoomParams(
+            aim="price", width=0.4, length=0.2, knot_cycle=0.3, head_acceleration=1e4, heads=1, shed_speed=0.02
+        )
     )
     assert time_shares(quick).bottleneck == "wefts and beats"
 
 
 @cache
 def beaten(kind: str) -> LoomDesign:
-    return design(AutomatedLoomParams(beat=kind))
+    return design(AutomatedLoomParams(aim="price", beat=kind))
 
 
 @cache
@@ -297,7 +299,7 @@ def test_the_comb_beats_within_its_acceleration_and_after_the_shuttle():
     row = comb_loom().row_cyclogram
     assert peak_acceleration(row.track(BEATER), row.period) == pytest.approx(comb_loom().params.comb_acceleration)
     assert row.track(BEATER).segment("beat 1").start > row.track("shuttle").segment("pass").end
-    slow = design(AutomatedLoomParams(beat="comb", comb_acceleration=0.1))
+    slow = design(AutomatedLoomParams(aim="price", beat="comb", comb_acceleration=0.1))
     assert slow.row_cyclogram.period > row.period  # a longer beat needs a longer turn
     pressed = row.track(BEATER).segment("back 1").start - row.track(BEATER).segment("beat 1").end
     assert pressed / comb_loom().row_timing.beat.time * row.period / turn == pytest.approx(0.15)

@@ -21,7 +21,7 @@ from ilmek.units import turn
 
 @functools.cache
 def loom(beat: str, **settings: str) -> LoomDesign:
-    return design(AutomatedLoomParams.read({**settings, "beat": beat}))
+    return design(AutomatedLoomParams.read({"aim": "price", **settings, "beat": beat}))
 
 
 def driven(beat: str, **settings: str) -> BeatDrive:

@@ -19,7 +19,7 @@ SIZES = ("cam_thickness", "cam_gap", "cam_belt", "tool_mass", "sley_stroke")
 @cache
 def loom(knots: float, **others: str) -> LoomDesign:
     settings = {"knots_across": f"{knots}/dm", "width": "0.6m", "length": "0.9m", "beat": "comb", **others}
-    return design(AutomatedLoomParams.read(settings))
+    return design(AutomatedLoomParams.read({"aim": "price", **settings}))
 
 
 def failed(made: LoomDesign) -> list[str]:

@@ -25,7 +25,7 @@ def loom(kind: str = "symmetric", knotting: str = "auto", pitch: float = 2 * mm,
     settings = dict(
         knot=kind, knotting=knotting, warp_pitch=f"{pitch} m", width="0.6m", length="0.9m", beat="comb", **others
     )
-    return design(AutomatedLoomParams.read(settings))
+    return design(AutomatedLoomParams.read({"aim": "price", **settings}))
 
 
 @pytest.mark.parametrize(
@@ -179,7 +179,7 @@ def test_200_colours_choose_tiers_and_a_given_width_that_is_too_small_fails() ->
 )
 def test_settings_of_the_machines_that_contradict_the_loom_are_refused(settings: dict[str, str], words: str) -> None:
     with pytest.raises(LoomError, match=words):
-        design(AutomatedLoomParams.read(settings))
+        design(AutomatedLoomParams.read({"aim": "price", **settings}))
 
 
 def test_warps_thicker_than_their_pitch_are_a_failed_check_of_a_head_of_usual_size() -> None:

@@ -22,7 +22,7 @@ from ilmek.timing.track import sample
 
 @cache
 def loom(**settings: str) -> LoomDesign:
-    return design(AutomatedLoomParams.read({"heads": "4", **settings}))
+    return design(AutomatedLoomParams.read({"aim": "price", "heads": "4", **settings}))
 
 
 def stroke(animation: Animation, label: str) -> MovingStroke:

@@ -75,7 +75,9 @@ def lamp(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.mark.usefixtures("lamp")
 def test_a_machine_joins_the_loom_by_one_package_and_one_entry() -> None:
     lit, plain = ({"lamp.power": "120W", "beat": "comb"}, {"beat": "comb"})
-    with_lamp, without = (loom_report(design(AutomatedLoomParams.read(settings))) for settings in (lit, plain))
+    with_lamp, without = (
+        loom_report(design(AutomatedLoomParams.read({"aim": "price", **settings}))) for settings in (lit, plain)
+    )
     assert with_lamp["lamp.power_width"] == pytest.approx(100.0)
     assert with_lamp.as_json()["results"]["lamp"] == {"power_width": pytest.approx(100.0)}
     assert [check.name for check in with_lamp.failed] == ["lamp: power of the lamp"]
@@ -97,7 +99,7 @@ def test_the_tracks_of_a_machine_are_on_the_cyclogram_of_a_row(monkeypatch: pyte
     )
     package = importlib.import_module("ilmek.machines.lamp")
     monkeypatch.setattr(package, "MACHINE", replace(package.MACHINE, tracks=lambda _: (shade,)))
-    row = design(AutomatedLoomParams(beat="comb")).row_cyclogram
+    row = design(AutomatedLoomParams(aim="price", beat="comb")).row_cyclogram
     assert row.track("shade") is shade
     assert [track.name for track in row.tracks][-1] == "shade"
 
@@ -157,20 +159,22 @@ def value_of(params: AutomatedLoomParams, dotted: str) -> object:
 def test_a_machine_in_the_loom_is_designed_with_the_value_set_for_it(
     settings: dict[str, str], machine: str, name: str, value: object
 ) -> None:
-    loom = design(AutomatedLoomParams.read({"beat": "travelling" if machine == "beat-up" else "comb", **settings}))
+    loom = design(
+        AutomatedLoomParams.read({"aim": "price", "beat": "travelling" if machine == "beat-up" else "comb", **settings})
+    )
     (child,) = (child for child in loom.children if child.name == machine)
     assert getattr(child.design.params, name) == pytest.approx(value)
 
 
 def test_a_value_that_contradicts_the_machine_is_refused_with_its_name() -> None:
     with pytest.raises(ParameterError, match=r"^weaver: prepare_end=.* leaves the step"):
-        design(AutomatedLoomParams.read({"weaver.prepare_end": "5deg"}))
+        design(AutomatedLoomParams.read({"aim": "price", "weaver.prepare_end": "5deg"}))
     with pytest.raises(ParameterError, match=r"did you mean shedding.law\?"):
-        AutomatedLoomParams.read({"sheding.law": "cycloidal"})
+        AutomatedLoomParams.read({"aim": "price", "sheding.law": "cycloidal"})
 
 
 def test_loom_sums_what_its_machines_return() -> None:
-    report = loom_report(loom := design(AutomatedLoomParams(beat="comb")))
+    report = loom_report(loom := design(AutomatedLoomParams(aim="price", beat="comb")))
     assert [child.machine for child in report.children] == [child.name for child in loom.children]
     checks = {check.name for child in report.children for check in child.all_checks}
     assert {check.name.split(": ", 1)[-1] for check in report.all_checks} > checks

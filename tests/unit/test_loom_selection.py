@@ -20,7 +20,7 @@ from ilmek.timing.track import peak_acceleration
 
 
 def designed(**settings: str) -> LoomDesign:
-    return selection.design(AutomatedLoomParams.read(settings))
+    return selection.design(AutomatedLoomParams.read({"aim": "price", **settings}))
 
 
 def in_the_way(*kinds: str):
@@ -38,7 +38,7 @@ def in_the_way(*kinds: str):
 def test_a_beat_without_room_in_space_is_exchanged_for_the_next_that_holds(
     settings: dict[str, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    params = AutomatedLoomParams.read(settings)
+    params = AutomatedLoomParams.read({"aim": "price", **settings})
     first = selection.design(params)
     monkeypatch.setattr(selection, "assembly", in_the_way())
     assert selection.with_room(first, params) is first
@@ -52,7 +52,7 @@ def test_a_beat_without_room_in_space_is_exchanged_for_the_next_that_holds(
 
 
 def test_a_beat_that_is_set_stays_and_where_none_has_room_the_loom_fails(monkeypatch: pytest.MonkeyPatch) -> None:
-    params = AutomatedLoomParams.read({"beat": "linkage"})
+    params = AutomatedLoomParams.read({"aim": "price", "beat": "linkage"})
     first = selection.design(params)
     every = in_the_way("linkage", "travelling", "comb", "guide-cams")
     monkeypatch.setattr(selection, "assembly", every)

@@ -8,7 +8,7 @@ from ilmek.machines.automated_loom import AutomatedLoomParams
 from ilmek.machines.automated_loom.nearest import SHARES, nearest_fits
 from ilmek.units import dm
 
-WISHES = AutomatedLoomParams(width=2.0, knots_across=50 / dm, knots_along=40 / dm)
+WISHES = AutomatedLoomParams(aim="price", width=2.0, knots_across=50 / dm, knots_along=40 / dm)
 
 
 @pytest.mark.parametrize("finest", [60 / dm, 43 / dm, 31 / dm, 16 / dm, 10 / dm])

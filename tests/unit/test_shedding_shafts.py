@@ -263,7 +263,7 @@ def test_a_shaft_that_starts_and_stops_bears_its_inertia() -> None:
 
 
 def test_two_shafts_in_a_loom() -> None:
-    loom = LOOM.design(AutomatedLoomParams.read({"shedding.shafts": "2", "beat": "comb"}))
+    loom = LOOM.design(AutomatedLoomParams.read({"aim": "price", "shedding.shafts": "2", "beat": "comb"}))
     assert len(loom.shedding.shafts) == 2
     first, last = loom.shedding.shafts
     assert last.params.lift == pytest.approx(

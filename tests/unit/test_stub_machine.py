@@ -59,14 +59,14 @@ def report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Report]:
     monkeypatch.setitem(ilmek.machines.ENTRIES, "lamp", ilmek.machines.Entry("light", part=True))
     importlib.invalidate_caches()
     design.cache_clear()
-    yield MACHINE.report(design(AutomatedLoomParams(beat="comb")), illustrated=False, assembled=False)
+    yield MACHINE.report(design(AutomatedLoomParams(aim="price", beat="comb")), illustrated=False, assembled=False)
     design.cache_clear()
     sys.modules.pop("ilmek.machines.lamp", None)
 
 
 def test_a_stub_machine_is_in_the_list_the_checks_space_dxf_and_step(report: Report, tmp_path: Path) -> None:
     (line,) = (line for line in report.parts if line.part == "lamp/shade")
-    width = AutomatedLoomParams().width
+    width = AutomatedLoomParams(aim="price").width
     assert (line.name, line.number) == ("shade of the lamp", 1)
     assert line.mass == pytest.approx(width * 0.05 * 0.002 * 7850, rel=0.01)
     (check,) = (check for check in report.all_checks if "lamp/shade" in check.parts)
@@ -80,7 +80,9 @@ def test_a_stub_machine_is_in_the_list_the_checks_space_dxf_and_step(report: Rep
     if importlib.util.find_spec("OCP"):
         assert {Path(name).suffix for name in workshop.files} >= {".step"}
     # The scene of a loom still names its machines one by one: frames and parts are made here as it makes theirs.
-    (lamp,) = (child for child in design(AutomatedLoomParams(beat="comb")).children if child.name == "lamp")
+    (lamp,) = (
+        child for child in design(AutomatedLoomParams(aim="price", beat="comb")).children if child.name == "lamp"
+    )
     tree = lamp.design.tree
     (frame,) = frames_of(tree, "ground", IDENTITY)
     (part,) = parts_of(tree, "lamp", IDENTITY, report.all_checks)

@@ -18,7 +18,7 @@ from ilmek.units import mm
 
 def whole(**settings: str) -> LoomTask:
     """The task of a loom, all machines designed."""
-    return design(AutomatedLoomParams.read(settings)).task
+    return design(AutomatedLoomParams.read({"aim": "price", **settings})).task
 
 
 def test_fitted_cams_leave_room_for_the_bore_of_their_own_shaft() -> None:
@@ -120,7 +120,7 @@ def test_parts_and_work_of_the_cylinders() -> None:
 
 @pytest.mark.parametrize("settings", [{}, {"tension-compensator.bars": "2"}, {"lift": "100mm"}])
 def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings: dict[str, str]) -> None:
-    loom = design(AutomatedLoomParams.read(settings))
+    loom = design(AutomatedLoomParams.read({"aim": "price", **settings}))
     compensator = loom.machines["tension-compensator"].design
     assert loom.shedding.params.compensation == pytest.approx(compensator.relief, abs=0.02)
     assert loom.warp_tension.loads.lifted == pytest.approx(compensator.tension_open, rel=0.01)
@@ -129,7 +129,7 @@ def test_cams_are_designed_for_the_tension_that_the_compensator_leaves(settings:
 
 def test_slack_warps_are_longer_instead_of_a_second_bar() -> None:
     """A bar for each parity would keep them as short: the lower one has no room over the cams."""
-    usual, slack = (design(AutomatedLoomParams.read(one)) for one in ({}, {"tension": "8N"}))
+    usual, slack = (design(AutomatedLoomParams.read({"aim": "price", **one})) for one in ({}, {"tension": "8N"}))
     compensator = slack.machines["tension-compensator"].design
     assert compensator.bars == 1
     assert compensator.tension_open <= 1.5 * 8
@@ -140,7 +140,7 @@ def test_slack_warps_are_longer_instead_of_a_second_bar() -> None:
 
 @pytest.mark.parametrize("kind", ["travelling", "comb"])
 def test_the_beat_pulls_at_the_warps_that_it_beats(kind: str) -> None:
-    loom = design(AutomatedLoomParams.read({"beat": kind}))
+    loom = design(AutomatedLoomParams.read({"aim": "price", "beat": kind}))
     loads, drive = loom.warp_tension.loads, loom.beat
     assert loads.beat == pytest.approx(15.0 + drive.warp_force_extra)
     assert loads.pull("beat") == pytest.approx(608 * 15.0 + drive.beaten * drive.warp_force_extra)

@@ -265,10 +265,12 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Shows the guards, or leaves them out. */
+  /** Shows the guards with room for them in the picture, or leaves them out. */
   guard(shown: boolean): void {
+    const fits = this.guarded || !shown;
     this.guarded = shown;
     this.hide();
+    if (!fits) this.camera.look(this.boxes(), undefined, ROOM);
   }
 
   /** Leaves out the guards, and the case of a head whose tools are looked at. */
@@ -322,10 +324,12 @@ export class Stage {
     return (SHED_CUT * this.model.about.carpet.width - this.box.min.x) / (this.box.max.x - this.box.min.x);
   }
 
-  /** Moves the parts apart: 0 as they are. */
+  /** Moves the parts apart, and the camera away from them: 0 as they are. */
   explode(factor: number): void {
+    if (factor === this.exploded) return;
     this.exploded = factor;
     for (const one of this.parts) one.arrange(factor);
+    this.camera.look(this.boxes(), undefined, ROOM);
     this.changed();
   }
 
@@ -456,9 +460,9 @@ export class Stage {
     }
   }
 
-  /** The boxes of all parts but the guards. */
+  /** The boxes of all parts; of the guards where they are shown. */
   private boxes(): three.Box3[] {
-    return this.parts.filter((one) => !this.isGuard(one)).map((one) => one.boxed(new three.Box3()));
+    return this.parts.filter((one) => this.guarded || !this.isGuard(one)).map((one) => one.boxed(new three.Box3()));
   }
 
   private boxOf(name: ViewName): three.Box3 {
