@@ -106,11 +106,13 @@ def axis_checks(found: CombDrive) -> tuple[Check, ...]:
     stroke = float(np.max(found.travel))
     cure = "set more axes, a smaller lead, or a lower comb_acceleration"
     return (
-        at_least("stroke of the comb's axis", stroke, found.stroke_needed, "mm", "fabric", cure="set a larger stroke"),
+        at_least("stroke of the comb's axis", stroke, found.stroke_needed, "mm", "fabric").with_cure(
+            "set a larger stroke"
+        ),
         *(() if found.screw is None else screw_checks(found.screw)),
         at_least(
-            "torque of the servo over the required torque", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure
-        ),
+            "torque of the servo over the required torque", reserve, 1.0, "1", "motor table, margin 1.25"
+        ).with_cure(cure),
     )
 
 

@@ -94,8 +94,8 @@ def _carried(task: LoomTask) -> tuple[Check, ...]:
     shedding = task.shedding
     cure = "set another beat, or shedding.guides=cams and a coarser pitch"
     return (
-        must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),
-        at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3", cure=cure),
+        must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3").with_cure(cure),
+        at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3").with_cure(cure),
         *_over_shuttles(task),
     )
 
