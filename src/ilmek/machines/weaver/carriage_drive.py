@@ -225,7 +225,7 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
 def _belt(name: str, title: str, shape: Shape, wide: float, long: float) -> Part:
     """Belt of a length [m]."""
     row = f"{BELT.belt.name}, {in_mm(wide)} wide"
-    bought = Bought(row, BELT.mass * wide * long, length=long)
+    bought = Bought(row, BELT.belt.mass * wide * long, length=long)
     return Part(name, title, "belt", shape=shape, purchase=bought)
 
 
