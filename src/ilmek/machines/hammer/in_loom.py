@@ -28,6 +28,7 @@ from ilmek.machines.hammer.report import checks
 from ilmek.machines.hammer.tree import outline, tree
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.stack import part_id
+from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.weft.carriers import CARRIAGE
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.bill import bill
@@ -53,7 +54,7 @@ def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> 
         params,
         shed_speed=turn / task.period,
         step=min(beat.time / task.period, 0.5) * turn,
-        stack_mass=task.shedding.stack.mass if kind == GUIDED else 0.0,
+        stack_mass=shedding_tree(task.shedding).mass if kind == GUIDED else 0.0,
     )
 
 
