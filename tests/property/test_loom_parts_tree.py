@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from made_parts import moving_error
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import IlmekError
@@ -29,6 +30,7 @@ _LOOMS = st.fixed_dictionaries(
         "length": st.floats(0.5, 3.0),
         "warp_pitch": st.sampled_from([0.0015, 0.002, 0.003, 0.004]),
         "heads": st.sampled_from([1, 2, 4]),
+        "beat": st.sampled_from(["travelling", "linkage", "comb", "guide-cams"]),
     }
 )
 
@@ -61,6 +63,7 @@ def test_list_tree_masses_and_checks_agree(wishes: dict[str, Any]) -> None:
         if part.material is not None:
             exact = part.shape.moments.zeroth * part.material.density
             assert line.mass == pytest.approx(exact, rel=1e-9), name
+    assert moving_error(loom) <= 1e-6
     report = MACHINE.report(loom, illustrated=False, assembled=False)
     named = {name for check in report.all_checks for name in check.parts}
     assert named <= {line.part for line in whole_list(loom).parts}

@@ -19,8 +19,15 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import IlmekError
 from ilmek.linkage.mirror import other
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.beat import GUIDED
+from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.hammer.tree import COMB
 from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.weft.rapier_tree import RAPIER_BODY
+from ilmek.machines.weft.shuttle import Shuttle
+from ilmek.machines.weft.tree import DRAGGING, STRAIGHT
 from ilmek.params import declared
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
@@ -108,19 +115,52 @@ def mass_error(machine: str, design: Any, tree: Tree) -> float:
     worst = _of_follower(design, tree) if machine == "cam" else 0.0
     for name, inertia in counted(machine, design).items():
         body = tree.body(name)
-        weights = [
-            (len(one.positions), one.part.shape.volume * one.part.material.density)
-            if one.part.material is not None and one.part.shape is not None
-            else (len(one.positions), one.part.mass)
-            for one in body.occurrences
-        ]
-        mass = math.fsum(number * weight for number, weight in weights)
+        mass = math.fsum(len(own.positions) * _weight(own.part) for own in body.occurrences)
         moments = body.moments
         worst = max(worst, abs(inertia.mass - mass) / (mass or 1.0))
         if mass:
             away = abs(complex(*moments.centre[:2]) - inertia.centre)
             worst = max(worst, away / (abs(inertia.centre) or 1.0), abs(moments.inertia[2, 2] / inertia.moment - 1))
     return worst
+
+
+def moving_error(loom: Any) -> float:
+    """Greatest relative difference of the masses that a loom's drives move, in its forces, from those of its parts.
+
+    Beside its parts a shuttle moves the yarn on its bobbin, and each carrier its belt.
+    """
+    tree, beat, weft = loom_tree(loom), loom.beat.design, loom.weft
+    shuttle = isinstance(weft.carried, Shuttle)
+    yarn = max(winding.mass for winding in weft.carried.windings) if shuttle else 0.0
+    width = weft.axis.belt.belt.widths[-1] if math.isnan(weft.axis.width) else weft.axis.width
+    belt = weft.axis.belt.length * width * weft.axis.belt.belt.mass
+    pairs = [(weft.axis.mass - yarn - belt, _made(tree, DRAGGING, STRAIGHT) if shuttle else _made(tree, RAPIER_BODY))]
+    linkage = beat if isinstance(beat, BeatUp) else beat.linkage and beat.linkage.one
+    if linkage:
+        number = 1 if isinstance(beat, BeatUp) else beat.linkage.number
+        pairs += [(number * linkage.bodies[name].mass, _made(tree, PART_IDS[name])) for name in ("crank", "coupler")]
+    if isinstance(beat, BeatUp):
+        pairs.append((beat.bodies["rocker"].mass, _made(tree, PART_IDS["rocker"])))
+    else:
+        rockers = {PART_IDS["rocker"]} if linkage else set()
+        sinking = {body.id for body in tree.bodies if loom.params.beat == GUIDED and body.id.startswith("shedding/")}
+        moved = number * linkage.bodies["rocker"].mass if linkage else beat.axis.mass
+        pairs.append((moved, _made(tree, COMB, *rockers, *sinking)))
+    return max(float(abs(forces / made - 1)) for forces, made in pairs)
+
+
+def _made(tree: Tree, *bodies: str) -> float:
+    """Mass of what is weighed of some bodies, each as often as it is there: of made parts volume times density."""
+    counts = tree.counts()
+    weights = (
+        counts[name] * len(own.positions) * _weight(own.part) for name in bodies for own in tree.body(name).occurrences
+    )
+    return math.fsum(weight for weight in weights if not math.isnan(weight))
+
+
+def _weight(part: Part) -> float:
+    """Volume times density of a made part, else the mass of its catalogue row [kg]."""
+    return part.mass if part.shape is None or part.material is None else part.shape.volume * part.material.density
 
 
 def _of_follower(design: Any, tree: Tree) -> float:
@@ -176,7 +216,7 @@ def main() -> int:
             masses = max(masses, mass_error(name, design, tree))
             _measure(tree, f"{name}, seed {seed}", worst)
         if loom is not None:
-            looms += 1
+            looms, masses = looms + 1, max(masses, moving_error(loom))
             _measure(loom_tree(loom), f"loom, seed {seed}", worst)
         if (number + 1) % EVERY == 0 or number + 1 == given.number:
             (part, (found, where)) = max(worst.items(), key=lambda entry: entry[1])

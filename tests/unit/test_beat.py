@@ -122,11 +122,11 @@ def test_results_of_a_drive() -> None:
 
 
 def test_the_cams_go_down_on_the_guide_cams_alone() -> None:
+    """With the carriages of both axes, 1 kg each, and the bearings and nuts of the cam shaft; see `moving_error`."""
     alone, together = driven("comb").design, driven("guide-cams").design
-    assert alone.axis.mass == pytest.approx(alone.comb.mass)
-    assert together.axis.mass == pytest.approx(
-        together.comb.mass + loom("guide-cams").machines["shedding"].design.stack.mass
-    )
+    assert alone.axis.mass == pytest.approx(alone.comb.mass + 2.0)
+    stack = loom("guide-cams").machines["shedding"].design.stack.mass
+    assert stack < together.axis.mass - together.comb.mass - 2.0 < 1.05 * stack
     assert alone.axis.mass < 40
 
 

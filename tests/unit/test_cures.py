@@ -28,6 +28,6 @@ def test_a_reason_without_a_cure_refers_to_its_limit() -> None:
     def reason(check: Check) -> str:
         return Report("m", "M", {}, (), (check,)).reasons[0].cure
 
-    assert reason(at_most("sag", 2.0, 1.0, "mm", "rail_sag", cure="set a stiffer rail")) == "set a stiffer rail"
+    assert reason(at_most("sag", 2.0, 1.0, "mm", "rail_sag").with_cure("set a stiffer rail")) == "set a stiffer rail"
     assert reason(at_most("sag", 2.0, 1.0, "mm", "rail_sag")).endswith("its limit: rail_sag")
     assert reason(at_most("sag", 2.0, 1.0, "mm", ""))

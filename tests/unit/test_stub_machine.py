@@ -42,7 +42,7 @@ class Lamp:
     def tree(self):
         return Tree((RigidBody("lamp", (Occurrence(self.shade),), joint=Joint(JointKind.MISSING)),))
 def checks(lamp):
-    return (at_most("mass of the shade", lamp.shade.mass, 0.5, "kg", "hook", parts=("lamp/shade",)),)
+    return (at_most("mass of the shade", lamp.shade.mass, 0.5, "kg", "hook").with_cure("", "lamp/shade"),)
 MACHINE = Component(
     name="lamp", title="Lamp", params=LampParams, design=Lamp, analysis=itself, results=lambda _: (),
     checks=checks, tree=lambda lamp: lamp.tree, fit=lambda task: LampParams(width=task.params.width),

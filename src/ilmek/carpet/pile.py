@@ -96,7 +96,7 @@ def pile_check(yarn: YarnProperties, quality: Quality) -> Check:
 def fill_check(fill: float) -> Check:
     """The check of the share of the ground that the pile fills [-]."""
     source, cure = Sentence("check.pile-source"), Sentence("check.pile-cure")
-    return at_most(Sentence("check.pile"), fill, 1.0, "%", source, cure=cure)
+    return at_most(Sentence("check.pile"), fill, 1.0, "%", source).with_cure(cure)
 
 
 def pile_fill(quality: Quality, linear_density: float, pile: PileParams | None = None) -> float:

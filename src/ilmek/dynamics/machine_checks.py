@@ -20,7 +20,7 @@ def locking(run: InverseRun) -> tuple[Check, ...]:
         where = f"; it locks at {run.driving} from {first} to {last}"
     source = f"the drive keeps it moving against the friction of its joints{where}"
     cure = "lower the friction, lengthen the guides, or improve the transmission angle there"
-    return (must("not self-locking", not run.locked.any(), source, cure=cure),)
+    return (must("not self-locking", not run.locked.any(), source).with_cure(cure),)
 
 
 def determined(machine: OwnMachine, run: InverseRun) -> tuple[Check, ...]:
@@ -32,6 +32,6 @@ def determined(machine: OwnMachine, run: InverseRun) -> tuple[Check, ...]:
     names += [f"{name}: forces are determined" for name in machine.members if name in unknown.bodies]
     drives = [f"drive of {name} is determined" for name in sorted(unknown.inputs)]
     alone = "leave out the friction of the bearings that the belt loads"
-    return tuple(must(name, False, tension, cure=cure) for name in names) + tuple(
-        must(name, False, tension, cure=alone) for name in drives
+    return tuple(must(name, False, tension).with_cure(cure) for name in names) + tuple(
+        must(name, False, tension).with_cure(alone) for name in drives
     )

@@ -80,42 +80,48 @@ class MachineStrength:
         if hole >= WIDEST * member.width:
             cure = f"make {name} wider than {format_quantity(hole / WIDEST, 'mm')}, or its pins thinner"
             widest = WIDEST * member.width
-            yield at_most(f"{name}: hole of its pins", hole, widest, "mm", f"{WIDEST:g} of its width", cure=cure)
+            yield at_most(f"{name}: hole of its pins", hole, widest, "mm", f"{WIDEST:g} of its width").with_cure(cure)
         width = format_quantity(member.width * math.sqrt(max(found.stress / limit, 1.0)), "mm", 3)
         cure = f"make {name} about {width} wide, or thicker"
-        yield at_most(f"{name}: stress", found.stress, limit, "MPa", source, cure=cure)
+        yield at_most(f"{name}: stress", found.stress, limit, "MPa", source).with_cure(cure)
         if not given and material.fatigue is not None:
             source = "Goodman, with the holes' notch; infinite life"
-            yield at_least(f"{name}: safety against fatigue", found.fatigue, member.safety, "1", source, cure=cure)
+            yield at_least(f"{name}: safety against fatigue", found.fatigue, member.safety, "1", source).with_cure(cure)
         if math.isfinite(found.buckling):
             cure = f"make {name} thicker or shorter"
-            yield at_least(f"{name}: safety against buckling", found.buckling, BUCKLING, "1", "Euler", cure=cure)
+            yield at_least(f"{name}: safety against buckling", found.buckling, BUCKLING, "1", "Euler").with_cure(cure)
         if self.speed and math.isfinite(found.frequency):
             source = f"{RESONANCE:g} times the driving frequency"
             cure = f"make {name} wider or shorter, or run slower"
             lowest, driving = found.frequency / turn, RESONANCE * self.speed / turn
-            yield at_least(f"{name}: natural frequency", lowest, driving, "Hz", source, cure=cure)
+            yield at_least(f"{name}: natural frequency", lowest, driving, "Hz", source).with_cure(cure)
 
     def _of_pin(self, name: str, found: PinStrength) -> Iterator[Check]:
         pin = self.machine.pins[name]
         thick = format_quantity(pin.diameter * math.sqrt(max(found.shear / pin.shear, 1.0)), "mm", 3)
         cure = f"a pin of {thick}" + ("" if pin.fork else ", or a fork")
-        yield at_most(f"pin {name}: shear stress", found.shear, pin.shear, "MPa", "allowed of the pin", cure=cure)
+        yield at_most(f"pin {name}: shear stress", found.shear, pin.shear, "MPa", "allowed of the pin").with_cure(cure)
         if pin.fork:
             thick = format_quantity(pin.diameter * max(found.bending / pin.bending, 1.0) ** (1 / 3), "mm", 3)
             cure = f"a pin of {thick}, or a shorter fork"
-            yield at_most(f"pin {name}: bending", found.bending, pin.bending, "MPa", "allowed of the pin", cure=cure)
+            yield at_most(f"pin {name}: bending", found.bending, pin.bending, "MPa", "allowed of the pin").with_cure(
+                cure
+            )
         if pin.bearing is not None:
             cure = "a larger bearing, or a lower speed"
             source = f"required life of {pin.bearing}"
             if pin.life > 0:
-                yield at_least(f"pin {name}: bearing life", self.lives[name], pin.life, "h", source, cure=cure)
+                yield at_least(f"pin {name}: bearing life", self.lives[name], pin.life, "h", source).with_cure(cure)
             return
         long = format_quantity(pin.length * max(found.pressure / pin.pressure, 1.0), "mm", 3)
         cure = f"a bush of {long}, or a thicker pin"
-        yield at_most(f"pin {name}: pressure", found.pressure, pin.pressure, "MPa", "allowed of the pin", cure=cure)
+        yield at_most(f"pin {name}: pressure", found.pressure, pin.pressure, "MPa", "allowed of the pin").with_cure(
+            cure
+        )
         cure = "a longer bush, a rolling bearing, or a lower speed"
-        yield at_most(f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed of the pin", cure=cure)
+        yield at_most(f"pin {name}: pressure x speed", found.wear, pin.wear, "MPa*m/s", "allowed of the pin").with_cure(
+            cure
+        )
 
 
 def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | None:

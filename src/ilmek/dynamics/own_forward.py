@@ -66,7 +66,7 @@ class OwnForward:
             return ()
         soft = "make the drive softer (less torque, more slip), or the run shorter"
         cure = soft if end.kind in (EndKind.STEPS, EndKind.STEP) else "change the links, or end the run at an event"
-        return (at_least("forward run: time reached", end.state.time, self.duration, "s", end.reason, cure=cure),)
+        return (at_least("forward run: time reached", end.state.time, self.duration, "s", end.reason).with_cure(cure),)
 
     forward_end = computed("", "why the forward run ended", lambda it: it.run.end.reason)
     forward_time = computed("s", "time at its end", lambda it: float(it.run.end.state.time))

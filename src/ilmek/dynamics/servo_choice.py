@@ -68,9 +68,9 @@ class ServoChoice:
             at_most(
                 "servo: rms torque", found.rms * MARGIN, one.motor.torque, "N*m", f"{MARGIN:g} times rms; {source}"
             ).with_cure(cure),
-            at_least("servo: reserve of peak torque", found.reserve, MARGIN, "1", source, cure=cure),
-            at_most("servo: speed", found.speed_max, one.motor.speed, "rpm", source, cure=cure),
-            at_most("servo: inertia ratio", found.inertia_ratio, INERTIA_RATIO, "1", source, cure=cure),
+            at_least("servo: reserve of peak torque", found.reserve, MARGIN, "1", source).with_cure(cure),
+            at_most("servo: speed", found.speed_max, one.motor.speed, "rpm", source).with_cure(cure),
+            at_most("servo: inertia ratio", found.inertia_ratio, INERTIA_RATIO, "1", source).with_cure(cure),
         )
 
 

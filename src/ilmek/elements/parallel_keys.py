@@ -71,7 +71,7 @@ class KeyedEnd:
     def check(self, title: str, cure: str, parts: tuple[str, ...]) -> Check:
         """Surface pressure of the key."""
         source = f"{self.number} key{'s' * (self.number > 1)} {self.designation}; DIN 6892, method C"
-        return at_most(f"key of the {title}", self.pressure, self.allowed, "MPa", source, cure=cure, parts=parts)
+        return at_most(f"key of the {title}", self.pressure, self.allowed, "MPa", source).with_cure(cure, *parts)
 
 
 def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:

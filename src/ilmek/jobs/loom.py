@@ -300,7 +300,7 @@ def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check
     if deadline is None:
         return ()
     cure = "give more time, more heads, or a coarser quality"
-    return (at_most("weaving time", programme.duration, deadline, "h", "the deadline given", cure=cure),)
+    return (at_most("weaving time", programme.duration, deadline, "h", "the deadline given").with_cure(cure),)
 
 
 def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:
@@ -323,7 +323,7 @@ def _can_be_designed(params: AutomatedLoomParams) -> bool:
 def _without_design(params: AutomatedLoomParams, error: IlmekError) -> Report:
     """The report of a loom that cannot be designed: its parameters, and the reason as a failed check."""
     cure = "; ".join(part for part in (error.allowed, error.do) if part)
-    check = must("the loom can be designed", False, error.given, cure=cure or "take another quality, size or knot")
+    check = must("the loom can be designed", False, error.given).with_cure(cure or "take another quality, size or knot")
     results = (
         Result("weaves", False, "", "every check of the loom and of its machines holds"),
         Result(BUILDABLE, False, "", "the parts of the loom make one machine"),

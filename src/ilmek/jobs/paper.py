@@ -55,7 +55,7 @@ def reading_checks(paper: PaperReading) -> tuple[Check, ...]:
 def _at_most(name: str, share: float, limit: float, cure: str) -> Check:
     """A check of a share by its key."""
     key = f"check.paper-{name}"
-    return at_most(Sentence(key), share, limit, "%", Sentence(f"{key}-source"), cure=cure)
+    return at_most(Sentence(key), share, limit, "%", Sentence(f"{key}-source")).with_cure(cure)
 
 
 def paper_files(chart: Chart) -> tuple[str, ...]:

@@ -98,7 +98,7 @@ class PlanResult:
                     (rescue_text(self, one.rescues[0]) for one in self.late if one.order == index and one.rescues), ""
                 )
                 late = minute * self.overdue(index)
-                found.append(at_most(f"{name}: delay", late, 0.0, "h", "the due date", cure=cure))
+                found.append(at_most(f"{name}: delay", late, 0.0, "h", "the due date").with_cure(cure))
             else:
                 found += _not_woven(self.inputs, order)
         return tuple(found)

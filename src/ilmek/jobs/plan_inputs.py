@@ -167,7 +167,7 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
     try:
         loomed = make_loomed(LoomOrder(loom.design.params, Wishes(), existing=loom), charted)
     except IlmekError as error:
-        return LoomFit(None, (must("carpet: programme", False, error.given, cure=error.do or error.allowed),))
+        return LoomFit(None, (must("carpet: programme", False, error.given).with_cure(error.do or error.allowed),))
     checks = (*charted.checks, *overlay_checks(charted.chart), *loomed.checks, *loom.report.all_checks)
     failed = tuple(check for check in checks if not check.ok)
     if failed or loomed.programme is None:

@@ -57,21 +57,19 @@ def _lead(found: CarpetStatistics) -> str:
 
 
 def _checks(found: CarpetStatistics, deadline: float | None) -> tuple[Check, ...]:
-    checks = [at_least(
-        "knots of the carpet", found.knots, found.setup.knots, "1", "rows and columns of the chart",
-        cure="the programme leaves knots out: `ilmek check` names them",
-    )]  # fmt: skip
+    complete = at_least("knots of the carpet", found.knots, found.setup.knots, "1", "rows and columns of the chart")
+    checks = [complete.with_cure("the programme leaves knots out: `ilmek check` names them")]
     packages = found.packages_used
     if packages:
         least = min(packages, key=lambda one: one.left)
         label = f"head {least.head + 1}, tube {least.tube + 1}, {found.setup.yarns[least.yarn].name}"
         cure = "change that package earlier, or put a longer one on: yarn is lost with failed knots and repairs"
-        checks.append(at_least("pile yarn left on a package", least.left, 0.0, "m", label, cure=cure))
+        checks.append(at_least("pile yarn left on a package", least.left, 0.0, "m", label).with_cure(cure))
     if deadline is not None:
         runs = len(found.times.values)
         source = f"the deadline given, for {HIGH:.0%} of {runs} runs" if runs > 1 else "the deadline given, of one run"
         cure = "give more time, more heads, or see the losses"
-        checks.append(at_most("weaving time", found.times.at(HIGH), deadline, "h", source, cure=cure))
+        checks.append(at_most("weaving time", found.times.at(HIGH), deadline, "h", source).with_cure(cure))
     return tuple(checks)
 
 

@@ -143,7 +143,7 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
     halves, juftis = counted(2 * chart.overlay.halves, "half knot"), counted(chart.overlay.juftis, "jufti knot")
     source = f"{halves}, {juftis}; the loom ties none"
     cure = "weave by hand from rows.pdf, or leave the overlay out"
-    return (must("every knot on two warps", False, source, cure=cure),)
+    return (must("every knot on two warps", False, source).with_cure(cure),)
 
 
 def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:

@@ -95,7 +95,7 @@ class Workshop:
     def checks(self) -> tuple[Check, ...]:
         """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss."""
         cure = "see the notes: change the part, or order it otherwise"
-        complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions", cure=cure)
+        complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions").with_cure(cure)
         tables = sorted(
             (entry for entry in self.entries if "tolerance" in entry),
             key=lambda entry: entry["error"] / entry["tolerance"],
@@ -275,7 +275,7 @@ def _step() -> ModuleType | None:
 def _table_check(entry: Table) -> Check:
     name, points = f"{entry['file']}: error of the motion", f"tolerance; {entry['points']} points"
     cure = "set a larger --tolerance, or take a controller with more points"
-    return at_most(name, entry["error"], entry["tolerance"], entry["file_unit"], points, cure=cure)
+    return at_most(name, entry["error"], entry["tolerance"], entry["file_unit"], points).with_cure(cure)
 
 
 def _table_files(table: CamTable, work: Path, name: str, tolerance: Tolerance) -> Iterator[dict[str, Json]]:

@@ -104,17 +104,19 @@ def kept_checks(chart: Chart, order: CarpetOrder) -> tuple[Check, ...]:
     checks = []
     if made.edges_kept is not None:
         cure = _edges_cure(chart, order)
-        checks.append(at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT, cure=cure))
+        checks.append(
+            at_least(Sentence("check.edges-kept"), made.edges_kept, rules.least_edges, "%", _KEPT).with_cure(cure)
+        )
     checks += _detail_checks(chart, order)
     if made.matches:
         share, cure = sum(lost.share for lost in made.lost), reduce(joined, _lost_cures(chart, order), "")
-        checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT, cure=cure))
+        checks.append(at_most(Sentence("check.colours-lost"), share, rules.most_lost, "%", _KEPT).with_cure(cure))
     if made.fit.hidden:
         cure = Sentence("check.outline-cure")
-        checks.append(at_most(Sentence("check.outline"), made.fit.hidden, MOST_HIDDEN, "%", _KEPT, cure=cure))
+        checks.append(at_most(Sentence("check.outline"), made.fit.hidden, MOST_HIDDEN, "%", _KEPT).with_cure(cure))
     if made.fit.outside:
         cure, source = Sentence("check.round-cure"), Sentence("check.round-source")
-        checks.append(at_most(Sentence("check.round"), made.fit.outside, 0.0, "%", source, cure=cure))
+        checks.append(at_most(Sentence("check.round"), made.fit.outside, 0.0, "%", source).with_cure(cure))
     return tuple(checks)
 
 
@@ -129,11 +131,11 @@ def _detail_checks(chart: Chart, order: CarpetOrder) -> Iterator[Check]:
     finer, least = Sentence("cure.finer"), rules.least_detail
     cure = finer if order.dyed else joined(finer, Sentence("cure.lack"))
     limit = LEAST_DETAILS[kind] if least is None else least
-    yield at_least(Sentence("check.detail-kept"), detail.share, limit, "%", _KEPT, cure=cure)
+    yield at_least(Sentence("check.detail-kept"), detail.share, limit, "%", _KEPT).with_cure(cure)
     most = MOST_FINE_LOST if rules.most_fine_lost is None and least is None else rules.most_fine_lost
     if most is not None and (kind == "flat" or max(chart.counts) >= LEAST_GROUND * chart.knots.size):
         cure = Sentence("cure.print")
-        yield at_most(Sentence("check.fine-lost"), detail.fine_lost, most, "%", _KEPT, cure=cure)
+        yield at_most(Sentence("check.fine-lost"), detail.fine_lost, most, "%", _KEPT).with_cure(cure)
 
 
 def _lost_cures(chart: Chart, order: CarpetOrder) -> Iterator[Sentence]:

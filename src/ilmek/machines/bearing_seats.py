@@ -86,7 +86,7 @@ class BearingSeat:
         """The force of the shaft against what the screws hold."""
         screws, source = self.screws, "friction of four screws, EN 1993-1-8, 3.9"
         label = f"{title}: force on its {screws.screw.name} screws"
-        return at_most(label, self.force, screws.holds(screws.screw), "N", source, cure=cure, parts=(part,))
+        return at_most(label, self.force, screws.holds(screws.screw), "N", source).with_cure(cure, part)
 
     def occurrences(self, ids: tuple[str, str], title: str, at: tuple[Placement, ...]) -> tuple[Occurrence, ...]:
         """The bearing, its housing if it comes without one, and its screws, at some seats.

@@ -164,10 +164,10 @@ class BeatDrive:
         cure = "set beat=auto, a lower tension, or a coarser quality along"
         stroke = "height above the fell: room for the weft"
         return (
-            at_least(
-                "beat: force of a warp", self.beat_force_warp, needed, "N", source, cure=cure, parts=self.striking
+            at_least("beat: force of a warp", self.beat_force_warp, needed, "N", source).with_cure(
+                cure, *self.striking
             ),
-            at_least(*("beat: stroke", self.path.rise, stroke_needed(self.task), "mm", stroke)).with_cure(
+            at_least("beat: stroke", self.path.rise, stroke_needed(self.task), "mm", stroke).with_cure(
                 "set a larger stroke", *self.striking
             ),
             *self.loom_checks,

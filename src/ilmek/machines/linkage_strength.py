@@ -325,7 +325,7 @@ def _link_checks(
             link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
             given = f"{link}: {source}: parameter {name}.{limit}"
             least, ids = getattr(limits, limit), _ids(parts, link)
-            checks.append(at_least(title, values[link] / unit, least, "1", given, cure=cure, parts=ids))
+            checks.append(at_least(title, values[link] / unit, least, "1", given).with_cure(cure, *ids))
     return tuple(checks)
 
 
@@ -361,8 +361,8 @@ def pin_checks(
         ("wear of the pins, p v", worn.wear / MPa, limits.pin_wear, "1", worn, "pin_wear, in MPa m/s"),
     )
     return tuple(
-        at_most(
-            title, value, limit, unit, f"pin {pin.name}; {assumed}{parameter}", cure=cure, parts=_ids(parts, pin.name)
+        at_most(title, value, limit, unit, f"pin {pin.name}; {assumed}{parameter}").with_cure(
+            cure, *_ids(parts, pin.name)
         )
         for title, value, limit, unit, pin, parameter in rows
     )

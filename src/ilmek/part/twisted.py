@@ -43,14 +43,15 @@ class TwistedBar:
         return box(self.side, self.side, self.length).moments
 
     def mesh(self, deviation: float = CHORD) -> Solid:
-        """A closed surface of triangles between turned sections; they are near enough for any deviation."""
-        del deviation
-        rings = self._rings(STEP)
+        """A closed surface of triangles between turned sections, whose edges are so near to those of the bar [m]."""
+        radius = self.side / np.sqrt(2)
+        rings = self._rings(min(STEP, 2 * np.arccos(1 - min(deviation / radius, 1.0))))
         number, corner = len(rings), np.arange(4)
         following = np.roll(corner, -1)
-        first = np.stack([corner, following, following + 4], axis=1)
-        other = np.stack([corner, following + 4, corner + 4], axis=1)
-        sides = [faces + 4 * k for k in range(number - 1) for faces in (first, other)]
+        # The diagonals alternate: on one side all of them would cut off, or add, a volume that grows with the twist.
+        cut = np.concatenate([[corner, following, following + 4], [corner, following + 4, corner + 4]], axis=1).T
+        added = np.concatenate([[corner, following, corner + 4], [following, following + 4, corner + 4]], axis=1).T
+        sides = [(added if k % 2 else cut) + 4 * k for k in range(number - 1)]
         low, high = np.array([[0, 2, 1], [0, 3, 2]]), np.array([[0, 1, 2], [0, 2, 3]]) + 4 * (number - 1)
         return Solid(rings.reshape(-1, 3), np.concatenate([low, *sides, high]))
 

@@ -66,29 +66,25 @@ def in_si(check: Judged) -> dict[str, str]:
     return {"unit": si_unit(check.unit), "shown": value if limit == "yes" else f"{value} {check.relation} {limit}"}
 
 
-def at_most(
-    name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "", parts: tuple[str, ...] = ()
-) -> Check:
+def at_most(name: str, value: float, limit: float, unit: str, source: str) -> Check:
     """The check value <= limit; a value that differs from the limit by rounding keeps it, NaN fails.
 
     >>> at_most("pressure angle", 0.1 + 0.2, 0.3, "rad", "given").ok
     True
     """
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value <= limit), source, "<=", cure, parts)
+    return Check(name, value, float(limit), unit, bool(value <= limit), source)
 
 
-def at_least(
-    name: str, value: float, limit: float, unit: str, source: str, *, cure: str = "", parts: tuple[str, ...] = ()
-) -> Check:
+def at_least(name: str, value: float, limit: float, unit: str, source: str) -> Check:
     """The check value >= limit; a value that differs from the limit by rounding keeps it, NaN fails."""
     value = snap_to_limit(value, limit)
-    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=", cure, parts)
+    return Check(name, value, float(limit), unit, bool(value >= limit), source, ">=")
 
 
-def must(name: str, holds: bool, source: str, *, cure: str = "", parts: tuple[str, ...] = ()) -> Check:
+def must(name: str, holds: bool, source: str) -> Check:
     """The check of a plain yes or no, 1 or 0: what the machine must do, or a part that it must have."""
-    return Check(name, float(holds), 1.0, "", holds, source, ">=", cure, parts)
+    return Check(name, float(holds), 1.0, "", holds, source, ">=")
 
 
 def in_words(check: Judged) -> tuple[str, str]:

@@ -142,7 +142,7 @@ class SceneWarps:
     lifted: tuple[int, ...]
     lifts: tuple[float, ...]
     angle: FloatArray
-    even_share: FloatArray
+    even: FloatArray
     odd_share: FloatArray
     diameter: float
 

@@ -95,7 +95,7 @@ def checks(design: FourBarDesign) -> tuple[Check, ...]:
     """Whether there is a solution, and its transmission angle: at least `transmission_min`, or the rule of thumb."""
     choice = design.choice
     cure = "; ".join(choice.cures)
-    found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task", cure=cure)
+    found = at_least("four-bars without defects", len(choice.kept) + choice.more, 1, "1", "the task").with_cure(cure)
     if choice.best is None:
         return (found,)
     required = design.params.transmission_min

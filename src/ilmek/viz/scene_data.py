@@ -1,16 +1,19 @@
 """A scene as data for a page: its description as JSON, its numbers in one block of floats and one of integers."""
 
-import math
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
 import numpy as np
 
 from ilmek.arrays import FloatArray, Int32, IntArray
 from ilmek.records import JsonObject
-from ilmek.report import Json
-from ilmek.report.scene import Scene, SceneBody, SceneFrame, SceneMotion, ScenePart, SceneYarn, Solid
+from ilmek.report import Check, plain
+from ilmek.report.scene import Scene, SceneMotion, ScenePart, SceneYarn
 from ilmek.viz.thinning import divided
+
+FLOATS, INTEGERS = "<f4", "<u4"
+"""Types of the two blocks."""
 
 SHIFT_ERROR, TURN_ERROR = 2e-5, 2e-4
 """Deviations of the samples that are sent from those of a motion, at most [m, rad]."""
@@ -27,66 +30,63 @@ class SceneData:
 
 @dataclass(eq=False, slots=True)
 class _Blocks:
-    floats: list[FloatArray] = field(default_factory=list)
-    integers: list[IntArray] = field(default_factory=list)
-    _counts: list[int] = field(default_factory=lambda: [0, 0])
+    """The arrays of a scene in two blocks, floats and integers, one after the other."""
 
-    def put(self, values: FloatArray) -> list[int]:
-        """Where the values stand among the floats."""
-        flat = np.asarray(values, float).ravel()
-        self.floats.append(flat)
-        self._counts[0] += len(flat)
-        return [self._counts[0] - len(flat), len(flat)]
+    blocks: dict[str, list[FloatArray | IntArray]] = field(default_factory=lambda: {FLOATS: [], INTEGERS: []})
+    counts: dict[str, int] = field(default_factory=lambda: {FLOATS: 0, INTEGERS: 0})
 
-    def put_integers(self, values: IntArray) -> list[int]:
-        """Where the values stand among the integers."""
-        flat = np.asarray(values).ravel()
-        self.integers.append(flat)
-        self._counts[1] += len(flat)
-        return [self._counts[1] - len(flat), len(flat)]
+    def put(self, values: FloatArray | IntArray) -> list[int]:
+        """Where the values stand in their block: first, number."""
+        kind = FLOATS if np.issubdtype(values.dtype, np.floating) else INTEGERS
+        self.blocks[kind].append(values.ravel())
+        self.counts[kind] += values.size
+        return [self.counts[kind] - values.size, values.size]
+
+    def data(self, value: object) -> Any:
+        """The value for JSON: a record by the names of its fields, an array as its position in a block."""
+        if isinstance(value, np.ndarray):
+            return self.put(value)
+        if isinstance(value, Check):
+            return value.as_json()
+        if isinstance(value, SceneMotion):
+            return self._motion(value)
+        if is_dataclass(value):
+            about = {_camel(own.name): self.data(getattr(value, own.name)) for own in fields(value)}
+            return about | _more(value, about)
+        if isinstance(value, Mapping):
+            return {name: self.data(item) for name, item in value.items()}
+        return [self.data(item) for item in value] if isinstance(value, tuple) else plain(value)
+
+    def _motion(self, one: SceneMotion) -> JsonObject:
+        """The samples that are needed; null for what stands."""
+        kept = needed_samples(one)
+        shift, rotation = (self.put(values[kept]) if values.any() else None for values in (one.shift, one.rotation))
+        return {"drive": one.drive, "angle": self.put(one.angle[kept]), "shift": shift, "rotation": rotation}
+
+
+def _camel(name: str) -> str:
+    first, *others = name.split("_")
+    return first + "".join(word.capitalize() for word in others)
+
+
+def _more(value: object, about: JsonObject) -> JsonObject:
+    """What a page reads of a part and a yarn in place of their fields, or beside them."""
+    if isinstance(value, ScenePart):
+        del about["copies"]
+        pairs = zip(about.pop("solids"), about.pop("deviations"), strict=True)
+        solids = [{**solid, "deviation": deviation} for solid, deviation in pairs]
+        return {"extents": value.extents.tolist(), "solids": solids}
+    return {"number": value.points.shape[1]} if isinstance(value, SceneYarn) else {}
 
 
 def scene_data(scene: Scene) -> SceneData:
     """The scene as a page reads it."""
     blocks = _Blocks()
-    warps, carpet = scene.warps, scene.carpet
-    about = {
-        "title": scene.title,
-        "heads": scene.heads,
-        "tools": dict(scene.tools),
-        "dyed": list(scene.dyed),
-        "phases": [asdict(one) for one in scene.phases],
-        "guards": list(scene.guards),
-        "floor": scene.floor,
-        "bodies": {name: _body(body) for name, body in scene.bodies.items()},
-        **judgement(scene),
-        "periods": dict(scene.periods),
-        "frames": [_frame(blocks, one) for one in scene.frames],
-        "parts": [_part(blocks, one) for one in scene.parts],
-        "warps": {
-            "x": blocks.put(warps.x),
-            "shaft": blocks.put_integers(warps.shaft),
-            "odd": blocks.put_integers(warps.odd),
-            "line": blocks.put(warps.line),
-            "lifted": list(warps.lifted),
-            "lifts": list(warps.lifts),
-            "angle": blocks.put(warps.angle),
-            "even": blocks.put(warps.even_share),
-            "oddShare": blocks.put(warps.odd_share),
-            "diameter": warps.diameter,
-        },
-        "yarns": [_yarn(blocks, one) for one in scene.yarns],
-        "carpet": {
-            "width": carpet.width,
-            "columns": carpet.columns,
-            "rows": carpet.rows,
-            "columnPitch": carpet.column_pitch,
-            "rowPitch": carpet.row_pitch,
-            "pile": carpet.pile,
-            "line": blocks.put(carpet.line),
-        },
-    }
-    return SceneData(about, _bytes(blocks.floats, "<f4"), _bytes(blocks.integers, "<u4"))
+    about = blocks.data(scene)
+    floats, integers = (
+        np.concatenate([np.zeros(0), *blocks.blocks[kind]]).astype(kind).tobytes() for kind in (FLOATS, INTEGERS)
+    )
+    return SceneData(about, floats, integers)
 
 
 def judgement(scene: Scene) -> JsonObject:
@@ -98,42 +98,6 @@ def judgement(scene: Scene) -> JsonObject:
 def checks_of_parts(scene: Scene) -> JsonObject:
     """The checks of each part that has some, by its name."""
     return {part.name: [check.as_json() for check in part.checks] for part in scene.parts if part.checks}
-
-
-def _bytes(values: Iterable[FloatArray | IntArray], kind: str) -> bytes:
-    return np.concatenate([np.zeros(0), *values]).astype(kind).tobytes()
-
-
-def _body(one: SceneBody) -> JsonObject:
-    return {
-        "parent": one.parent,
-        "joint": one.joint,
-        "drive": one.drive,
-        "motor": one.motor,
-        "follows": list(one.follows),
-        "passive": one.passive,
-    }
-
-
-def _frame(blocks: _Blocks, one: SceneFrame) -> dict[str, Json]:
-    return {
-        "name": one.name,
-        "parent": one.parent,
-        "origins": blocks.put(one.origins),
-        "phases": None if one.phases is None else blocks.put(one.phases),
-        "axis": list(one.axis),
-        "motion": None if one.motion is None else _motion(blocks, one.motion),
-    }
-
-
-def _motion(blocks: _Blocks, one: SceneMotion) -> dict[str, Json]:
-    kept = needed_samples(one)
-    return {
-        "drive": one.drive,
-        "angle": blocks.put(one.angle[kept]),
-        "shift": blocks.put(one.shift[kept]) if one.shift.any() else None,
-        "rotation": blocks.put(one.rotation[kept]) if one.rotation.any() else None,
-    }
 
 
 def needed_samples(one: SceneMotion) -> Int32[np.ndarray, " kept"]:
@@ -151,40 +115,3 @@ def needed_samples(one: SceneMotion) -> Int32[np.ndarray, " kept"]:
 
     ends = np.isin(np.arange(len(one.angle)), [0, len(one.angle) - 1])
     return np.flatnonzero(divided(ends, away, 1.0)).astype(np.int32)
-
-
-def _part(blocks: _Blocks, one: ScenePart) -> dict[str, Json]:
-    return {
-        "name": one.name,
-        "title": one.title,
-        "machine": one.machine,
-        "frame": one.frame,
-        "solids": [
-            _solid(blocks, solid, deviation) for solid, deviation in zip(one.solids, one.deviations, strict=True)
-        ],
-        "material": one.material,
-        "mass": None if math.isnan(one.mass) else one.mass,
-        "number": one.number,
-        "checks": [check.as_json() for check in one.checks],
-        "plate": one.plate,
-        "envelope": one.envelope,
-        "extents": one.extents.tolist(),
-        "ids": list(one.ids),
-    }
-
-
-def _solid(blocks: _Blocks, one: Solid, deviation: float) -> dict[str, Json]:
-    return {"points": blocks.put(one.points), "triangles": blocks.put_integers(one.triangles), "deviation": deviation}
-
-
-def _yarn(blocks: _Blocks, one: SceneYarn) -> JsonObject:
-    return {
-        "name": one.name,
-        "title": one.title,
-        "frame": one.frame,
-        "drive": one.drive,
-        "angle": blocks.put(one.angle),
-        "points": blocks.put(one.points),
-        "number": int(one.points.shape[1]),
-        "diameter": one.diameter,
-    }

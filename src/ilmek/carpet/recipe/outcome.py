@@ -80,4 +80,4 @@ def edit_checks(outcomes: tuple[EditOutcome, ...]) -> tuple[Check, ...]:
         return ()
     lost = sum(1 for outcome in outcomes if outcome.reason)
     cure, source = Sentence("check.edits-cure"), Sentence("check.edits-source")
-    return (at_most(Sentence("check.edits"), lost, 0, "", source, cure=cure),)
+    return (at_most(Sentence("check.edits"), lost, 0, "", source).with_cure(cure),)

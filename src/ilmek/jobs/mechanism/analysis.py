@@ -67,7 +67,9 @@ class Analysis:
         if not self.run.required or self.run.running is None:
             return ()
         cure = "change a link's length, or the range: --over FROM..TO"
-        return (at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive", cure=cure),)
+        return (
+            at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive").with_cure(cure),
+        )
 
     @property
     def _defined(self) -> tuple[Check, ...]:
@@ -80,7 +82,7 @@ class Analysis:
         where = f"; not at {self.run.running.name} = {listed}{more}" if values else ""
         source = f"velocities and forces exist where the drive determines the motion{where}"
         cure = "change a link's length, drive another body, or keep away from it: --over FROM..TO"
-        return (at_most("dead centres in its range", len(values), 0, "1", source, cure=cure),)
+        return (at_most("dead centres in its range", len(values), 0, "1", source).with_cure(cure),)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:

@@ -169,7 +169,7 @@ def _is_without_joint(body: RigidBody) -> bool:
 def _closed(loom: LoomDesign) -> Check:
     """That every mesh encloses a volume: what an open one is through could not be seen."""
     parts = open_parts(loom_tree(loom))
-    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only", parts=parts)
+    return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only").with_cure("", *parts)
 
 
 def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:

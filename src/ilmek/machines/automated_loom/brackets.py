@@ -297,9 +297,9 @@ def _beam_checks(loom: LoomDesign, section: HollowSquare, pull: float) -> tuple[
     parts = (part_id("back-rest-beam"), part_id("back-rest"))
     limit = STEEL.strength / loom.params.column_safety
     return (
-        at_most("frame: sag of the back rest", sag, BACK_REST_SAG * width, "mm", "2 mm a m", cure=_CURE, parts=parts),
+        at_most("frame: sag of the back rest", sag, BACK_REST_SAG * width, "mm", "2 mm a m").with_cure(_CURE, *parts),
         at_most(
-            *("frame: stress of the back rest's beam", stress, limit, "MPa", "yield of S235 over column_safety")
+            "frame: stress of the back rest's beam", stress, limit, "MPa", "yield of S235 over column_safety"
         ).with_cure(_CURE, *parts),
     )
 

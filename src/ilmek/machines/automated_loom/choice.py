@@ -46,7 +46,7 @@ def beat_options(task: LoomTask, task_of: Callable[[PlannedBeat], LoomTask]) -> 
 def deadline_check(deadline: float, time: float) -> Check:
     """Whether the carpet is woven within the deadline [s], by the estimated time [s]."""
     cure = "set more heads, aim=time, a later deadline, or a coarser quality"
-    return at_most("weaving time, estimated", time, deadline, "h", "parameter deadline", cure=cure)
+    return at_most("weaving time, estimated", time, deadline, "h", "parameter deadline").with_cure(cure)
 
 
 def row_check(drive: BeatDrive) -> Check:
@@ -57,4 +57,6 @@ def row_check(drive: BeatDrive) -> Check:
         "hammer.jammed_pitch, hammer.packing"
     )
     cure = "set beat=auto or beat=comb, or a coarser quality along"
-    return at_most("distance of the rows that the beat leaves", drive.row_pitch_left, most, "mm", source, cure=cure)
+    return at_most("distance of the rows that the beat leaves", drive.row_pitch_left, most, "mm", source).with_cure(
+        cure
+    )

@@ -196,18 +196,12 @@ def column_checks(task: FrameTask, section: HollowSquare, number: int = 1) -> tu
     (stress, bow), limit = column_load(task, section, number), STEEL.strength / task.stress_safety
     cure, factor = "set a lower tension, or a narrower carpet", number * euler(task.height, section)
     return (
-        at_most(
-            "frame: stress of a column",
-            stress,
-            limit,
-            "MPa",
-            "yield of S235 over column_safety",
-            cure=cure,
-            parts=_COLUMN,
+        at_most("frame: stress of a column", stress, limit, "MPa", "yield of S235 over column_safety").with_cure(
+            cure, *_COLUMN
         ),
-        at_most("frame: bow of a column", bow, task.bow_limit, "mm", "column_bow", cure=cure, parts=_COLUMN),
-        at_least(
-            "frame: against buckling", factor / task.force, task.buckling_safety, "1", EULER, cure=cure, parts=_COLUMN
+        at_most("frame: bow of a column", bow, task.bow_limit, "mm", "column_bow").with_cure(cure, *_COLUMN),
+        at_least("frame: against buckling", factor / task.force, task.buckling_safety, "1", EULER).with_cure(
+            cure, *_COLUMN
         ),
     )
 
@@ -216,14 +210,8 @@ def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, Check]:
     """Sag and natural frequency of the heads' rail of a section."""
     cure, parts = "set a shorter rail_span or a larger rail_sag", (part_id("rail"),)
     return (
-        at_most(
-            "frame: sag of the heads' rail",
-            rail_sag(task, section),
-            task.sag_limit,
-            "mm",
-            "rail_sag",
-            cure=cure,
-            parts=parts,
+        at_most("frame: sag of the heads' rail", rail_sag(task, section), task.sag_limit, "mm", "rail_sag").with_cure(
+            cure, *parts
         ),
         at_least(
             "frame: heads' rail bends: natural frequency",
@@ -231,9 +219,7 @@ def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, Check]:
             task.frequency,
             "Hz",
             "least that the drives allow; assumed by this project",
-            cure="set a shorter rail_span, or a slower knot_cycle",
-            parts=parts,
-        ),
+        ).with_cure("set a shorter rail_span, or a slower knot_cycle", *parts),
     )
 
 

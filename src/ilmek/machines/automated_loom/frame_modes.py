@@ -98,9 +98,7 @@ def _frequency_check(title: str, value: float, drives: Mapping[str, float], part
         DISTANCE * drives[name],
         "Hz",
         f"{DISTANCE:g} times the {name}, {drives[name]:.3g} Hz; assumed by this project",
-        cure="set a slower beat, fewer heads, or a narrower carpet",
-        parts=(part_id(part),),
-    )
+    ).with_cure("set a slower beat, fewer heads, or a narrower carpet", part_id(part))
 
 
 def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:

@@ -45,7 +45,7 @@ class Seam:
         label = f"frame: weld of the {self.title}"
         source = f"{_SOURCE}; throat {format_quantity(self.throat, 'mm')}"
         cure = "set a lower tension, or a narrower carpet"
-        return at_most(label, self.force / self.throat, STRENGTH, "MPa", source, cure=cure, parts=(part_id(self.part),))
+        return at_most(label, self.force / self.throat, STRENGTH, "MPa", source).with_cure(cure, part_id(self.part))
 
 
 @lru_cache(maxsize=4)
@@ -93,7 +93,7 @@ def foot_check(frame: LoomFrame) -> Check:
     """Load of a levelling foot against its rating."""
     source, parts = f"rating of {frame.foot.name}", (part_id("levelling-foot"),)
     cure = "set a narrower carpet"
-    return at_most("load of a levelling foot", frame.foot_load, frame.foot.rating, "N", source, cure=cure, parts=parts)
+    return at_most("load of a levelling foot", frame.foot_load, frame.foot.rating, "N", source).with_cure(cure, *parts)
 
 
 def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:

@@ -177,8 +177,8 @@ def _post_checks(own: RailSupport) -> tuple[Check, Check]:
     where, parts = "" if own.name == "rail-post" else " between its ends", (part_id(own.name),)
     limit, sway = STEEL.strength / SAFETY, SWAY * own.height
     return (
-        at_most(f"stress of a post of the rail{where}", own.stress, limit, "MPa", _YIELD, cure=_CURE, parts=parts),
-        at_most(f"deflection of a post of the rail{where}", own.sway, sway, "mm", _HEIGHT, cure=_CURE, parts=parts),
+        at_most(f"stress of a post of the rail{where}", own.stress, limit, "MPa", _YIELD).with_cure(_CURE, *parts),
+        at_most(f"deflection of a post of the rail{where}", own.sway, sway, "mm", _HEIGHT).with_cure(_CURE, *parts),
     )
 
 
@@ -188,8 +188,8 @@ def _arm_checks(own: RailSupport) -> tuple[Check, Check]:
     sag = own.load * own.reach**3 / (3 * STEEL.modulus * own.arm.inertia)
     limit, most = STEEL.strength / SAFETY, SWAY * own.reach
     return (
-        at_most(f"stress of an arm of the rail{where}", bent, limit, "MPa", _YIELD, cure=_CURE, parts=parts),
-        at_most(f"deflection of an arm of the rail{where}", sag, most, "mm", _HEIGHT, cure=_CURE, parts=parts),
+        at_most(f"stress of an arm of the rail{where}", bent, limit, "MPa", _YIELD).with_cure(_CURE, *parts),
+        at_most(f"deflection of an arm of the rail{where}", sag, most, "mm", _HEIGHT).with_cure(_CURE, *parts),
     )
 
 

@@ -158,7 +158,7 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *found.beat.checks,
         *_wishes(found),
         pile_check(loom.task.yarns.pile, params.quality),
-        at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed", cure=SLOWER_CAMS),
+        at_most(f"{carrier}: speed", speed, weft.params.speed, "m/s", "weft.speed").with_cure(SLOWER_CAMS),
         at_most(
             f"{carrier}: acceleration", acceleration, weft.params.acceleration, "m/s^2", "weft.acceleration"
         ).with_cure(SLOWER_CAMS),
@@ -195,7 +195,7 @@ def _retreat_checks(loom: LoomDesign) -> tuple[Check, ...]:
     speed, acceleration = peak_speed(heads, row.period), peak_acceleration(heads, row.period)
     cure = "set a lower shed_speed, or a higher limit"
     return (
-        at_most("heads: speed of the retreat", speed, params.retreat_speed, "m/s", "retreat_speed", cure=cure),
+        at_most("heads: speed of the retreat", speed, params.retreat_speed, "m/s", "retreat_speed").with_cure(cure),
         at_most(
             "heads: acceleration of the retreat",
             acceleration,
@@ -221,7 +221,9 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
         *(
             ()
             if params.price_limit is None
-            else (at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit", cure=cure),)
+            else (
+                at_most("price of the loom", price, params.price_limit, "1", "parameter price_limit").with_cure(cure),
+            )
         ),
         *(() if params.shed_speed is None else (_cam_speed_check(found.loom, params.shed_speed),)),
     )
@@ -233,7 +235,7 @@ def _cam_speed_check(loom: LoomDesign, required: float) -> Check:
     slowest = f"the {loom.row_timing.carrier}" if passage <= turned * (1 + 1e-9) else "the heads' retreat or the beat"
     source = f"parameter shed_speed; {slowest} needs the time" if turned < required else "parameter shed_speed"
     cure = "leave shed_speed out, or set a lower one"
-    return at_least("speed of the shedding cams", turned, required * (1 - 1e-9), "rpm", source, cure=cure)
+    return at_least("speed of the shedding cams", turned, required * (1 - 1e-9), "rpm", source).with_cure(cure)
 
 
 def _least_room(loom: LoomDesign) -> float:

@@ -97,8 +97,8 @@ def _post_checks(own: SteadyPost) -> tuple[Check, Check]:
     limit, most = STEEL.strength / SAFETY, SWAY * own.arm
     source, height = "yield of S235 over 2, assumed by this project", "height over 1000, assumed by this project"
     return (
-        at_most("stress of a steady's post", stress, limit, "MPa", source, cure=_CURE, parts=parts),
-        at_most("deflection of a steady's post", sway, most, "mm", height, cure=_CURE, parts=parts),
+        at_most("stress of a steady's post", stress, limit, "MPa", source).with_cure(_CURE, *parts),
+        at_most("deflection of a steady's post", sway, most, "mm", height).with_cure(_CURE, *parts),
     )
 
 
@@ -110,7 +110,7 @@ def steady_checks(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> tuple[C
     load = own.force * own.number / own.along
     bow = float(uniform.deflection_max(load, own.along, STEEL.modulus, cam_beam_section(frame, made).inertia))
     source, parts = "length over 1000, assumed by this project", (part_id("beam"),)
-    bent = at_most("bow of the beam behind the cams", bow, SWAY * own.along, "mm", source, cure=_CURE, parts=parts)
+    bent = at_most("bow of the beam behind the cams", bow, SWAY * own.along, "mm", source).with_cure(_CURE, *parts)
     rollers = (one.check(stack.part_id("steady", index)) for index, (*_, one, _) in enumerate(_held(loom)))
     return (*_post_checks(own), bent, *rollers)
 

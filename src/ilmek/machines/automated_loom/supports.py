@@ -72,27 +72,21 @@ class TubeLoads:
                 TUBE_SAG,
                 "mm",
                 "it widens the magnets' gap; assumed by this project",
-                cure="set a narrower carpet, or weft=rapier",
-                parts=(part_id("weft-tube"),),
-            ),
+            ).with_cure("set a narrower carpet, or weft=rapier", part_id("weft-tube")),
             at_most(
                 "stress of an arm of the tube",
                 force * reach * section.side / 2 / section.inertia,
                 STEEL.strength / POST_SAFETY,
                 "MPa",
                 f"{source}; yield of S235 over 2, assumed by this project",
-                cure=cure,
-                parts=arm,
-            ),
+            ).with_cure(cure, *arm),
             at_most(
                 "deflection of an arm of the tube",
                 force * reach**3 / (3 * rigidity),
                 TUBE_SAG,
                 "mm",
                 f"{source}; assumed by this project",
-                cure=cure,
-                parts=arm,
-            ),
+            ).with_cure(cure, *arm),
         )
 
 
@@ -153,7 +147,7 @@ def _post_checks(section: HollowSquare, height: float, force: float, *, across: 
     if not across:
         cure = "set a lower comb_acceleration"
         share, source = euler(2 * height, section) / force, "Euler's load, assumed by this project"
-        return (at_least("posts of the beat against buckling", share, BUCKLING, "1", source, cure=cure, parts=parts),)
+        return (at_least("posts of the beat against buckling", share, BUCKLING, "1", source).with_cure(cure, *parts),)
     stress = force * height * section.side / 2 / section.inertia
     sway = force * height**3 / (3 * STEEL.modulus * section.inertia)
     cure = "set a lower speed of the crank"
@@ -164,18 +158,14 @@ def _post_checks(section: HollowSquare, height: float, force: float, *, across: 
             STEEL.strength / POST_SAFETY,
             "MPa",
             "yield of S235 over 2, assumed by this project",
-            cure=cure,
-            parts=parts,
-        ),
+        ).with_cure(cure, *parts),
         at_most(
             "deflection of a post of the beat",
             sway,
             POST_SWAY * height,
             "mm",
             "height over 1000, assumed by this project",
-            cure=cure,
-            parts=parts,
-        ),
+        ).with_cure(cure, *parts),
     )
 
 

@@ -65,7 +65,7 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     source = "parameter clearance; the rail no larger than its room in the arrangement"
     named = "clearance: coupler and cams", _before_cams(linkage, side), clearance, "mm", "parameter clearance"
     return (
-        at_least(*named, cure="leave the ground of the crank-rocker open", parts=(PART_IDS["coupler"],)),
+        at_least(*named).with_cure("leave the ground of the crank-rocker open", PART_IDS["coupler"]),
         at_least(
             "clearance: rocker at rest and heads that knot", min(_over(linkage, side)), clearance, "mm", source
         ).with_cure(cure, PART_IDS["rocker"]),

@@ -152,16 +152,16 @@ def start_checks(found: CrankStart) -> tuple[Check, ...]:
     """Whether a motor, and a clutch where there is one, start and stop the crank, in the time between two beats."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
     source, driven = "motor table, margin 1.25", (MOTOR,)
-    motor = must("a motor starts and stops the crank", found.pair is not None, source, cure=slower, parts=driven)
+    motor = must("a motor starts and stops the crank", found.pair is not None, source).with_cure(slower, *driven)
     every, source = found.duty.every, "time from beat to beat"
-    in_time = every and at_most("time of a beat", found.beat_time, every, "s", source, cure=slower, parts=driven)
+    in_time = every and at_most("time of a beat", found.beat_time, every, "s", source).with_cure(slower, *driven)
     made = (motor, in_time) if in_time else (motor,)
     if found.drive == "servo":
         return made
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
     clutch = (CLUTCH,)
-    torque = at_most(
-        "torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest, cure=slower, parts=clutch
+    torque = at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest).with_cure(
+        slower, *clutch
     )
     return *made, torque
 

@@ -70,8 +70,7 @@ def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
             limit.bound,
             limit.unit,
             "given",
-            cure="relax this limit, or leave others out",
-        )
+        ).with_cure("relax this limit, or leave others out")
         for limit in limits(design.params)
     )
     return (*criteria(design), *_running_checks(design.params, found.running), *use_checks(found.use), *given)
@@ -82,8 +81,8 @@ def self_tests(found: BeatUpAnalysis) -> tuple[Check, ...]:
     forces, runs = found.design.state.forces, found.running.runs if found.running.start else ()
     energy = max((run.energy_error for run in runs), default=0.0)
     return (
-        at_most("power balance of the forces", forces.power_error, POWER_LIMIT, "1", "virtual power", cure=_LINKS),
-        at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight", cure=_LINKS),
+        at_most("power balance of the forces", forces.power_error, POWER_LIMIT, "1", "virtual power").with_cure(_LINKS),
+        at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight").with_cure(_LINKS),
         equilibrium_test(found.use.strength.found),
     )
 
@@ -111,16 +110,16 @@ def criteria(design: BeatUp) -> tuple[Check, ...]:
     ratio_cure, margin_cure = "set beta, or a shorter crank", "set a shorter crank"
     rule, links = f"{PAPER}, criterion", tuple(PART_IDS[name] for name in LINKS)
     return (
-        at_least(*("transmission angle, to run at all", angle, tolerated, "deg", f"{rule} i: 90° - µ < 50°")).with_cure(
+        at_least("transmission angle, to run at all", angle, tolerated, "deg", f"{rule} i: 90° - µ < 50°").with_cure(
             turns, *links
         ),
-        at_least(*("transmission angle, to run well", angle, wanted, "deg", f"{rule} i: 90° - µ < 40°")).with_cure(
+        at_least("transmission angle, to run well", angle, wanted, "deg", f"{rule} i: 90° - µ < 40°").with_cure(
             turns, *links
         ),
-        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{rule} ii", cure=ratio_cure, parts=links[:2]),
-        at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{rule} iii", cure=margin_cure, parts=links),
+        at_most("crank/coupler ratio", ratio, RATIO_LIMIT, "1", f"{rule} ii").with_cure(ratio_cure, *links[:2]),
+        at_least("Grashof margin, in ground links", margin, 0.0, "1", f"{rule} iii").with_cure(margin_cure, *links),
         at_least(
-            *("force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N")
+            "force on the beater", force, design.params.beat_force, "N", f"{PAPER}, abstract: over 60 N"
         ).with_cure(beats, *links[2:]),
     )
 
@@ -135,16 +134,18 @@ def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...
     """Whether the motor starts it, and the flywheel is enough; a linkage that needs no torque needs no motor."""
     if running.start is None:
         toggle = "the motion near a toggle position has no usable Fourier series"
-        return (must("the motor runs the linkage", False, toggle, cure=_LINKS),) if running.torque else ()
+        return (must("the motor runs the linkage", False, toggle).with_cure(_LINKS),) if running.torque else ()
     reached, run, last = max(float(run.speed.max()) for run in running.runs), running.runs[-1], running.last_turn
     cure = _SOFTER if run.end.kind.early else _STRONGER
     source = "forward run, 95 % of it"
-    speed = at_least("speed that the motor reaches", reached, REACHED * params.speed, "rad/s", source, cure=cure)
+    speed = at_least("speed that the motor reaches", reached, REACHED * params.speed, "rad/s", source).with_cure(cure)
     if last is None:
-        ended = (must("the run at speed is complete", False, run.end.reason, cure=_SOFTER),) if running.started else ()
+        ended = (
+            (must("the run at speed is complete", False, run.end.reason).with_cure(_SOFTER),) if running.started else ()
+        )
         return (speed, *ended)
     limit, source = params.fluctuation, "forward run"
-    return (speed, at_most("fluctuation of the speed", last.fluctuation, limit, "1", source, cure=_FLYWHEEL))
+    return (speed, at_most("fluctuation of the speed", last.fluctuation, limit, "1", source).with_cure(_FLYWHEEL))
 
 
 def warnings(found: BeatUpAnalysis) -> tuple[str, ...]:

@@ -141,7 +141,7 @@ def travel_checks(found: BeaterTravel) -> tuple[Check, ...]:
         return checks
     cure = "set travel.mode=start-stop, or a quicker slide"
     title, driven = "time of a step of the slide", (AXIS, MOTOR)
-    return (*checks, at_most(title, found.step_time, found.out_time, "s", "turn", cure=cure, parts=driven))
+    return (*checks, at_most(title, found.step_time, found.out_time, "s", "turn").with_cure(cure, *driven))
 
 
 def _out_of_the_warps(design: BeatUp, reach: float) -> tuple[float, float]:

@@ -40,11 +40,13 @@ def _pressure_angle_checks(found: CamAnalysis) -> tuple[Check, ...]:
         return ()
     longer, norton = "set a larger prime_radius, or a longer", f"{NORTON}, 7.2"
     greatest = found.pressure_angle_max
-    rise = at_most("pressure angle on the rise", greatest, params.limit, "deg", norton, cure=f"{longer} rise")
+    rise = at_most("pressure angle on the rise", greatest, params.limit, "deg", norton).with_cure(f"{longer} rise")
     if fall is None:
         return (rise,)
     source = norton if params.led else "a spring drives the fall; assumed by this project"
-    return rise, at_most("pressure angle on the fall", fall, params.fall_limit, "deg", source, cure=f"{longer} fall")
+    return rise, at_most("pressure angle on the fall", fall, params.fall_limit, "deg", source).with_cure(
+        f"{longer} fall"
+    )
 
 
 def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
@@ -71,10 +73,12 @@ def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
     largest = largest_cutter(design)
     if params.cutter_radius is not None and largest < math.inf:
         source, cure = "least hollow of the cam, or its groove", "leave cutter_radius out, or set a smaller one"
-        made.append(at_most("radius of the cutter", params.cutter_radius, largest, "mm", source, cure=cure))
+        made.append(at_most("radius of the cutter", params.cutter_radius, largest, "mm", source).with_cure(cure))
     if params.follower == "roller" and params.roller_radius is None:
         cure = "set a larger prime_radius, or a roller_radius of your own"
-        made.append(must("a roller of the table fits the cam", design.roller is not None, "roller table", cure=cure))
+        made.append(
+            must("a roller of the table fits the cam", design.roller is not None, "roller table").with_cure(cure)
+        )
     return tuple(made)
 
 

@@ -32,6 +32,9 @@ from ilmek.report import Alternative, Check, Choice, Json, at_least, choose
 from ilmek.units import format_quantity
 from ilmek.weaving.fell import Fabric
 
+CARRIAGE_MASS = 1.0
+"""Of the carriage of an axis, which moves with the comb [kg]; assumed by this project."""
+
 SAMPLES = 720
 
 MOST_AXES = 60
@@ -59,7 +62,7 @@ class CombDrive:
     press: FloatArray
     cycle: LoadCycle
     drive: ServoDrive | None
-    mass: float = result("kg", "mass of cams and comb, which go down together", name="moving_mass")
+    mass: float = result("kg", "mass of cams, comb and carriages, which go down together", name="moving_mass")
     stroke_needed: float = result("mm", "least stroke in which the comb meets the row, packs it and presses the fell")
     balance: float = result("N", "weight that the axes hold, the balanced part taken off", name="weight_carried")
     contact_speed: float = result("mm/s", "speed of the comb where it meets the row: it presses, it does not strike")
@@ -106,11 +109,13 @@ def axis_checks(found: CombDrive) -> tuple[Check, ...]:
     stroke = float(np.max(found.travel))
     cure = "set more axes, a smaller lead, or a lower comb_acceleration"
     return (
-        at_least("stroke of the comb's axis", stroke, found.stroke_needed, "mm", "fabric", cure="set a larger stroke"),
+        at_least("stroke of the comb's axis", stroke, found.stroke_needed, "mm", "fabric").with_cure(
+            "set a larger stroke"
+        ),
         *(() if found.screw is None else screw_checks(found.screw)),
         at_least(
-            "torque of the servo over the required torque", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure
-        ),
+            "torque of the servo over the required torque", reserve, 1.0, "1", "motor table, margin 1.25"
+        ).with_cure(cure),
     )
 
 
@@ -155,7 +160,7 @@ def axis_for(params: HammerParams, fabric: Fabric, force: float) -> CombDrive:
     at, rate = programme.at(angle), params.shed_speed
     speed, acceleration = at.ds * rate, at.dds * rate**2
     stack = STACK * params.cloth.width if params.stack_mass is None else params.stack_mass
-    mass = comb_mass(params) + stack
+    mass = comb_mass(params) + stack + params.axis_count * CARRIAGE_MASS
     balance = (1 - params.counterbalance) * mass * GRAVITY
     press = params.cloth.warps * fabric.over_stroke(force, params.stroke - at.s, speed < -_STILL)
     total = mass * acceleration - balance + press

@@ -28,6 +28,7 @@ from ilmek.machines.hammer.report import checks
 from ilmek.machines.hammer.tree import outline, tree
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.shedding.stack import part_id
+from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.weft.carriers import CARRIAGE
 from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.bill import bill
@@ -53,7 +54,7 @@ def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> 
         params,
         shed_speed=turn / task.period,
         step=min(beat.time / task.period, 0.5) * turn,
-        stack_mass=task.shedding.stack.mass if kind == GUIDED else 0.0,
+        stack_mass=shedding_tree(task.shedding).mass if kind == GUIDED else 0.0,
     )
 
 
@@ -94,8 +95,8 @@ def _carried(task: LoomTask) -> tuple[Check, ...]:
     shedding = task.shedding
     cure = "set another beat, or shedding.guides=cams and a coarser pitch"
     return (
-        must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3", cure=cure),
-        at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3", cure=cure),
+        must("guide cams that carry the leaves", shedding.guides == "cams", "thesis 3.3").with_cure(cure),
+        at_most("cam shafts that go down with the comb", len(shedding.shafts), 1, "1", "thesis 3.3").with_cure(cure),
         *_over_shuttles(task),
     )
 

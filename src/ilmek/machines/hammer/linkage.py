@@ -91,7 +91,7 @@ def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
     """Whether comb, links, pins and motor bear the beat."""
     cure = "set more beaters, or a deeper comb"
     return (
-        at_most(*("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength")).with_cure(
+        at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength").with_cure(
             cure, BAR_ID
         ),
         at_least(

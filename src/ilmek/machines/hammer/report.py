@@ -25,15 +25,17 @@ def checks(design: Hammer) -> tuple[Check, ...]:
     deep, leaf = "set a deeper comb, or more supports", "set a higher leaf, or a shorter reach of it"
     bar, whole = (BAR_ID,), (BAR_ID, LEAF_ID)
     return (
-        at_most(*("distance of the rows", design.spacing, params.cloth.row_distance, "mm", "row_pitch")).with_cure(
+        at_most("distance of the rows", design.spacing, params.cloth.row_distance, "mm", "row_pitch").with_cure(
             harder, *whole
         ),
-        at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw/kc)", cure=tight),
+        at_most("force before the cloth is slack", design.force, design.fabric.bump, "N", "T (1 + kw/kc)").with_cure(
+            tight
+        ),
         at_least(
-            *("uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even")
+            "uniformity across the width", comb.uniformity, params.uniformity_limit, "1", f"{THESIS}: even"
         ).with_cure(deep, *bar),
-        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength", cure=deep, parts=bar),
-        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength", cure=leaf, parts=whole[1:]),
+        at_most("stress of the comb", comb.stress, params.strength, "MPa", "strength").with_cure(deep, *bar),
+        at_most("stress of a leaf", comb.leaf_stress, params.strength, "MPa", "strength").with_cure(leaf, *whole[1:]),
         *_drive_checks(design),
     )
 
@@ -46,9 +48,9 @@ def _drive_checks(design: Hammer) -> tuple[Check, ...]:
         (design.params.force or design.needed) * design.params.cloth.warps,
         "set a higher beat_speed, or more ballast",
     )
-    force = at_least(
-        *("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat")
-    ).with_cure(cure, BAR_ID, LEAF_ID)
+    force = at_least("force of the crank-rockers", design.linkage.force, needed, "N", "inertia at the beat").with_cure(
+        cure, BAR_ID, LEAF_ID
+    )
     return (force, *linkage_checks(design.linkage))
 
 

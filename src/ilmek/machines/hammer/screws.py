@@ -72,9 +72,9 @@ def screw_checks(found: AxisScrew) -> tuple[Check, ...]:
     more, slower = "set more axes, or a thicker screw_diameter", "set a larger lead, or a lower comb_acceleration"
     rated = "catalogue values, rounded down"
     return (
-        at_least("buckling of the screws", found.buckling, BUCKLING, "1", "Euler, one end clamped", cure=more),
-        at_least("static load of the screws", found.static, STATIC, "1", f"C0 over the load; {rated}", cure=more),
-        at_most("critical speed of the screws", found.critical, CRITICAL, "1", "80 % of the whirl", cure=slower),
+        at_least("buckling of the screws", found.buckling, BUCKLING, "1", "Euler, one end clamped").with_cure(more),
+        at_least("static load of the screws", found.static, STATIC, "1", f"C0 over the load; {rated}").with_cure(more),
+        at_most("critical speed of the screws", found.critical, CRITICAL, "1", "80 % of the whirl").with_cure(slower),
         at_most(
             "speed value of the screws",
             found.speed_value,
@@ -83,8 +83,8 @@ def screw_checks(found: AxisScrew) -> tuple[Check, ...]:
             "assumed by this project: parameter axis_speed_value",
         ).with_cure(slower),
         at_least(
-            "life of the screws", found.life, found.required_life, "h", f"ISO 3408-5, axis_life; {rated}", cure=more
-        ),
+            "life of the screws", found.life, found.required_life, "h", f"ISO 3408-5, axis_life; {rated}"
+        ).with_cure(more),
     )
 
 

@@ -17,6 +17,7 @@ from ilmek.machines.beat_up.beater import across, rectangle
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.tree import CARRIAGE, crank_frame, crank_rockers, loops, on_rocker, rocker_position
+from ilmek.machines.hammer.axis import CARRIAGE_MASS
 from ilmek.machines.hammer.comb import BAR_ID, BEHIND, LEAF_ID
 from ilmek.machines.hammer.design import Hammer
 from ilmek.machines.hammer.linkage import bracket
@@ -42,8 +43,8 @@ AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
 
 
-BLOCK_HEIGHT, BLOCK_DEPTH, BLOCK_MASS = 20 * mm, 20 * mm, 1.0
-"""Carriage of a vertical axis: height, least depth [m], mass [kg]; assumed by this project."""
+BLOCK_HEIGHT, BLOCK_DEPTH = 20 * mm, 20 * mm
+"""Carriage of a vertical axis: height and least depth [m]; assumed by this project."""
 
 ABOVE_PILE = 12 * mm
 """Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
@@ -206,7 +207,7 @@ def _on_axes(hammer: Hammer) -> Tree:
         "carriage of a vertical axis",
         "guide carriage",
         shape=box(deep, low + BLOCK_HEIGHT - (params.depth - BLOCK_HEIGHT), AXIS_SIDE),
-        purchase=Bought("carriage of the vertical axis", BLOCK_MASS),
+        purchase=Bought("carriage of the vertical axis", CARRIAGE_MASS),
         envelope=True,
     )
     middle = (low + params.depth) / 2

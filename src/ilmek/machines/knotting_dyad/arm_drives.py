@@ -44,9 +44,6 @@ RADIUS = PROFILE.pitch * TEETH / turn
 BACK, TOOTH, ON_PULLEY = 0.6 * mm, 0.7 * mm, 0.05 * mm
 """A belt outside and inside of its pitch line, half of the T2.5 profile each, and its room on a pulley [m]."""
 
-BELT_MASS = 1.5
-"""Of a belt for each metre and metre of width [kg/m²]: makers' data for T2.5 of polyurethane."""
-
 WALL, SERVO_SHAFT, PLATE, ROOM = 1.5 * mm, 5 * mm, 8 * mm, 0.5 * mm
 """Wall of a sleeve, diameter of the servos' shafts, thickness of the plate, room between what turns [m]; assumed
 by this project."""
@@ -210,7 +207,7 @@ def _belt(name: str, title: str, length: float) -> Part:
     axes = np.array([0j, complex(length)])
     section = Profile(rounded_hull(axes, OUTSIDE), (rounded_hull(axes, RADIUS - TOOTH),))
     whole = 2 * length + turn * RADIUS
-    bought = Bought(PROFILE.name, BELT_MASS * BELT * whole, length=whole)
+    bought = Bought(PROFILE.name, PROFILE.mass * BELT * whole, length=whole)
     size = f"{PROFILE.name}, {in_mm(BELT)} wide"
     return Part(name, title, "belt and pulleys", size, Prism(section, BELT), purchase=bought)
 

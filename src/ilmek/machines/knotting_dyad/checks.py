@@ -41,12 +41,14 @@ def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Ch
     """Every arm closes at its points, and the torques keep the power balance."""
     missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
     closes = at_most(
-        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation", cure=MOVE
-    )
+        "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation"
+    ).with_cure(MOVE)
     if motion is None:
         return (closes,)
     masses = "set masses and speeds within their usual sizes"
-    balance = at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power", cure=masses)
+    balance = at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power").with_cure(
+        masses
+    )
     limits = "limits of joints and centre gripper: the motion is as quick as they allow"
     used = at_most("greatest use of a drive's limit", motion.cycle.usage, 1 + TOLERANCE, "1", limits)
     return closes, balance, used, equilibrium_test(motion.strength)
@@ -54,7 +56,7 @@ def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Ch
 
 def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
     links = sum(1 for dyad in design.dyads if dyad.first)
-    real = at_least("real arms of two links", links, 1, "", "the task has three roots", cure=MOVE)
+    real = at_least("real arms of two links", links, 1, "", "the task has three roots").with_cure(MOVE)
     if design.built is None:
         return (real,)
     where = "at the points" if design.head is None else "along the path"
@@ -118,9 +120,9 @@ def _gap_checks(head: Head) -> tuple[Check, ...]:
     )
     standing = "set a thinner warp, or a wider pitch"
     return (
-        *(at_most(name, size, room, "mm", f"{what}; {pressed}", cure=opened) for name, size, room, what in rooms),
-        at_least(
-            "gap between two warps", section.pitch - section.warp, 0.0, "mm", "warps beside each other", cure=standing
+        *(at_most(name, size, room, "mm", f"{what}; {pressed}").with_cure(opened) for name, size, room, what in rooms),
+        at_least("gap between two warps", section.pitch - section.warp, 0.0, "mm", "warps beside each other").with_cure(
+            standing
         ),
     )
 

@@ -77,7 +77,9 @@ def _side_checks(design: KnottingFourBar, found: SidesAnalysis) -> tuple[Check, 
     bending = sides.gears.bending(sides.tooth)
     return (
         at_least("clearance of the two sides", found.side_clearance_min, params.side_clearance, "mm", "side_clearance"),
-        at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis", parts=(GEAR,)),
+        at_most("bending of the gears' teeth", bending, params.gear_stress, "MPa", "gear_stress; Lewis").with_cure(
+            "", GEAR
+        ),
         _knot_check(params, found),
     )
 
@@ -86,8 +88,8 @@ def _servo_check(design: KnottingFourBar) -> Check:
     drive = design.drive
     torque, speed = format_quantity(drive.torque, "N*m"), format_quantity(drive.speed, "rad/s")
     cure = f"set a lower speed, or poses farther from a dead point: {torque} at {speed} are required"
-    return must(
-        "a servo turns the crank", drive.servo is not None, "servo table, gears of stock", cure=cure, parts=MOTOR
+    return must("a servo turns the crank", drive.servo is not None, "servo table, gears of stock").with_cure(
+        cure, *MOTOR
     )
 
 

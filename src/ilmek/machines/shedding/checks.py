@@ -73,11 +73,11 @@ def _cam_checks(one: CamShaft) -> Iterator[Check]:
     buckling, norton = f"{THESIS}: a thin cam must not buckle", "Norton, Cam Design and Manufacturing, 7"
     larger = "set a larger prime_radius"
     mu = pressure_angle_max(cam).value
-    yield at_most("pressure angle", mu, params.pressure_angle_limit, "deg", buckling, cure=larger)
+    yield at_most("pressure angle", mu, params.pressure_angle_limit, "deg", buckling).with_cure(larger)
     title, value = "convex radius of the pitch curve (no undercut)", convex_radius_min(cam).value
     yield at_least(title, value, cam.roller_radius, "mm", f"{norton}: rho > roller radius").with_cure(larger)
     bore = one.prime_radius_for_bore
-    yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall", cure=larger)
+    yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall").with_cure(larger)
 
 
 def _nose_checks(one: CamShaft) -> Iterator[Check]:
@@ -88,15 +88,15 @@ def _nose_checks(one: CamShaft) -> Iterator[Check]:
     if warp is not None and radius > 0:
         stress = float(warp.tension_at(one.params.lift)) / (radius * one.stack.thickness)
         source = "yield strength; T / (rho t) of the warp round the nose"
-        yield at_most("stress at the nose", stress, one.params.strength, "MPa", source, cure="set a lower tension")
+        yield at_most("stress at the nose", stress, one.params.strength, "MPa", source).with_cure("set a lower tension")
 
 
 def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
     design, params = found.design, found.design.params
     higher = "set a larger lift, or a lower shuttle_height"
     yield at_least(
-        "shed for the shuttle", design.shed_opening, params.shuttle_height, "mm", "shuttle_height", cure=higher
-    )
+        "shed for the shuttle", design.shed_opening, params.shuttle_height, "mm", "shuttle_height"
+    ).with_cure(higher)
     yield from _window_checks(found)
     yield at_most(
         "one parity down while the other is up", params.lifted_angle, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"
@@ -119,8 +119,8 @@ def _window_checks(found: SheddingAnalysis) -> Iterator[Check]:
     if required is not None:
         wider = "set a larger lift or dwell, or a lower shuttle_height"
         yield at_least(
-            "window of the shuttle", design.shuttle_window_angle, required, "deg", "shuttle_angle", cure=wider
-        )
+            "window of the shuttle", design.shuttle_window_angle, required, "deg", "shuttle_angle"
+        ).with_cure(wider)
 
 
 def _span_checks(design: SheddingDesign) -> Iterator[Check]:
@@ -150,37 +150,41 @@ def _shaft_checks(one: CamShaft) -> Iterator[Check]:
     room = shaft.length + one.stack.shares.pitch - params.cloth.warp_pitch
     longer = "set a longer shaft_length"
     deflection = f"{THESIS} and eq. 3.4, 1 mm"
-    yield at_most("width of the cams on the shaft", width, room, "mm", "shaft_length", cure=longer)
-    yield at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5", cure=STRONGER)
-    yield at_most("deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", deflection, cure=STRONGER)
+    yield at_most("width of the cams on the shaft", width, room, "mm", "shaft_length").with_cure(longer)
+    yield at_most("slope of the shaft", shaft.slope, params.slope_limit, "rad", f"{THESIS} and eq. 3.5").with_cure(
+        STRONGER
+    )
+    yield at_most("deflection of the shaft", shaft.deflection, params.deflection_limit, "mm", deflection).with_cure(
+        STRONGER
+    )
     lag, steel = "twist_limit: lag of the far cams", "yield strength, von Mises"
     lower = "set a lower tension, or more shafts"
-    yield at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", lag, cure=lower)
-    yield at_most("stress of the shaft", shaft.stress, params.strength, "MPa", steel, cure=STRONGER)
-    yield at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %", cure=STRONGER)
+    yield at_most("twist of the shaft", shaft.twist, params.twist_limit, "deg", lag).with_cure(lower)
+    yield at_most("stress of the shaft", shaft.stress, params.strength, "MPa", steel).with_cure(STRONGER)
+    yield at_least("fatigue of the shaft", shaft.endurance, 1.0, "1", "Goodman, hot rolled, 99 %").with_cure(STRONGER)
     half = "half of its critical speed"
-    yield at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", half, cure="set more spans")
+    yield at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", half).with_cure("set more spans")
 
 
 def _bearing_checks(one: CamShaft) -> Iterator[Check]:
     params, seat, bar = one.params, one.shaft.seat, one.shaft.bar
     life, stronger = params.bearing_life, "set more spans, or another bearing"
-    yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life", cure=stronger)
+    yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life").with_cure(stronger)
     bore, torsion = seat.bearing.bore, "torsion, von Mises"
-    yield at_least("bore of the bearing for the torque", bore, seat.journal, "mm", torsion, cure=stronger)
+    yield at_least("bore of the bearing for the torque", bore, seat.journal, "mm", torsion).with_cure(stronger)
     larger = "set another bearing, more spans, or a lower tension"
     shoulder, source = (
         seat.shoulder,
         f"yield strength over 1.2, von Mises; {format_quantity(bar, 'mm')} to {format_quantity(bore, 'mm')}",
     )
     yield at_most(
-        "stress of the driven journal", shoulder.stress, params.strength / LEAST_SAFETY, "MPa", source, cure=larger
-    )
+        "stress of the driven journal", shoulder.stress, params.strength / LEAST_SAFETY, "MPa", source
+    ).with_cure(larger)
     source = f"Goodman, DIN 743-2, fillet of {format_quantity(shoulder.fillet, 'mm')}"
     yield at_least(
-        "fatigue of the driven journal at its shoulder", shoulder.safety, LEAST_SAFETY, "1", source, cure=larger
-    )
-    yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar", cure=stronger)
+        "fatigue of the driven journal at its shoulder", shoulder.safety, LEAST_SAFETY, "1", source
+    ).with_cure(larger)
+    yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar").with_cure(stronger)
 
 
 def _key_checks(one: CamShaft) -> Iterator[Check]:
@@ -190,7 +194,7 @@ def _key_checks(one: CamShaft) -> Iterator[Check]:
 def _motor_checks(one: CamShaft) -> Iterator[Check]:
     drive = one.drive
     continuous, other = "continuous torque of the motor", "set another ratio, or more shafts"
-    yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous, cure=other)
+    yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous).with_cure(other)
 
 
 def _warp_checks(one: CamShaft) -> Iterator[Check]:
@@ -201,7 +205,7 @@ def _warp_checks(one: CamShaft) -> Iterator[Check]:
     looser = "set a longer warp_length, more compensation, or a lower lift"
     tension = float(warp.tension_at(params.lift))
     breaking = "breaking force of the warp over breaking_safety (assumed by this project)"
-    yield at_most("tension of a lifted warp", tension, params.strongest_tension, "N", breaking, cure=looser)
+    yield at_most("tension of a lifted warp", tension, params.strongest_tension, "N", breaking).with_cure(looser)
     strain = strain_of(params, lengthening_of(params))
     if strain is not None and math.isfinite(strain):
-        yield at_most("strain of a lifted warp", strain, params.strain_limit, "%", "strain_limit", cure=looser)
+        yield at_most("strain of a lifted warp", strain, params.strain_limit, "%", "strain_limit").with_cure(looser)

@@ -83,9 +83,9 @@ class Reed:
         across, down = self.sags
         cure = "set a lower tension, or a narrower carpet"
         source = "room of the dents over the noses; 10 % of the warps' force, assumed by this project"
-        yield at_most("deflection of the reed across the warps", across, self.room, "mm", source, cure=cure)
+        yield at_most("deflection of the reed across the warps", across, self.room, "mm", source).with_cure(cure)
         length = "length over 1000, assumed by this project"
-        yield at_most("sag of the reed", down, SAG * self.length, "mm", length, cure=cure)
+        yield at_most("sag of the reed", down, SAG * self.length, "mm", length).with_cure(cure)
 
 
 def reed_of(shaft: CamShaft, warps: int, inner: float) -> Reed | None:

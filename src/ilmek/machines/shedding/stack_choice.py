@@ -57,7 +57,7 @@ def plate_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
     cut, reed = "assumed by this project: parameter least_plate", shares.guides == 0
     guide = "dent of the reed" if reed else "guide cam"
     return (
-        at_least("thickness of a cam", shares.thickness, params.least_plate, "mm", cut, cure=THICKER),
+        at_least("thickness of a cam", shares.thickness, params.least_plate, "mm", cut).with_cure(THICKER),
         at_least(
             f"thickness of a {guide}",
             shares.guide,

@@ -52,7 +52,7 @@ class Steady:
         """The force on a roller."""
         cure, limit = "set more spans, or a lower tension", self.roller.force_limit
         source = f"largest force of {self.roller.name}"
-        return at_most("force on a roller of a steady", self.force, limit, "N", source, cure=cure, parts=(part,))
+        return at_most("force on a roller of a steady", self.force, limit, "N", source).with_cure(cure, part)
 
     def part(self, name: str, title: str) -> Part:
         """Rollers and block; z along the shaft, 0 in the middle of the rollers' width."""

@@ -82,9 +82,11 @@ def chain_checks(params: SheddingParams, shares: PitchShares) -> tuple[Check, ..
     offset = params.offset_limit * params.cloth.warp_pitch
     wider = "set a larger warp_clearance or cam_thickness, sheet_tolerance=special, or thinner warps"
     return (
-        at_most("cam stack, worst case", chain.worst, chain.shims, "mm", f"{standard}; shims of a place", cure=closer),
-        at_most("cam stack, statistical", chain.statistical, offset, "mm", source, cure=closer),
-        at_least("groove against warp", chain.groove, params.diameter, "mm", f"warp; {standard}", cure=wider),
+        at_most("cam stack, worst case", chain.worst, chain.shims, "mm", f"{standard}; shims of a place").with_cure(
+            closer
+        ),
+        at_most("cam stack, statistical", chain.statistical, offset, "mm", source).with_cure(closer),
+        at_least("groove against warp", chain.groove, params.diameter, "mm", f"warp; {standard}").with_cure(wider),
     )
 
 

@@ -235,8 +235,8 @@ def swing_checks(params: TensionCompensatorParams, most: float, least: float) ->
     high, low = params.tension_most * rest, params.tension_least * rest
     cure = "set bars=2, a lower rate_share, or a longer warp"
     return (
-        at_most("tension in the open shed", most, high, "N", f"{source}tension_most", cure=cure),
-        at_least("least tension of a warp", least, low, "N", f"{source}tension_least", cure=cure),
+        at_most("tension in the open shed", most, high, "N", f"{source}tension_most").with_cure(cure),
+        at_least("least tension of a warp", least, low, "N", f"{source}tension_least").with_cure(cure),
     )
 
 

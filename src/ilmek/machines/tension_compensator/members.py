@@ -116,8 +116,8 @@ def cross_height(params: TensionCompensatorParams, loads: Loads) -> float:
 def cross_check(params: TensionCompensatorParams, height: float, loads: Loads) -> Check:
     """Bending of the pieces that carry the rods, of a height [m]."""
     stress = 6 * _cross_moment(params, loads) / (params.lever_thickness * height**2)
-    return at_most(
-        *("stress of a cross-piece of the rods", stress, *_limit(params)), parts=(part_id("cross-piece"),), cure=CURE
+    return at_most("stress of a cross-piece of the rods", stress, *_limit(params)).with_cure(
+        CURE, part_id("cross-piece")
     )
 
 
@@ -152,18 +152,10 @@ def bar_checks(params: TensionCompensatorParams, tube: Tube, line: float) -> tup
     span = params.cloth.width / params.levers
     sag = 7 * line * span**4 / (384 * STEEL.modulus * tube.inertia)
     return (
-        at_most(
-            "deflection of a bar",
-            sag,
-            params.bar_deflection,
-            "mm",
-            "parameter bar_deflection",
-            parts=(part_id("bar"),),
-            cure=CURE,
+        at_most("deflection of a bar", sag, params.bar_deflection, "mm", "parameter bar_deflection").with_cure(
+            CURE, part_id("bar")
         ),
-        at_most(
-            "stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params), parts=(part_id("bar"),), cure=CURE
-        ),
+        at_most("stress of a bar", line * span**2 / 8 / tube.modulus, *_limit(params)).with_cure(CURE, part_id("bar")),
     )
 
 
@@ -172,17 +164,11 @@ def lever_checks(params: TensionCompensatorParams, height: float, pin: float, lo
     bored = (pin + 2 * BUSH_WALL) / height
     section = params.lever_thickness * height**2 / 6 * max(1 - bored**3, 1e-9)
     return (
-        at_most(
-            "stress of a lever",
-            loads.torque / section,
-            *_limit(params),
-            parts=(part_id("lever"),),
-            cure="set a larger lever_thickness",
+        at_most("stress of a lever", loads.torque / section, *_limit(params)).with_cure(
+            "set a larger lever_thickness", part_id("lever")
         ),
-        at_most(
-            *("bore of a lever over its height", bored, WIDEST_BORE, "1", "assumed by this project"),
-            parts=(part_id("lever"), part_id("bush")),
-            cure="set a longer spring_arm, or a lower tension",
+        at_most("bore of a lever over its height", bored, WIDEST_BORE, "1", "assumed by this project").with_cure(
+            "set a longer spring_arm, or a lower tension", part_id("lever"), part_id("bush")
         ),
     )
 
@@ -192,16 +178,10 @@ def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tu
     shear, pressure = pin_shear(loads.pivot, pin), mean_pressure(loads.pivot, pin, 2 * pin)
     cure, source = "set a longer spring_arm", "bronze, assumed by this project"
     return (
-        at_most(
-            "shear of a pivot pin",
-            shear,
-            SHEAR * params.strength / params.safety,
-            "MPa",
-            "yield",
-            parts=(part_id("pin"),),
-            cure=cure,
+        at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield").with_cure(
+            cure, part_id("pin")
         ),
-        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source, parts=(part_id("pin"),), cure=cure),
+        at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source).with_cure(cure, part_id("pin")),
     )
 
 
@@ -213,16 +193,10 @@ def beam_checks(params: TensionCompensatorParams, section: HollowSquare, loads: 
     source = "assumed by this project: parameter beam_sag"
     cure = "set a lower tension, a narrower loom, or a larger beam_sag"
     return (
-        at_most(
-            "deflection of the levers' beam",
-            sag,
-            params.beam_sag * params.cloth.width,
-            "mm",
-            source,
-            parts=(part_id("beam"),),
-            cure=cure,
+        at_most("deflection of the levers' beam", sag, params.beam_sag * params.cloth.width, "mm", source).with_cure(
+            cure, part_id("beam")
         ),
-        at_most("stress of the levers' beam", stress, *_limit(params), parts=(part_id("beam"),), cure=cure),
+        at_most("stress of the levers' beam", stress, *_limit(params)).with_cure(cure, part_id("beam")),
     )
 
 

@@ -32,7 +32,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
     return (
         *swing_checks(params, found.tension_max, found.tension_min),
         spring_check(design),
-        must("equilibrium over the turn", found.balanced, "linkage engine", cure="set a larger rate_share"),
+        must("equilibrium over the turn", found.balanced, "linkage engine").with_cure("set a larger rate_share"),
         *_motion_checks(design),
         *bar_checks(params, members.tube, loads.line),
         *lever_checks(params, members.lever, members.pin, loads),
@@ -45,9 +45,7 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
 def spring_check(design: TensionCompensator) -> Check:
     """Whether there is a spring that is strong enough, lasts, and fits."""
     cure = "set a lower tension or a coarser quality, a longer spring_arm or strut, or more springs"
-    return must(
-        "springs of the table", design.one.spring is not None, SPRING_SOURCE, cure=cure, parts=(part_id("spring"),)
-    )
+    return must("springs of the table", design.one.spring is not None, SPRING_SOURCE).with_cure(cure, part_id("spring"))
 
 
 def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
@@ -59,18 +57,13 @@ def _motion_checks(design: TensionCompensator) -> tuple[Check, ...]:
         at_least(
             *("natural frequency", design.frequency, params.frequency_ratio * shed, "Hz"),
             f"{assumed}: parameter frequency_ratio",
-            parts=(part_id("bar"), part_id("lever"), part_id("spring")),
-            cure="set a lower speed, or a larger rate_share",
-        ),
+        ).with_cure("set a lower speed, or a larger rate_share", part_id("bar"), part_id("lever"), part_id("spring")),
         at_least(
-            *("deflection of the strands in the open shed", design.strand_angle_least, STRAND_LEAST, "deg", assumed),
-            cure="set a larger strand_angle or guide_span",
-        ),
+            "deflection of the strands in the open shed", design.strand_angle_least, STRAND_LEAST, "deg", assumed
+        ).with_cure("set a larger strand_angle or guide_span"),
         at_least(
-            *("room between lever and rod", design.one.clearance(design.members.lever), CLEARANCE, "mm", assumed),
-            parts=(part_id("lever"), part_id("rod")),
-            cure="set a larger arm_angle or guide_span",
-        ),
+            "room between lever and rod", design.one.clearance(design.members.lever), CLEARANCE, "mm", assumed
+        ).with_cure("set a larger arm_angle or guide_span", part_id("lever"), part_id("rod")),
     )
 
 

@@ -52,7 +52,7 @@ def _lowest_check(design: Tufting) -> tuple[Check, ...]:
         return ()
     lowest = format_quantity(design.lowest, "deg")
     cure = f"set entry and exit on both sides of {lowest}, or the other turning sense"
-    return (must("needle lowest between entry and exit", design.lowest_within, f"lowest at {lowest}", cure=cure),)
+    return (must("needle lowest between entry and exit", design.lowest_within, f"lowest at {lowest}").with_cure(cure),)
 
 
 def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:

@@ -72,14 +72,8 @@ def attachment_checks(params: WarpTensionParams, winding: Sequence[Cylinder]) ->
     )
     parts = ATTACHMENT_BAR, part_id("cylinder")
     return (
-        at_most(
-            "pressure of the attachment bar",
-            pressure,
-            params.strength / SAFETY,
-            "MPa",
-            source,
-            cure=cure,
-            parts=parts,
+        at_most("pressure of the attachment bar", pressure, params.strength / SAFETY, "MPa", source).with_cure(
+            cure, *parts
         ),
         at_least(
             "safety of a cylinder under its slot",
@@ -87,7 +81,5 @@ def attachment_checks(params: WarpTensionParams, winding: Sequence[Cylinder]) ->
             SAFETY,
             "1",
             "bending and torsion, yield of the tube; assumed by this project",
-            cure=cure,
-            parts=parts,
-        ),
+        ).with_cure(cure, *parts),
     )

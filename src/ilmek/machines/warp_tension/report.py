@@ -41,21 +41,21 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     params, locking = design.params, f"makers ensure it up to {SURE:g}; in theory 2 - 1/efficiency <= 0, {LOCKING:g}"
     worst = f"worst case: {design.loads.worst_case}; own weight included"
     slope, sag = f"{THESIS}, eq. 3.5 and 3.7; {worst}", f"{THESIS}, eq. 3.4; {worst}"
-    locks = at_most(*("efficiency, to lock itself", params.efficiency, SURE, "1", locking)).with_cure(
+    locks = at_most("efficiency, to lock itself", params.efficiency, SURE, "1", locking).with_cure(
         "set a lower efficiency, or self_locking=no with a brake", part_id("reducer")
     )
     return (
         at_most("slope in the bearings", design.slope_loaded, params.slope_limit, "rad", slope).with_cure(
             TUBE_CURE, *_CYLINDER
         ),
-        at_most(
-            "deflection", design.deflection_loaded, params.deflection_limit, "mm", sag, parts=_CYLINDER, cure=TUBE_CURE
+        at_most("deflection", design.deflection_loaded, params.deflection_limit, "mm", sag).with_cure(
+            TUBE_CURE, *_CYLINDER
         ),
         at_most("bending stress", design.stress, params.strength, "MPa", f"yield of the tube; {worst}").with_cure(
             TUBE_CURE, *_CYLINDER
         ),
         *((locks,) if params.self_locking else ()),
-        at_most(*("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8")).with_cure(
+        at_most("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8").with_cure(
             "set a larger ratio or a longer take_up_time", part_id("motor"), part_id("reducer")
         ),
     )
@@ -65,7 +65,7 @@ def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     params, spacer, case = found.design.params, found.spacer, f"worst case: {found.design.loads.worst_case}"
     under = f"under the slots; {case}"
     return (
-        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under, parts=_SPACER, cure=SPACER_CURE),
+        at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under).with_cure(SPACER_CURE, *_SPACER),
         at_most("deflection of the spacer", spacer.deflection, params.deflection_limit, "mm", under).with_cure(
             SPACER_CURE, *_SPACER
         ),
@@ -79,7 +79,7 @@ def _slope_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     """Slopes of the cylinders within their limit, but more than the kinds of their bearings allow."""
     return tuple(
         at_most(
-            *(f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind")
+            f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"
         ).with_cure("set a stiffer tube", part_id(f"{one.name}-bearing"))
         for one in found.cylinders
         if slope_limit(one.bearing) < one.slope <= found.design.params.slope_limit
@@ -95,19 +95,17 @@ def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
     larger = "set a larger bearing, or a lower tension"
     yield from _slope_checks(found)
     yield at_least(
-        *(f"static safety, {tired.bearing.name}", tired.static_safety, params.static_safety, "1", f"ISO 76; {case}")
+        f"static safety, {tired.bearing.name}", tired.static_safety, params.static_safety, "1", f"ISO 76; {case}"
     ).with_cure(larger, part_id(f"{tired.name}-bearing"))
     yield at_least(
         *(f"shaft end of the {weak.name} cylinder", weak.stub_safety, params.stub_safety, "1"),
         f"yield of {STUB.name}; {case}",
     ).with_cure(f"{larger}, or a shorter stub", part_id(f"{weak.name}-end"))
     yield at_least(
-        *(
-            f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder",
-            notched.end.safety,
-            LEAST_SAFETY,
-            "1",
-        ),
+        f"fatigue of the shaft end of the {notched.name} cylinder at its shoulder",
+        notched.end.safety,
+        LEAST_SAFETY,
+        "1",
         f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
     ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end"))
     yield from (
@@ -124,21 +122,21 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     breaks = "breaking force of the warp"
     step = STEP_SHARE * params.cloth.warp_tension
     return (
-        at_most("warps beside each other", slots.warp, slots.pitch, "mm", "pitch of the warps", cure=SLOT_CURE),
-        at_most(
-            "warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer", cure="set a wider slot_width"
+        at_most("warps beside each other", slots.warp, slots.pitch, "mm", "pitch of the warps").with_cure(SLOT_CURE),
+        at_most("warp in its slot", slots.warp, slots.width, "mm", "slots of the spacer").with_cure(
+            "set a wider slot_width"
         ),
-        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps", parts=_SPACER, cure=SLOT_CURE),
-        at_least(*("metal under the slots", metal, LEAST_WALL, "mm", "assumed by this project")).with_cure(
+        at_least("land between slots", slots.land, 0.0, "mm", "pitch of the warps").with_cure(SLOT_CURE, *_SPACER),
+        at_least("metal under the slots", metal, LEAST_WALL, "mm", "assumed by this project").with_cure(
             "set a smaller slot_depth, or a spacer_tube with a thicker wall", *_SPACER
         ),
-        at_most(*("tension with the shed open", tension.over.shed, tension.breaking, "N", breaks)).with_cure(
+        at_most("tension with the shed open", tension.over.shed, tension.breaking, "N", breaks).with_cure(
             "set a lower tension or lift, or thicker warps"
         ),
-        at_most(*("tension at the beat", found.design.loads.beat, tension.breaking, "N", breaks)).with_cure(
+        at_most("tension at the beat", found.design.loads.beat, tension.breaking, "N", breaks).with_cure(
             "set a lower tension, or thicker warps"
         ),
-        at_most(*("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension")).with_cure(
+        at_most("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension").with_cure(
             "set a larger ratio, or a longer warp"
         ),
     )

@@ -78,8 +78,8 @@ def bracket_checks(weaver: Weaver) -> tuple[Check, ...]:
     tenth = "a tenth of the warp pitch; assumed by this project"
     pitch = params.cloth.warp_pitch
     return (
-        at_most("stress of the head's bracket", load.stress, STRESS, "MPa", source, cure=cure, parts=(BRACKET,)),
-        at_most("sag of the head at its tools", load.sag, SAG * pitch, "mm", tenth, cure=cure, parts=(BRACKET,)),
+        at_most("stress of the head's bracket", load.stress, STRESS, "MPa", source).with_cure(cure, BRACKET),
+        at_most("sag of the head at its tools", load.sag, SAG * pitch, "mm", tenth).with_cure(cure, BRACKET),
         *guide_checks(weaver, head_mass(weaver), carriage_guide(weaver)),
         *drive_checks(weaver, drive_of(weaver)),
     )

@@ -198,17 +198,15 @@ def drive_checks(weaver: Weaver, drive: CarriageDrive) -> tuple[Check, ...]:
     source = f"{BELT.belt.name}, {TEETH // 2} teeth in mesh, service factor {SERVICE:g}"
     needed = f"motors of the table; {format_quantity(drive.force * RADIUS, 'Nm', 3)}"
     return (
-        must("motor of the carriage", drive.motor is not None, needed, cure=cure, parts=(CARRIAGE_MOTOR,)),
-        at_most("pull of the heads' belt", SERVICE * drive.force, allowed, "N", source, cure=cure, parts=parts),
+        must("motor of the carriage", drive.motor is not None, needed).with_cure(cure, CARRIAGE_MOTOR),
+        at_most("pull of the heads' belt", SERVICE * drive.force, allowed, "N", source).with_cure(cure, *parts),
         at_most(
             "lag of a head on its belt",
             _lag(weaver, drive.drag, drive.width),
             weaver.params.opener.placing,
             "mm",
             f"parameter opener.placing; {in_mm(drive.width)} wide, drag {format_quantity(drive.drag, 'N', 3)}",
-            cure="set fewer tools or colours, or a narrower carpet",
-            parts=parts,
-        ),
+        ).with_cure("set fewer tools or colours, or a narrower carpet", *parts),
     )
 
 
@@ -221,15 +219,13 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
         BELT.tension * drive.width,
         "N",
         f"allowed by makers for {BELT.belt.name}, {in_mm(drive.width)} wide; at rest {rest}",
-        cure="set fewer heads, or a lower weaver.carriage_acceleration",
-        parts=(HEADS_BELT, BELT_CLAMP),
-    )
+    ).with_cure("set fewer heads, or a lower weaver.carriage_acceleration", HEADS_BELT, BELT_CLAMP)
 
 
 def _belt(name: str, title: str, shape: Shape, wide: float, long: float) -> Part:
     """Belt of a length [m]."""
     row = f"{BELT.belt.name}, {in_mm(wide)} wide"
-    bought = Bought(row, BELT.mass * wide * long, length=long)
+    bought = Bought(row, BELT.belt.mass * wide * long, length=long)
     return Part(name, title, "belt", shape=shape, purchase=bought)
 
 

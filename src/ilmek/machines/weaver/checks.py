@@ -57,7 +57,7 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
         speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
         source, moved = ("parameter speed_limit", "acceleration_limit"), _moved(name)
         found += [
-            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0], cure=LONGER, parts=moved),
+            at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0]).with_cure(LONGER, *moved),
             at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1]).with_cure(
                 LONGER, *moved
             ),
@@ -70,8 +70,8 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
         at_most(
             "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"
         ).with_cure(step, *case),
-        at_most(
-            "knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute", cure=hand, parts=case
+        at_most("knot cycle", weaver.cycle, HAND_KNOT, "s", "best hand weaver: 25 knots a minute").with_cure(
+            hand, *case
         ),
         at_most("knot cycle, as required", weaver.cycle, weaver.params.cycle, "s", _cycle_source(weaver)).with_cure(
             longer, *case
@@ -126,7 +126,7 @@ def _knot_checks(weaver: Weaver) -> tuple[Check, ...]:
     asymmetric = "set knotting=arms: arms tie it; or knot=symmetric"
     cure = asymmetric if params.knot == "asymmetric" else "leave the grippers' dimensions to the design"
     return (
-        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}", cure=cure, parts=grippers),
+        at_least(f"{params.knot} knot tied", tied, 1.0, "", f"proof: {weaver.knot_why}").with_cure(cure, *grippers),
         at_most(
             "yarn needed between the grippers", by.yarn_taut_max, by.apart + yarn, "mm", "yarn held between them"
         ).with_cure("set a longer knot_yarn", SIDE_GRIPPER),
@@ -205,7 +205,7 @@ def _spring_check(weaver: Weaver) -> Check:
         source += f"; {worst}: {value} at its solid length, allowed {limit}"
     cure = "set a smaller weaver.contact_force, a larger weaver.pinion, or weaver.closure=groove"
     parts = tuple(follower_id(track) for track in none) or tuple(spring_id(track) for track in stresses)
-    return must("return springs", not none, source, cure=cure, parts=parts or (follower_id(weaver.cams[0].name),))
+    return must("return springs", not none, source).with_cure(cure, *(parts or (follower_id(weaver.cams[0].name),)))
 
 
 def _belt_check(weaver: Weaver) -> Check:
@@ -213,14 +213,14 @@ def _belt_check(weaver: Weaver) -> Check:
     cure = "set a wider weaver.cam_belt, lighter tools, a longer knot_cycle, or a lower tension"
     pull, allowed = MARGIN * weaver.belt.pull, weaver.belt.allowed
     source = f"{PROFILE.name}, {MESHING} teeth in mesh, margin {MARGIN:g}"
-    return at_most("pull of the cam shaft's belt", pull, allowed, "N", source, cure=cure, parts=(CAM_BELT_PART,))
+    return at_most("pull of the cam shaft's belt", pull, allowed, "N", source).with_cure(cure, CAM_BELT_PART)
 
 
 def _case_check(weaver: Weaver) -> Check:
     """The case within the head's width."""
     wide, parts = case_width(weaver.params), (*case_plates(weaver), SHAFT)
     cure = "leave head_width to the design, or set thinner cams"
-    return at_most("cams beside each other", wide, weaver.width, "mm", "head_width", cure=cure, parts=parts)
+    return at_most("cams beside each other", wide, weaver.width, "mm", "head_width").with_cure(cure, *parts)
 
 
 def _closure_check(weaver: Weaver) -> Check:
@@ -230,18 +230,18 @@ def _closure_check(weaver: Weaver) -> Check:
         hollow = min(cams, key=lambda cam: cam.concave_radius)
         name, roller = f"roller in the groove, {hollow.name}", params.roller_radius
         cure, parts = "set a smaller weaver.roller_radius", (cam_id(hollow.name),)
-        return at_most(name, roller, hollow.concave_radius, "mm", "", cure=cure, parts=parts)
+        return at_most(name, roller, hollow.concave_radius, "mm", "").with_cure(cure, *parts)
     loose = min(cams, key=lambda cam: cam.lift_off)
     name, speed = f"speed before lift-off, {loose.name}", weaver.cyclogram.speed
     cure, parts = "set closure=groove, or lighter tools", (cam_id(loose.name),)
-    return at_most(name, speed, loose.lift_off, "rpm", "return springs", cure=cure, parts=parts)
+    return at_most(name, speed, loose.lift_off, "rpm", "return springs").with_cure(cure, *parts)
 
 
 def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
     """The cutter within its time, a motor and bearings for the shaft."""
     return (
-        at_most(
-            "cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting", cure=LONGER, parts=(KNIFE,)
+        at_most("cutter", limits.cutting_time, limits.cutting_window, "s", "draw to presenting").with_cure(
+            LONGER, KNIFE
         ),
         *knife_checks(weaver),
         *key_checks(weaver),
@@ -255,8 +255,8 @@ def _drive_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
             "bearings of the cam shaft",
             bearing_of(weaver) is not None,
             "bearing table, ISO 281; 100 million knots, assumed by this project",
-            cure="set a thicker weaver.shaft, or lighter tools",
-            parts=(SHAFT, BEARING) if bearing_of(weaver) else (SHAFT,),
+        ).with_cure(
+            "set a thicker weaver.shaft, or lighter tools", *((SHAFT, BEARING) if bearing_of(weaver) else (SHAFT,))
         ),
     )
 

@@ -106,13 +106,9 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
     length = float(abs(at - axis)) * 2 + 3.2 * (large + small)
     size = f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide"
     shape = Prism(Profile(outer, (inner,)), weaver.belt.width)
-    bought = Bought(PROFILE.name, BELT_MASS * weaver.belt.width * length, length=length)
+    bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length)
     part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", size, shape, purchase=bought)
     return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
-
-
-BELT_MASS = 3.4
-"""Of the belt for each metre and metre of width [kg/m²]: makers' data for AT5 of polyurethane."""
 
 
 def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:

@@ -88,7 +88,7 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
     params, magazine = weaver.params, weaver.magazine
     fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
     found = (
-        at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width", cure=fewer, parts=(TUBE,)),
+        at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width").with_cure(fewer, TUBE),
         at_most("tiers of the tubes", magazine.height, params.magazine_room, "mm", "parameter magazine_room").with_cure(
             "set a larger weaver.magazine_room, or fewer colours", TUBE
         ),
@@ -105,7 +105,7 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
     cure = "leave head_width to the design"
     return (
         *found,
-        at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width", cure=cure),
+        at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width").with_cure(cure),
         at_least(
             "yarn drawn",
             weaver.drawn + YARN_TOLERANCE,

@@ -26,9 +26,6 @@ STOCK = (("AT5", 24), ("AT10", 20))
 SERVICE = 1.4
 """Service factor of the belt [usual practice]."""
 
-BELT_DENSITY = 2.2
-"""Mass of a belt with steel cords over its length and width [kg/m²]: AT5, 25 mm wide, 55 g/m [makers' data]."""
-
 REDUCERS = (DIRECT, *PLANETARY[:5])
 """Reducers of the axis: none, or one stage."""
 
@@ -74,7 +71,7 @@ def belt_axis(params: WeftParams, passage: WeftPassage, moved: float, resisting:
             break
     radius = belt.radii[0]
     widest = belt.belt.widths[-1] if math.isnan(width) else width
-    mass = moved + belt.length * widest * BELT_DENSITY
+    mass = moved + belt.length * widest * belt.belt.mass
     time = np.linspace(0.0, passage.time, SAMPLES)
     _, speed, acceleration, _ = passage.at(time)
     load = resisting / params.belt_efficiency * np.sign(speed) * radius
@@ -90,7 +87,7 @@ def _belt(name: str, teeth: int, passage: WeftPassage, moved: float, resisting: 
     length = 2 * passage.stroke + 4 * kind.pitch * teeth
     belt = BeltDrive(kind, teeth, teeth, math.ceil(length / kind.pitch) + teeth)
     for width in kind.widths:
-        mass = moved + belt.length * width * BELT_DENSITY
+        mass = moved + belt.length * width * kind.mass
         needed = belt.width_for((mass * passage.acceleration + resisting) * belt.radii[0], SERVICE)
         if needed is not None and needed <= width:
             return belt, width

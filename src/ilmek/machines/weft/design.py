@@ -221,14 +221,14 @@ def _axis_checks(made: Weft) -> tuple[Check, ...]:
     reserve = axis.drive.duty.reserve if axis.drive else 0.0
     cure, moved = "set a lower weft.acceleration or weft.speed", (CARRIAGE,)
     return (
-        at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed", cure=cure, parts=moved),
+        at_most("speed of the passage", passage.speed, params.speed, "m/s", "speed").with_cure(cure, *moved),
         at_most(
             "acceleration of the passage", passage.acceleration, params.acceleration, "m/s^2", "acceleration"
         ).with_cure(cure, *moved),
         must("belt of the axis", not math.isnan(axis.width), "pull of the teeth in mesh, widths of stock").with_cure(
             cure, AXIS
         ),
-        at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25", cure=cure, parts=(MOTOR,)),
+        at_least("torque of the axis' servo", reserve, 1.0, "1", "motor table, margin 1.25").with_cure(cure, MOTOR),
     )
 
 
@@ -238,7 +238,7 @@ def _edge_checks(params: WeftParams) -> tuple[Check, ...]:
         return ()
     why = "each weft turns in the same shed: the other holds its turn, where they cross so (weaving.selvedge)"
     cure = "set weft.crossed=yes: exchange the cells of the shuttles' boxes"
-    return (at_most("outermost warps that a turn releases", let_go(params), 0, "1", why, cure=cure, parts=(BOX,)),)
+    return (at_most("outermost warps that a turn releases", let_go(params), 0, "1", why).with_cure(cure, BOX),)
 
 
 def let_go(params: WeftParams) -> int:

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide, guide_of_height
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
-from ilmek.machines.weft.axis import BELT_DENSITY, BeltAxis
+from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.carriers import AXIS, BOX, BOX_MOTOR, CARRIAGE, MOTOR, along, magnet, magnet_positions, part_id
 from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
 from ilmek.machines.weft.params import WeftParams
@@ -183,7 +183,7 @@ class ShuttleGuide:
         strands = Placed(strand, (placement(y=side, z=deep - known), placement(y=-side, z=deep - known)))
         pulleys = Placed(bar(2 * radius, deep), (placement(-end), placement(end)))
         text = "wider than any of the table" if math.isnan(wide) else f"{format_quantity(wide, 'mm')} wide"
-        mass = axis.belt.length * known * BELT_DENSITY + 2 * math.pi * radius**2 * deep * ALUMINIUM.density
+        mass = axis.belt.length * known * axis.belt.belt.mass + 2 * math.pi * radius**2 * deep * ALUMINIUM.density
         bought = Bought(f"belt {axis.belt.belt.name}", mass, length=axis.belt.length)
         text = f"belt {axis.belt.belt.name}, {text}"
         shape = Sum((strands, pulleys))

@@ -119,7 +119,7 @@ def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
     cure = "set a higher lift, weft=rapier, or a smaller weft.least_rows"
     supports = "every second warp is lifted; three supports, assumed by this project"
     return (
-        at_least("rows between two changes of a bobbin", lasts, least, "1", where, cure=cure, parts=(BOBBIN,)),
+        at_least("rows between two changes of a bobbin", lasts, least, "1", where).with_cure(cure, BOBBIN),
         shed_check(params, made.opening, "a smaller weft.bobbin_diameter", SHUTTLE_WOOD),
         at_least("lifted warps under the shuttle", made.supports, SUPPORTS, "1", supports).with_cure(
             "set a longer weft.bobbin_length", SHUTTLE_WOOD
@@ -147,8 +147,9 @@ def magnet_check(params: WeftParams, made: Shuttle, acceleration: float, tension
         made.coupling.hold,
         "N",
         "m a, tension and weight, by parameter safety; block magnets of the noses [Akoun and Yonnet, 1984]",
-        cure="set a lower weft.acceleration, a longer weft.nose, a smaller weft.play, or weft=rapier",
-        parts=(MAGNET, CARRIAGE) if params.nose > 0 else (CARRIAGE,),
+    ).with_cure(
+        "set a lower weft.acceleration, a longer weft.nose, a smaller weft.play, or weft=rapier",
+        *((MAGNET, CARRIAGE) if params.nose > 0 else (CARRIAGE,)),
     )
 
 

@@ -160,27 +160,21 @@ def yarn_checks(loom: LoomDesign) -> tuple[Check, ...]:
             pull * (1 + _ROUNDING),
             "N",
             "weaver.forces.yarn_pull, with which the head's drives count; capstan equation",
-            cure=cure,
-            parts=(YARN_GUIDE, TUBE, CONDUIT, BRAKE_ID),
-        ),
+        ).with_cure(cure, YARN_GUIDE, TUBE, CONDUIT, BRAKE_ID),
         at_least(
             "yarn path: force of the brakes",
             path.brake,
             BRAKE_FORCES[0],
             "N",
             "least of the brake's range: less lets a package overrun",
-            cure=cure,
-            parts=(BRAKE_ID, signals.YARN_STOP),
-        ),
+        ).with_cure(cure, BRAKE_ID, signals.YARN_STOP),
         at_most(
             "yarn path: tension of the yarn",
             path.tension,
             STRENGTH_USED * path.yarn.breaking_force,
             "N",
             "a tenth of its breaking force, assumed by this project",
-            cure="set a heavier pile yarn",
-            parts=(PACKAGE, TUBE),
-        ),
+        ).with_cure("set a heavier pile yarn", PACKAGE, TUBE),
     )
 
 

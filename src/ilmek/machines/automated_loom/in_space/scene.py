@@ -139,7 +139,7 @@ def _warps(loom: LoomDesign) -> SceneWarps:
         lifted=lifted,
         lifts=tuple(float(cam.lift) for cam in side.cams),
         angle=angle,
-        even_share=sample(even, angle).position / loom.row_timing.lift,
+        even=sample(even, angle).position / loom.row_timing.lift,
         odd_share=sample(odd, angle).position / loom.row_timing.lift,
         diameter=loom.task.yarns.warp.diameter,
     )
