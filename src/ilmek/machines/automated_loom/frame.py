@@ -250,7 +250,7 @@ def rail_frequency(task: FrameTask, section: HollowSquare) -> float:
     """
     span = task.width / task.rail_spans
     mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
-    beam = Beam(task.width, tuple(k * span for k in range(task.rail_spans + 1)))
+    beam = Beam(task.width, tuple(np.linspace(0.0, task.width, task.rail_spans + 1).tolist()))
     stiffness = STEEL.modulus * section.inertia
     lowest = frequencies(beam, stiffness, task.rail_mass(section), (Mass(span / 2, mass),), count=1)[0]
     return float(lowest) / turn
