@@ -26,13 +26,14 @@ from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CORE, DENSITY, creel_of, package_size
-from ilmek.machines.automated_loom.equipment.energy_chain import CHAIN, chain_checks, energy_chain, share_of, trough_box
+from ilmek.machines.automated_loom.equipment.energy_chain import chain_checks, energy_chain, trough_box
 from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import PathStep, tensions, yarn_path
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.on_rail import CHAIN, share_of
 from ilmek.part.extents import extents
 from ilmek.part.poses import chains, poses
 from ilmek.units import mm, turn

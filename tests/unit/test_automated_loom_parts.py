@@ -161,7 +161,7 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
     wide = share * span
     task = replace(task_of_frame(), width=span, rail_spans=1, heads=1, head_mass=40.0, head_width=wide)
     own = rail_sag(replace(task, head_mass=0.0), section)
-    assert own == pytest.approx(5 * section.line_mass * 9.81 * span**4 / (384 * STEEL.modulus * section.inertia))
+    assert own == pytest.approx(5 * task.rail_mass(section) * 9.81 * span**4 / (384 * STEEL.modulus * section.inertia))
     places = (span - wide) / 2 + (np.arange(2000) + 0.5) / 2000 * wide / 2
     influence = places * (3 * span**2 - 4 * places**2) / (48 * STEEL.modulus * section.inertia)
     assert rail_sag(task, section) - own == pytest.approx(40.0 * 9.81 * float(influence.mean()), rel=1e-6)
@@ -225,7 +225,7 @@ def test_a_support_before_the_rail_twists_it_as_a_bar_held_at_both_ends():
     torque[(nodes - 3) // 2] = load * ahead
     twist = np.linalg.solve(stiff * shear * torsion / step, torque)
     assert sunk == pytest.approx(ahead * float(twist.max()), rel=1e-9)
-    assert load == pytest.approx((section.line_mass * 2.0 + task.head_mass * task.heads) * 9.81, rel=1e-3)
+    assert load == pytest.approx((task.rail_mass(section) * 2.0 + task.head_mass * task.heads) * 9.81, rel=1e-3)
 
 
 def test_the_frame_bears_the_worst_case_of_the_warps():

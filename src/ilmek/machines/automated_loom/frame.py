@@ -6,10 +6,10 @@ in all, as if at e too [`elements.columns`]. The beats of the loom stand on post
 finds room between the bearings of the cylinders; where none of that room bears the load, a side has several, welded
 together side by side, which share P and bend as one: each has the stress and the bow of P over their number.
 
-The rail: each span between its supports simply supported, its own weight and as many heads as find room side by side
-in its middle, which is the worst they can do. A support between the ends stands a before the rail, so that the heads
-pass: the load R that it bears twists the rail by R a l / (2 G J), a thin-walled tube between its neighbours, and lets
-it sink by a of that [Bredt; Timoshenko, Strength of Materials II, 58].
+The rail: each span between its supports simply supported, its own weight, what lies along it [`on_rail`] and as many
+heads as find room side by side in its middle, which is the worst they can do. A support between the ends stands a
+before the rail, so that the heads pass: the load R that it bears twists the rail by R a l / (2 G J), a thin-walled tube
+between its neighbours, and lets it sink by a of that [Bredt; Timoshenko, Strength of Materials II, 58].
 Sections are the lightest square hollow ones of a table that keep the limits, the largest where none does.
 """
 
@@ -78,6 +78,7 @@ class FrameTask:
     stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
     room            for the side of a column [m]               rail_drop  of a support before the rail, below it [m]
     frequency       least natural frequency of the rail [Hz]   rail_least  side of the rail at least [m]
+    cargo           by the side of the rail [m]: mass of a length of what lies along it [kg/m]
     """
 
     width: float
@@ -98,6 +99,11 @@ class FrameTask:
     rail_drop: float = 0.0
     frequency: float = 0.0
     rail_least: float = 0.0
+    cargo: Callable[[float], float] = lambda _side: 0.0
+
+    def rail_mass(self, section: HollowSquare) -> float:
+        """Mass of a length of the rail of a section, with what it carries beside the heads [kg/m]."""
+        return section.line_mass + self.cargo(section.side)
 
     @property
     def force(self) -> float:
@@ -230,20 +236,20 @@ def rail_frequency(task: FrameTask, section: HollowSquare) -> float:
     """
     span = task.width / task.rail_spans
     mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
-    beam = Beam(task.width, tuple(k * span for k in range(task.rail_spans + 1)))
+    beam = Beam(task.width, tuple(np.linspace(0.0, task.width, task.rail_spans + 1).tolist()))
     stiffness = STEEL.modulus * section.inertia
-    lowest = frequencies(beam, stiffness, section.line_mass, (Mass(span / 2, mass),), count=1)[0]
+    lowest = frequencies(beam, stiffness, task.rail_mass(section), (Mass(span / 2, mass),), count=1)[0]
     return float(lowest) / turn
 
 
 def rail_sag(task: FrameTask, section: HollowSquare) -> float:
-    """Deflection [m] in the middle of a span of the rail under its own weight and the heads, spread over their width
-    there, and what a support between the ends lets it sink.
+    """Deflection [m] in the middle of a span of the rail under its own weight, its cargo and the heads, spread over
+    their width there, and what a support between the ends lets it sink.
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
     span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
-    own = uniform.deflection_max(section.line_mass * GRAVITY, span, STEEL.modulus, section.inertia)
+    own = uniform.deflection_max(task.rail_mass(section) * GRAVITY, span, STEEL.modulus, section.inertia)
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)
     force = number * task.head_mass * GRAVITY
@@ -258,7 +264,7 @@ def rail_support_load(task: FrameTask, section: HollowSquare, spans: int = 2) ->
     """Greatest load of a support of the rail [N]: half of the spans beside it, and all heads that find room on them."""
     span = task.width / task.rail_spans
     number = min(task.heads, math.ceil(spans * span / task.head_width))
-    return (section.line_mass * spans * span / 2 + number * task.head_mass) * GRAVITY
+    return (task.rail_mass(section) * spans * span / 2 + number * task.head_mass) * GRAVITY
 
 
 def rail_ahead(section: HollowSquare, drop: float) -> float:

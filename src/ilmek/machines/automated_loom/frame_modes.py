@@ -209,7 +209,7 @@ def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, H
     """Posts on a side's front foot: depth, height, section, and what each carries [m, m, kg]."""
     held = supports(loom, frame)
     yield post_depth(loom, frame), held.height, held.post, sum(part.mass_all for part in loom.beat.parts) / 2
-    ends, rail = rail_supports(loom, frame)[0], frame.rail.line_mass * frame.task.width
+    ends, rail = rail_supports(loom, frame)[0], frame.task.rail_mass(frame.rail) * frame.task.width
     yield ends.depth, ends.height, ends.post, (loom.heads * frame.task.head_mass + rail) / (2 * frame.task.rail_spans)
 
 

@@ -13,15 +13,12 @@ from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.on_rail import guide_parts
 from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
-from ilmek.machines.weaver.carriage_drive import rail_belt
-from ilmek.machines.weaver.carriage_guide import ON_RAIL
-from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.tree import carriage_guide, drive_of
 from ilmek.part import catalogue
 from ilmek.part.extents import shape_box
 from ilmek.part.part import Bought, Part
@@ -42,15 +39,21 @@ def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
     return Tree((_retreat(loom, frame),))
 
 
+def mass_of_rail(loom: LoomDesign, frame: LoomFrame) -> float:
+    """Mass of the rail with what lies along it and its arms, which retreats with the heads [kg]."""
+    arms = RigidBody(RAIL, tuple(rail_brackets(loom, frame))).moments.zeroth
+    return frame.task.rail_mass(frame.rail) * frame.task.width + arms
+
+
 def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     """The axes of the rail's retreat at its ends and between; each of those at the ends has its motor.
 
     The motors accelerate heads and rail, and lift them: m (a + g sin) along the retreat, m at an end half of the rail
-    and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
+    with its cargo and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
     """
     row, held = loom.row_cyclogram, rail_supports(loom, frame)
     heads, room = row.track(HEADS), loom.side.rail.size.real / 2  # the axes carry the rail beyond both ends of its run
-    mass = ((loom.heads + 1) * head_mass(loom.weaver) + frame.rail.line_mass * frame.task.width) / 2
+    mass = ((loom.heads + 1) * head_mass(loom.weaver) + mass_of_rail(loom, frame)) / 2
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     chosen = smallest_motor(torque, turning)
@@ -106,21 +109,9 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
 
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    rail, row = member("rail", "rail of the heads", frame.rail, frame.task.width), carriage_guide(loom.weaver)
-    spacer = box(row.block, RAIL_AXIS - row.height, frame.task.width)
-    under = Part(part_id("guide-bar"), "bar under the heads' guide", "machined link", "", spacer, ALUMINIUM)
-    middle = rail_middle(loom)
+    rail, middle = member("rail", "rail of the heads", frame.rail, frame.task.width), rail_middle(loom)
     along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
-    before = placement(-frame.task.width / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH)
-    guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, frame.task.width)
-    on_bar = placement(-frame.task.width / 2, z=row.height - RAIL_AXIS).after(ON_RAIL)
-    parts = (
-        Occurrence(rail, (along,)),
-        Occurrence(under, (before,)),
-        Occurrence(guide, (on_bar,)),
-        *rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2),
-        *rail_brackets(loom, frame),
-    )
+    parts = (Occurrence(rail, (along,)), *guide_parts(loom), *rail_brackets(loom, frame))
     joint = Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR)
     return Tree(
         (

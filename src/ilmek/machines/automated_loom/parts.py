@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import chain
 
 from ilmek.elements.materials import GRAVITY
@@ -14,6 +14,7 @@ from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
 from ilmek.machines.automated_loom.frame_modes import least_frequency, sway_checks
 from ilmek.machines.automated_loom.joints import TIPPING, tipping
+from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.standing_frame import foot_reach
@@ -136,6 +137,7 @@ def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
         rail_drop=_rail_drop(loom),
         frequency=least_frequency(loom),
         rail_least=least_rail(loom.weaver, params.clearance),
+        cargo=partial(rail_cargo, loom),
     )
 
 

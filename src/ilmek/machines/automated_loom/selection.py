@@ -2,9 +2,10 @@
 
 Branch and bound: of all offers [`offers`] the one with the least bound is designed, its value takes the place of its
 bound, and when a designed loom is the least of all, its checks decide: it is chosen, or refused. So no other loom can
-be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all. These checks
-are formulas. Where the parts of the chosen loom have no room in space, the kind of beat is refused, and the next best
-loom is chosen [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
+be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all; a frame that
+its heads shake refuses all looms of its kinds with more heads that tie more knots in a time. These checks are formulas.
+Where the parts of the chosen loom have no room in space, the kind of beat is refused, and the next best loom is chosen
+[`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
 import heapq
@@ -18,6 +19,7 @@ from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
+from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.automated_loom.offers import (
     Bounds,
@@ -29,6 +31,7 @@ from ilmek.machines.automated_loom.offers import (
     value_of,
 )
 from ilmek.machines.automated_loom.params import AUTO, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.report import all_checks, analyse
 from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch, SearchJournal
 from ilmek.records import record
@@ -96,6 +99,11 @@ def _simplest(branch: HeadBranch, journal: SearchJournal, params: AutomatedLoomP
     return None
 
 
+def _slack(loom: LoomDesign) -> list[Check]:
+    """The natural frequencies of a loom's frame that its drives come too near to."""
+    return [check for check in frame_modes(loom, parts_of_loom(loom).frame).checks if not check.ok]
+
+
 def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The loom that comes nearest to a deadline or a limit of the price that no loom keeps: its check fails."""
     aim = PRICE if params.deadline is None else TIME
@@ -131,6 +139,7 @@ class _Search:
         self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
         self.branches: dict[tuple[str, str], HeadBranch] = {}
         self.heads: dict[tuple[str, float, str], MachineCost] = {}
+        self.shaken: list[tuple[LoomOffer, Check]] = []
         self.order = count()
 
     def add(self, branch: HeadBranch) -> None:
@@ -172,6 +181,8 @@ class _Search:
                 self.closed = []
                 for branch in branches(self.params, ARMS):
                     self.add(branch)
+            elif (check := self._shaking(entry.offer)) is not None:
+                self.lost.append((entry.offer, check))
             elif entry.loom is None and entry.bounded < len(self.bounds.rests):
                 self._bound(entry.offer)
             elif entry.loom is None or value < value_of(analyse(entry.loom), self.params.aim):
@@ -215,7 +226,26 @@ class _Search:
             heaviest = max(failed, key=weight)
             self.lost.append((offer, heaviest))
             self.tried.append((offer, loom, weight(heaviest)))
+            if slack := _slack(loom):
+                self.shaken.append((self._first_shaking(offer), slack[0]))
         return not failed
+
+    def _first_shaking(self, offer: LoomOffer) -> LoomOffer:
+        """An offer that shakes its frame, with the least number of heads for which it does."""
+        steady, heads = 0, offer.heads
+        while heads - steady > 1:
+            middle = (steady + heads) // 2
+            shakes = _slack(self._loom(replace(offer, heads=middle)))
+            steady, heads = (steady, middle) if shakes else (middle, heads)
+        return replace(offer, heads=heads)
+
+    def _shaking(self, offer: LoomOffer) -> Check | None:
+        """The check of a loom of the same kinds that fails where no more heads shake its frame no quicker."""
+        for other, check in self.shaken:
+            alike = (other.knotting, other.weft, other.beat) == (offer.knotting, offer.weft, offer.beat)
+            if alike and other.heads <= offer.heads and other.heads / other.cycle <= offer.heads / offer.cycle:
+                return check
+        return None
 
     def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
         """The loom, with the record of the search in its journal."""

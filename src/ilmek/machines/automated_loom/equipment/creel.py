@@ -16,10 +16,11 @@ import numpy as np
 
 from ilmek.elements.field_devices import BRAKE
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.energy_chain import CONDUIT_SIZE, trough_box
+from ilmek.machines.automated_loom.equipment.energy_chain import trough_box
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_posts
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.on_rail import CONDUIT_SIZE
 from ilmek.records import record
 from ilmek.units import mm
 

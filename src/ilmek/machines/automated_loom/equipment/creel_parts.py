@@ -23,12 +23,13 @@ from ilmek.machines.automated_loom.equipment.creel import (
     creel_of,
 )
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, device, placed
-from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS, CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
+from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.profile import Profile

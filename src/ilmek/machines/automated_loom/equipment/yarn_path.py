@@ -19,7 +19,8 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CONDUIT, PACKAGE, Creel, creel_of
-from ilmek.machines.automated_loom.equipment.energy_chain import energy_chain, share_of, trough_box
+from ilmek.machines.automated_loom.equipment.energy_chain import energy_chain, trough_box
+from ilmek.machines.automated_loom.on_rail import share_of
 from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.yarn_lead import YARN_GUIDE, yarn_line, yarn_wraps

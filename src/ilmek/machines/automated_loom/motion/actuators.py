@@ -5,7 +5,7 @@
 Forces of a knot are those on the tools, as the head's cams take them (`machines.weaver.forces`). Over a row:
 
     lifted warps   n T'(x): the pull of the sheet across, by its lift                          [`weaving.shed`]
-    carrier, rail  m a: their masses
+    carrier, rail  m a: their masses, of the rail with the heads
     beater         the fabric's resistance to rows at the required distance, while it presses  [`weaving.fell`]
     take-up        the pull of all warps at rest
 """
@@ -17,6 +17,8 @@ from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, HEADS, ODD, TA
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.motion.knot_views import DRIVE as KNOT_DRIVE
 from ilmek.machines.automated_loom.motion.row_views import DRIVE as ROW_DRIVE
+from ilmek.machines.automated_loom.own_parts import mass_of_rail
+from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.shedding.warp import warp_force
 from ilmek.machines.weaver.forces import HeadForces, tool_force
 from ilmek.machines.weaver.motions import HANDLER
@@ -70,7 +72,8 @@ def row_forces(loom: LoomDesign) -> Plot:
         Series(name, angle, number * warp_force(cams, sample(row.track(name), angle).position))
         for name, number in sheets.items()
     ]
-    masses = {loom.row_timing.carrier: loom.weft.axis.mass, HEADS: loom.heads * head_mass(loom.weaver)}
+    heads = loom.heads * head_mass(loom.weaver) + mass_of_rail(loom, parts_of_loom(loom).frame)
+    masses = {loom.row_timing.carrier: loom.weft.axis.mass, HEADS: heads}
     for name, mass in masses.items():
         bend = sample(row.track(name), angle).bend
         series.append(Series(name, angle, mass * bend * row.speed**2))
