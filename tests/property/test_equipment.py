@@ -7,7 +7,7 @@ import csv
 import io
 import math
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 import pytest
@@ -18,7 +18,7 @@ from small_programme import small_programme
 from ilmek.elements.carpet_yarns import YarnProperties
 from ilmek.elements.energy_chains import ENERGY_CHAINS, SHELF, ChainLines, chain_for, width_needed
 from ilmek.elements.field_devices import ROWS
-from ilmek.elements.materials import GRAVITY
+from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.safety_distances import FENCES, door, over, through
 from ilmek.io.plc.io_list import io_csv
 from ilmek.io.plc.project import plc_project
@@ -35,7 +35,12 @@ from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.on_rail import CHAIN, share_of
 from ilmek.part.extents import extents
+from ilmek.part.part import Part
+from ilmek.part.placement import placement
 from ilmek.part.poses import chains, poses
+from ilmek.part.shapes import box
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.report.scene import SceneMotion
 from ilmek.units import mm, turn
 
 
@@ -167,6 +172,35 @@ def test_what_moves_stays_as_far_from_the_fence_as_an_arm_reaches(drive: str, an
                 sides = points[:, 0] - fence.left, fence.right - points[:, 0], points[:, 2] - fence.rear
                 assert min(float(side.min()) for side in sides) >= reach - 2 * mm
                 assert fence.front - float(points[:, 2].max()) >= door(fence.stopping.whole) - 2 * mm
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(st.tuples(*(st.floats(-2.0, 2.0),) * 3), min_size=2, max_size=4), st.booleans(), st.booleans())
+def test_boxes_of_copies_contain_their_own_points(origins, turned: bool, carried: bool) -> None:
+    """Copies beside each other, about each other, and on a carrier that turns: each against poses of its own chain."""
+    angle = np.linspace(0.0, turn, 13)
+    swing, still = 0.4 * np.sin(angle), np.zeros(13)
+    slide = SceneMotion(ROW, angle, np.stack([0.3 * np.sin(angle), still, still], 1), swing if carried else still)
+    positions = tuple(placement(*at, about=(0.0, 0.0, 1.0), angle=0.5 * k * turned) for k, at in enumerate(origins))
+    bar = Part("bar", "bar", "welded frame", "", box(0.1, 0.2, 0.5), MATERIALS["structural steel"])
+    own = (Occurrence(bar, (placement(0.1, 0.0, 0.2),)),)
+    tilted = (placement(about=(1.0, 0.0, 0.0), angle=0.3),)
+    tree = Tree(
+        (
+            RigidBody("carrier", own, joint=Joint(JointKind.SLIDE, motion=slide), positions=tilted),
+            RigidBody("copy", own, "carrier", positions=positions),
+            RigidBody(
+                "arm", own, "copy", Joint(JointKind.PIN, motion=SceneMotion(KNOT, angle, 0 * slide.shift, swing))
+            ),
+        )
+    )
+    boxes, corners = iter(extents(tree, (ROW, KNOT))), np.array(list(product((-0.05, 0.05), (-0.1, 0.1), (0.0, 0.5))))
+    for chain in chains(tree):
+        every = [poses(chain, drive, angle).points(own[0].positions[0].points(corners)) for drive in (ROW, KNOT)]
+        found, points = next(boxes), np.concatenate(every).reshape(-1, 3)
+        assert found.low == pytest.approx(points.min(0), abs=2 * mm)
+        assert found.high == pytest.approx(points.max(0), abs=2 * mm)
+    assert next(boxes, None) is None
 
 
 @given(st.floats(0.1, 1.2), st.floats(0.2, 2.6))

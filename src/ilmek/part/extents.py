@@ -64,7 +64,33 @@ def extents(tree: Tree, drives: Iterable[str]) -> tuple[Extent, ...]:
     drives  over whose turns the bodies move, one at a time
     """
     drives, boxes = tuple(drives), dict[str, Float[np.ndarray, "8 3"]]()
-    return tuple(one for chain in chains(tree) for one in _of_chain(chain, drives, boxes))
+    first, every = dict[tuple[str, ...], tuple[Chain, tuple[Extent, ...]]](), list[Extent]()
+    for chain in chains(tree):
+        names = tuple(link.name for link in chain)
+        copied, boxed = first.get(names, (None, ()))
+        shift = None if copied is None else _shift(copied, chain)
+        if shift is None:
+            first[names] = chain, tuple(_of_chain(chain, drives, boxes))
+            every += first[names][1]
+        else:
+            every += [Extent(one.part, one.body, one.low + shift, one.high + shift) for one in boxed]
+    return tuple(every)
+
+
+def _shift(copied: Chain, chain: Chain) -> Corner | None:
+    """By how much a chain of the same bodies lies beside another in all poses [m]; None where it is turned against it,
+    or turns about the same axis.
+    """
+    shift, rotation, turning = np.zeros(3), np.eye(3), False
+    for before, link in zip(copied, chain, strict=True):
+        if before.index != link.index:
+            if turning or (before.position.rotation != link.position.rotation).any():
+                return None
+            shift = shift + rotation @ (link.position.origin - before.position.origin)
+        rotation = rotation @ link.position.rotation
+        motion = link.body.joint.motion
+        turning = turning or (motion is not None and bool(motion.rotation.any()))
+    return shift
 
 
 def around(found: Iterable[Extent]) -> tuple[Corner, Corner]:

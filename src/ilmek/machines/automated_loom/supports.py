@@ -10,6 +10,7 @@ of what runs, at its end: stress sqrt(W² + (m a)²) l c / (2 I) and deflection 
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
 from ilmek.elements.materials import GRAVITY
@@ -112,6 +113,7 @@ class LoomSupports:
         return (*posts, *tube, *(() if self.rapier is None else self.rapier.checks))
 
 
+@lru_cache(maxsize=4)
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks; the largest where none does."""
     made, (beam, corner) = loom.weft.carried, beat_beam(loom)

@@ -8,6 +8,8 @@ The lightest square hollow section that keeps both limits, the largest of the ta
 the pivot of the rocker, A, beyond its round end, its lower side level with that of the rocker at the beat.
 """
 
+from functools import lru_cache
+
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, mid_loaded
 from ilmek.elements.materials import GRAVITY
 from ilmek.part.part import Part
@@ -59,6 +61,7 @@ class BeatBeam:
         return beam_checks(self.section, self.span, self.carried)
 
 
+@lru_cache(maxsize=16)
 def beam_for(length: float, mass: float, force: float) -> BeatBeam:
     """The beam of a length [m] on its posts for a mass that it carries [kg] and a force of the beat [N]."""
     carried, span = mass * GRAVITY + force, length - POST
