@@ -83,7 +83,7 @@ def test_a_post_at_the_end_of_the_heads_way_is_met_there_alone(
 ) -> None:
     """A head stands in the middle of the width; a post as high as it at the carpet's edge is free of it there."""
     made = loom()
-    head, edge = made.side.head, side * made.task.cloth.width / 2
+    head, edge = made.side.of_heads.shape, side * made.task.cloth.width / 2
     at = placement(edge, head.body.imag, head.body.real + head.size.real / 2)
     shape = box(20 * mm, 20 * mm, head.size.imag)
     post = Part("test/post", "post", "machined link", shape=shape, material=MATERIALS["structural steel"])

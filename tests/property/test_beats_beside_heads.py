@@ -52,11 +52,11 @@ def box(corner: complex, size: complex) -> ComplexArray:
 
 
 def heads_of(made: LoomDesign) -> Iterator[ComplexArray]:
-    side, section = made.side, parts_of_loom(made).frame.rail.side
-    yield box(side.head.body, side.head.size)
-    yield box(side.head.magazine, side.head.magazine_size)
+    side, section = made.side, parts_of_loom(made).frame.guide[0].side
+    yield box(side.of_heads.shape.body, side.of_heads.shape.size)
+    yield box(side.of_heads.shape.magazine, side.of_heads.shape.magazine_size)
     # The rail stands in front of the axis on it, whose middle is the arrangement's.
-    yield box(side.rail.corner + side.rail.size / 2 - 0.5j * section, section * (1 + 1j))
+    yield box(side.of_heads.rail.corner + side.of_heads.rail.size / 2 - 0.5j * section, section * (1 + 1j))
 
 
 def least(one: ComplexArray, other: ComplexArray) -> float:
@@ -78,7 +78,7 @@ def gap_of_plate(made: LoomDesign) -> float:
     arm, half = linkage.lengths["beater"], linkage.params.width / 2
     edge = np.linspace(complex(arm - half, -half), shaft(linkage) - (half + 10 * mm) * (1 + 1j), 250)
     lower = np.linspace(complex(arm - half, -half), complex(arm + half, -half), 50)
-    plate, steps = np.concatenate([edge, lower]), np.linspace(0.0, made.side.retreat, 60) * RETREAT
+    plate, steps = np.concatenate([edge, lower]), np.linspace(0.0, made.side.of_heads.retreat, 60) * RETREAT
     return min(least(plate, (head[::4, None] + steps).ravel()) for head in heads_of(made))
 
 

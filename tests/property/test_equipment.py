@@ -19,7 +19,7 @@ from ilmek.elements.carpet_yarns import YarnProperties
 from ilmek.elements.energy_chains import ENERGY_CHAINS, SHELF, ChainLines, chain_for, width_needed
 from ilmek.elements.field_devices import ROWS
 from ilmek.elements.materials import GRAVITY, MATERIALS
-from ilmek.elements.safety_distances import FENCES, door, over, through
+from ilmek.elements.safety_distances import FENCES, approach, over, through
 from ilmek.io.plc.io_list import io_csv
 from ilmek.io.plc.project import plc_project
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
@@ -147,7 +147,7 @@ def test_distances_are_those_of_the_standards() -> None:
     assert [through(one * mm) for one in (4, 6, 8, 10, 12, 20, 30, 40, 120)] == pytest.approx(
         [0.002, 0.005, 0.015, 0.025, 0.08, 0.12, 0.12, 0.2, 0.85]
     )
-    assert door(0.43) == pytest.approx(0.688)
+    assert approach(0.43) == pytest.approx(0.688)
 
 
 @settings(max_examples=4, deadline=None)
@@ -171,7 +171,7 @@ def test_what_moves_stays_as_far_from_the_fence_as_an_arm_reaches(drive: str, an
                 assert np.all(points <= known[body.id].high + 2 * mm)
                 sides = points[:, 0] - fence.left, fence.right - points[:, 0], points[:, 2] - fence.rear
                 assert min(float(side.min()) for side in sides) >= reach - 2 * mm
-                assert fence.front - float(points[:, 2].max()) >= door(fence.stopping.whole) - 2 * mm
+                assert fence.front - float(points[:, 2].max()) >= approach(fence.stopping.whole) - 2 * mm
 
 
 @settings(max_examples=20, deadline=None)

@@ -131,7 +131,7 @@ def test_a_wide_rail_has_supports_between_its_ends() -> None:
     own = loom(2.4)
     frame = parts_of_loom(own).frame
     ends, between = rail_supports(own, frame)
-    assert frame.task.rail_spans == 2
+    assert frame.guide[1].spans == 2
     assert len(ends.stations) == 2
     assert len(between.stations) == 1
     assert all(check.ok for one in (ends, between) for check in one.checks)

@@ -122,11 +122,12 @@ def test_distances_from_the_carpet_are_those_of_points_along_the_edges(settings:
     leg = yarns.warp.diameter / 2 + yarns.pile.diameter + pile.pile_height + pile.cut_waste
     carpet = np.array([complex(back, low), complex(leg, low), leg, back])
     away = sample(row.track("heads"), np.arange(0.0, turn, 2 * deg)).position * RETREAT
-    head = side.head.body + np.array([0, side.head.size.real, side.head.size, 1j * side.head.size.imag])
+    shape = side.of_heads.shape
+    head = shape.body + np.array([0, shape.size.real, shape.size, 1j * shape.size.imag])
     found = {(one.body, one.cloth): one.value for one in cloth_clearances(made)}
     tools = [
         tool.corner + np.array([0, tool.size.real, tool.size, 1j * tool.size.imag])
-        for tool in side.head.tools
+        for tool in shape.tools
         if tool.name != SLEY_TOOL
     ]
     nearest = min(brute(box + shift, carpet) for box in (head, *tools) for shift in away)
@@ -158,12 +159,12 @@ def test_a_shed_too_low_for_its_carrier_fails_its_clearance(lift: str) -> None:
 def test_heads_retreat_until_they_are_below_what_beats() -> None:
     made = loom()
     lowest = min(made.beat.path.carried(one, made.beat.path.tip).imag.min() for one in made.beat.path.outline)
-    top = made.side.head.top + made.side.retreat * RETREAT.imag
+    top = made.side.of_heads.shape.top + made.side.of_heads.retreat * RETREAT.imag
     assert top == pytest.approx(min(lowest, 0.0) - made.side.room.clearance, abs=1e-12)
     track = made.row_cyclogram.track("heads")
-    assert track.stroke == made.side.retreat
+    assert track.stroke == made.side.of_heads.retreat
     axes = [part.length for part in parts_of_loom(made).parts if part.name == "axis of the rail's retreat"]
-    assert axes == [pytest.approx(made.side.retreat)]
+    assert axes == [pytest.approx(made.side.of_heads.retreat)]
 
 
 def test_the_stack_goes_down_with_the_comb_on_the_guide_cams() -> None:
@@ -194,7 +195,7 @@ def test_the_figures_of_the_docs_are_those_of_the_default_loom() -> None:
 def test_the_side_views_dimensions_are_the_results() -> None:
     made = loom()
     (retreat,) = (one for one in room(made).strokes if one.label.startswith("retreat"))
-    assert abs(retreat.points[1] - retreat.points[0]) == pytest.approx(made.side.retreat)
+    assert abs(retreat.points[1] - retreat.points[0]) == pytest.approx(made.side.of_heads.retreat)
     spans = [one for one in side(made).strokes if one.role == "dimension"]
     lengths = [abs(one.points[-1] - one.points[0]) for one in spans]
     for size in (made.side.front_span, made.side.back_span, made.side.fell_height, made.side.loom_height):
@@ -266,5 +267,5 @@ def test_machines_are_designed_for_the_lengths_that_the_view_reports(settings: d
 
 def test_more_colours_than_a_tier_holds_make_the_head_deeper_not_the_row_wider() -> None:
     few, many = loom(), loom(colours="200")
-    assert many.side.head.magazine_size.imag > few.side.head.magazine_size.imag
+    assert many.side.of_heads.shape.magazine_size.imag > few.side.of_heads.shape.magazine_size.imag
     assert all(check.ok for check in cloth_checks(many))

@@ -25,7 +25,7 @@ from ilmek.machines.automated_loom import (
     production_time,
 )
 from ilmek.machines.automated_loom.cyclogram import BEATER
-from ilmek.machines.automated_loom.figures import figures, time_against_pitch, time_of_one_head
+from ilmek.machines.automated_loom.figures import figures, time_against_pitch, time_of_one_knotter
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.report import Drawing, Plot, Report, Timing
 from ilmek.timing.track import peak_acceleration, peak_speed, sample
@@ -288,7 +288,7 @@ def test_figure_of_the_scaling_has_a_curve_for_each_pitch() -> None:
 
 def scaling(loom: LoomDesign) -> Plot:
     """The figure of a loom's weaving time over the warp pitch, among those that it has."""
-    plots = [make() for make in figures(loom) if make.func in (time_against_pitch, time_of_one_head)]
+    plots = [make() for make in figures(loom) if make.func in (time_against_pitch, time_of_one_knotter)]
     (plot,) = plots
     assert isinstance(plot, Plot)
     assert plot.name == "weaving-time-pitch"

@@ -25,6 +25,7 @@ from ilmek.machines.automated_loom.frame import (
     STEEL,
     FrameTask,
     HollowSquare,
+    RailTask,
     column_load,
     eccentric,
     euler,
@@ -47,6 +48,12 @@ def loom() -> LoomDesign:
 @cache
 def listed() -> PartsList:
     return parts_of_loom(loom())
+
+
+def task_of_rail() -> RailTask:
+    rail = task_of_frame().rail
+    assert rail is not None
+    return rail
 
 
 def task_of_frame() -> FrameTask:
@@ -159,7 +166,7 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
     """Deflection in the middle of a point load at a from an end: P a (3 l^2 - 4 a^2) / (48 E I), a <= l/2."""
     section, span = HollowSquare(0.1, 0.005), 1.3
     wide = share * span
-    task = replace(task_of_frame(), width=span, rail_spans=1, heads=1, head_mass=40.0, head_width=wide)
+    task = replace(task_of_rail(), width=span, spans=1, heads=1, head_mass=40.0, head_width=wide)
     own = rail_sag(replace(task, head_mass=0.0), section)
     assert own == pytest.approx(5 * task.rail_mass(section) * 9.81 * span**4 / (384 * STEEL.modulus * section.inertia))
     places = (span - wide) / 2 + (np.arange(2000) + 0.5) / 2000 * wide / 2
@@ -169,25 +176,29 @@ def test_sag_of_a_load_over_the_middle_is_its_influence_line_integrated(share):
 
 @given(st.floats(1e3, 1e5), st.floats(0.5, 4.0), st.floats(0.01, 0.2))
 def test_the_frame_keeps_its_limits_with_the_lightest_section(pull, width, lever):
-    task = FrameTask(width, 2.0, 0.6, pull, lever, 500.0, 4, 8.0, 0.08, 2, 2e-4, 2.0, 4.0, 1e-3)
-    frame = frame_for(task)
+    rail_task = RailTask(width, 2, 4, 8.0, 0.08, 2e-4)
+    frame = frame_for(FrameTask(2.0, 0.6, pull, lever, 500.0, 2.0, 4.0, 1e-3, rail=rail_task))
+    rail, _ = frame.guide
     assert frame.column_stress <= STEEL.strength / 2
     assert frame.buckling_factor >= 4
     assert frame.column_bow <= 1e-3
-    assert frame.rail_sag <= task.sag_limit
-    lighter = [HollowSquare(*size) for size in SECTIONS if HollowSquare(*size).area < frame.rail.area]
-    assert all(rail_sag(task, section) > task.sag_limit for section in lighter)
+    assert rail_sag(rail_task, rail) <= rail_task.sag_limit
+    lighter = [HollowSquare(*size) for size in SECTIONS if HollowSquare(*size).area < rail.area]
+    assert all(rail_sag(rail_task, section) > rail_task.sag_limit for section in lighter)
 
 
 def test_as_many_heads_count_on_a_span_as_find_room_on_it():
     section = HollowSquare(0.1, 0.005)
-    few = rail_sag(replace(task_of_frame(), heads=3, head_width=0.5, width=1.5, rail_spans=1), section)
-    assert rail_sag(replace(task_of_frame(), heads=30, head_width=0.5, width=1.5, rail_spans=1), section) == few
+    few = rail_sag(replace(task_of_rail(), heads=3, head_width=0.5, width=1.5, spans=1), section)
+    assert rail_sag(replace(task_of_rail(), heads=30, head_width=0.5, width=1.5, spans=1), section) == few
 
 
 def test_a_frame_that_no_section_makes_is_of_the_largest_and_fails():
-    wide, pulled = (frame_for(replace(task_of_frame(), **one)) for one in ({"width": 50.0}, {"pull": 1e8, "room": 1.0}))
-    assert wide.rail.side == pulled.column.side == max(side for side, _ in SECTIONS)
+    longer = replace(task_of_rail(), width=50.0)
+    wide, pulled = (
+        frame_for(replace(task_of_frame(), **one)) for one in ({"rail": longer}, {"pull": 1e8, "room": 1.0})
+    )
+    assert wide.guide[0].side == pulled.column.side == max(side for side, _ in SECTIONS)
     assert pulled.number == MOST_COLUMNS
     assert [check.name for check in wide.checks if not check.ok] == [
         "frame: sag of the heads' rail",
@@ -214,10 +225,10 @@ def test_columns_that_find_no_room_for_one_are_several_that_share_the_load():
 
 def test_a_support_before_the_rail_twists_it_as_a_bar_held_at_both_ends():
     """Half of the torque R a goes to each neighbour: finite differences of the twist along two spans give its angle."""
-    section, task = HollowSquare(0.08, 0.004), replace(task_of_frame(), width=4.0, rail_spans=2)
-    single = replace(task, width=2.0, rail_spans=1)
+    section, task = HollowSquare(0.08, 0.004), replace(task_of_rail(), width=4.0, spans=2)
+    single = replace(task, width=2.0, spans=1)
     sunk = rail_sag(task, section) - rail_sag(single, section)
-    load, ahead = rail_support_load(task, section), rail_ahead(section, task.rail_drop)
+    load, ahead = rail_support_load(task, section), rail_ahead(section, task.drop)
     shear, torsion, nodes = STEEL.modulus / 2.6, 0.076**3 * 0.004, 401
     step = 4.0 / (nodes - 1)
     stiff = np.diag(np.full(nodes - 2, 2.0)) - np.eye(nodes - 2, k=1) - np.eye(nodes - 2, k=-1)

@@ -205,10 +205,10 @@ def test_heads_retreat_in_time_from_what_beats_on_its_path(kind, width) -> None:
     """The row is timed by the retreat that the path needs; then the head is below all that beats, by the clearance."""
     made = loom(kind, width=width)
     heads = made.row_cyclogram.track(HEADS)
-    assert heads.stroke == pytest.approx(made.side.retreat)
+    assert heads.stroke == pytest.approx(made.side.of_heads.retreat)
     assert peak_speed(heads, made.row_cyclogram.period) <= made.params.retreat_speed * (1 + 1e-6)
     corners = np.concatenate(
         [made.beat.path.carried(one, made.beat.path.tip).ravel() for one in made.beat.path.outline]
     )
-    top = made.side.head.top + made.side.retreat * RETREAT.imag
+    top = made.side.of_heads.shape.top + made.side.of_heads.retreat * RETREAT.imag
     assert top + made.params.clearance <= min(0.0, corners.imag.min()) + 1e-9

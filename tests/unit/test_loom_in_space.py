@@ -112,7 +112,7 @@ def test_boxes_and_rollers_have_the_coordinates_of_the_side_view() -> None:
         shell = _part(found, f"warp-tension/cylinder of warp-tension/{name} cylinder")
         assert bounds(shell.solids[0])[1][2] == pytest.approx(roller.radius, abs=3e-4)
     drawn = {"opener": "weaver/opener-plate", "sley": "weaver/sley", "centre gripper": "weaver/centre-gripper"}
-    for tool in side.head.tools:
+    for tool in side.of_heads.shape.tools:
         if tool.name in drawn:
             low, high = _in_head(found, _part(found, drawn[tool.name]))
             assert complex(low[2], low[1]) == pytest.approx(tool.corner, abs=1e-9)

@@ -92,7 +92,7 @@ def test_a_motor_of_the_retreat_bears_its_end_of_the_rail_wherever_the_heads_sta
     moved = [body for body in loom_tree(loom).bodies if body.id in {RAIL, "automated-loom/chains"}]
     row_of, conduits = energy_chain(loom), 0.02 * loom.weaver.params.tubes * loom.heads
     number, rail = loom.heads, sum(body.moments.zeroth for body in moved) + conduits * row_of.length(share_of(loom))
-    task, section = listed.frame.task, listed.frame.rail
+    section, task = listed.frame.guide
     assert task.rail_mass(section) * task.width == pytest.approx(rail, rel=1e-9)
     place = (np.arange(number) + np.random.default_rng(5).random((4000, number))) / number
     most = float((1 - place).sum(axis=1).max()) * head_mass(loom.weaver) + rail / 2

@@ -44,12 +44,13 @@ ROWS = (
     FieldDevice("emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 250 * g, "ISO 13850"),
     FieldDevice("button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS),
     FieldDevice("safety relay, 2 channels, PL e", "safety relay", _size(22.5, 100, 115), 250 * g, "ISO 13849-1", 0.02),
+    FieldDevice("light grid, 4 beams, sender or receiver", "light grid", _size(40, 1000, 50), 1.4, "IEC 61496-2", 0.02),
     FieldDevice("motion controller with PLC", "motion controller", _size(100, 120, 100), 900 * g, _CLASS, 0.01),
     FieldDevice("power supply 24 V, 10 A", "power supply", _size(60, 120, 115), 900 * g, _CLASS),
     FieldDevice("terminal, two levels", "terminal", _size(5.2, 100, 48), 15 * g, "IEC 60947-7-1"),
 )  # fmt: skip
 
-ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, \
+ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, GRID, \
     CONTROLLER, SUPPLY, TERMINAL = ROWS  # fmt: skip
 
 REPEATED = 0.1 * 1.5 * mm

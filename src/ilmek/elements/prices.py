@@ -77,6 +77,7 @@ PRICES: Mapping[str, PriceRates] = {
     "sensor": PriceRates(each=60.0),
     "load cell": PriceRates(each=350.0),
     "light barrier": PriceRates(each=90.0),
+    "light grid": PriceRates(each=350.0),
     "yarn sensor": PriceRates(each=35.0),
     "yarn brake": PriceRates(each=12.0),
     "yarn package": PriceRates(),

@@ -2,8 +2,9 @@
 
     reaching over      c(a, b): height a of the hazard, height b of the fence, high risk        [ISO 13857, table 2]
     reaching through   by the width of a square opening                                         [ISO 13857, table 4]
-    opening a door     S = K T + C, K = 1.6 m/s, T from the opening to the standstill, C = 0 where no opening of the
-                       closed door is reached through                                [ISO 13855, approach of the body]
+    door, light grid,  S = K T + C, K = 1.6 m/s, T from its opening, its interruption or the release of its buttons to
+    two-hand control   the standstill; C = 0 for doors that nobody reaches through, and for buttons in shrouds, and
+                       0.85 m for a grid of some beams                               [ISO 13855, approach of the body]
 
 Between two rows or columns of a table the safer value counts, as the standard says. Arms of persons of 14 years and
 older, without aids to climb on. The openings agree with a published extract of table 4 (edition of 2019); the rows of
@@ -95,12 +96,16 @@ def through(opening: float) -> float:
     return next((far * mm for width, far in _SQUARES if opening <= width * mm + _ROUNDING), math.inf)
 
 
-def door(stopping: float, reached: float = 0.0) -> float:
-    """Least distance S = K T + C [m] of an interlocked door from a hazard that stands T seconds after its opening.
+GRID_REACH = 0.85
+"""How far an arm reaches between the beams of a light grid, or over them, before it stops [m]: ISO 13855, 6.3."""
 
-    reached  C: how far a hand is through its openings before [m]
 
-    >>> round(door(0.5), 9)
+def approach(stopping: float, reached: float = 0.0) -> float:
+    """Least distance S = K T + C [m] of a guard from a hazard that stands T seconds after it is opened.
+
+    reached  C: how far a hand is through it before [m]
+
+    >>> round(approach(0.5), 9)
     0.8
     """
     return APPROACH * stopping + reached

@@ -8,7 +8,7 @@ class Entry:
     """A machine of the catalogue.
 
     part      whether every automated loom has one      beats  names of the kinds of beat that it can be in a loom
-    knotting  whether it can tie the knots in a loom's heads, beside the weaver
+    knotting  whether it can be in a loom's heads
     """
 
     summary: str
@@ -24,7 +24,7 @@ class Entry:
 
 ENTRIES = {
     "automated-loom": Entry("the loom for one carpet: heads, shedding, beat-up, warp tension, timed together"),
-    "weaver": Entry("knotting head: six cams on one shaft, one knot a turn (thesis, 2.2.3)", part=True),
+    "weaver": Entry("knotting head: six cams on one shaft, one knot a turn (thesis, 2.2.3)", knotting=True),
     "beat-up": Entry(
         "crank-rocker that beats weft and knots to the fell: links, motion, forces", beats=("travelling",)
     ),

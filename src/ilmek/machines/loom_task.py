@@ -61,15 +61,14 @@ class LoomTask:
 
     @property
     def weft(self) -> "Weft":
-        """What lays the wefts. Raises KeyError before it is designed, as the next two do."""
+        """What lays the wefts. Raises KeyError before it is designed, as for the shedding cams."""
         design: Weft = self.designs["weft"]
         return design
 
     @property
-    def weaver(self) -> "Weaver":
-        """The knotting head."""
-        design: Weaver = self.designs["weaver"]
-        return design
+    def weaver(self) -> "Weaver | None":
+        """The knotting head; None before it is designed, and where weavers tie."""
+        return self.designs.get("weaver")
 
     @property
     def shedding(self) -> "SheddingDesign":
@@ -95,10 +94,13 @@ class LoomTask:
     @property
     def rail_length(self) -> float:
         """Length of the heads' rail [m]: for its belt, and beyond its ends the axes of its retreat are clear of a head
-        and its step.
+        and its step. Without heads as far as between the bearings.
         """
-        room, cloth = self.weaver.width / 2 + self.params.clearance, self.cloth
-        return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, self.weaver.belt_length)
+        head, cloth = self.weaver, self.cloth
+        if head is None:
+            return self.width
+        room = head.width / 2 + self.params.clearance
+        return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, head.belt_length)
 
     def parameters(self, name: str, derived: P) -> P:
         """The parameters of one of its machines: those derived for it, with those that the user set in their place.

@@ -21,8 +21,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.carpet.pile import leg_length
 from ilmek.elements.columns import ascending, mid_loaded
 from ilmek.elements.materials import GRAVITY
+from ilmek.errors import LoomError
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -40,7 +42,7 @@ from ilmek.machines.weaver.carriage_drive import motor_corner
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
 from ilmek.machines.weaver.tree import drive_of, head_mass, least_rail
-from ilmek.records import computed, record, result
+from ilmek.records import computed, group, record, result
 from ilmek.units import deg, mm
 
 if TYPE_CHECKING:
@@ -98,6 +100,44 @@ class CamPosition:
     lift: float
 
 
+HANDS = complex(200 * mm, 120 * mm)
+"""Room of weavers' hands that tie: before the warps, and over the fell [m]; assumed by this project."""
+
+
+@record
+class HeadsView:
+    """The heads in the side view while they knot.
+
+    shape      of a head                       rail   of the heads
+    rail_side  side of the rail's section, in front of its axis, before the frame is designed [m]
+    motor      upper corner in front of a carriage's motor [m]
+    """
+
+    shape: HeadShape
+    rail: SideBox
+    rail_side: float
+    motor: complex
+    retreat: float = result(
+        "mm", "retreat of the heads for wefts and beats, down and to the front", name="head_retreat"
+    )
+
+    @property
+    def retreated(self) -> complex:
+        """Displacement of the retreated heads [m]."""
+        return self.retreat * RETREAT
+
+    @property
+    def corners(self) -> tuple[complex, ...]:
+        """Upper corners in front of a head, of its carriage's motor, and of its rail [m]."""
+        end = self.rail.corner + self.rail.size / 2 + self.rail_side * (1 + 0.5j)
+        return *self.shape.corners, self.motor, end
+
+    @property
+    def front(self) -> float:
+        """The foremost x of the rail of the retreated heads [m]."""
+        return (self.rail.corner + self.rail.size + self.retreated).real
+
+
 @record
 class SideView:
     """The side view of a loom.
@@ -108,9 +148,7 @@ class SideView:
     comb          convex polygons of what beats, at rest: leaves, bar [m]
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
     compensator   of the warps' tension, between back rest and upper cylinder
-    head          while it knots                                   rail  of the heads while they knot
-    rail_side     side of the rail's section, in front of its axis, before the frame is designed [m]
-    carriage_motor  upper corner in front of a carriage's motor, while its head knots
+    pile          legs of the knots in front of the warps [m]      heads  None where weavers tie
     """
 
     room: ShedRoom
@@ -125,13 +163,7 @@ class SideView:
     lower: RoundPart
     roll: float
     pile: float
-    head: HeadShape
-    rail: SideBox
-    rail_side: float
-    carriage_motor: complex
-    retreat: float = result(
-        "mm", "retreat of the heads for wefts and beats, down and to the front", name="head_retreat"
-    )
+    heads: HeadsView | None = group()
 
     front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
     back_span = computed("mm", "from the highest cam shaft to the back rest", lambda it: it.spans.back[-1])
@@ -150,7 +182,7 @@ class SideView:
     fell_height = computed("m", "fell above the floor", lambda it: -it.floor)
     loom_height = computed("m", "height of the frame's columns", lambda it: it.top - it.floor)
 
-    @computed("m", "from the rearmost part to the rail of the retreated heads", name="loom_depth")
+    @computed("m", "from the rearmost part to the rail of the retreated heads, or to what beats", name="loom_depth")
     def loom_depth(self) -> float:
         rear = min(
             *(cam.at.real - cam.guide_radius for cam in self.cams),
@@ -161,8 +193,20 @@ class SideView:
 
     @property
     def front(self) -> float:
-        """The foremost x of the rail of the retreated heads [m]."""
-        return (self.rail.corner + self.rail.size + self.retreat * RETREAT).real
+        """The foremost x of the rail of the retreated heads, or of what beats where there is none [m]."""
+        return self.heads.front if self.heads else max(float(one.real.max()) for one in self.comb)
+
+    @property
+    def of_heads(self) -> HeadsView:
+        """The heads. Raises LoomError where weavers tie."""
+        if self.heads is None:
+            raise LoomError("no heads in the side view", allowed="a loom whose knots heads tie")
+        return self.heads
+
+    @property
+    def tying(self) -> tuple[complex, ...]:
+        """Upper corners in front of what ties: heads with their rail, or weavers' hands [m]."""
+        return self.heads.corners if self.heads else (HANDS,)
 
     @property
     def cam_front(self) -> float:
@@ -199,7 +243,7 @@ class SideView:
 
 
 def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
-    """The side view of a loom whose head and shedding are designed; the cylinders where they are.
+    """The side view of a loom whose shedding, and head if any, are designed; the cylinders where they are.
 
     path  of what beats; default: of a comb that goes straight down
     """
@@ -211,8 +255,8 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
-    shape, comb = head.shape, _comb(room, spans, path)
-    spacer, lower, roll = _lower_cylinders(task, radius, head)
+    comb = _comb(room, spans, path)
+    spacer, lower, roll = _lower_cylinders(task, radius)
     # A wider spacer leaves the columns their room; the warps count as shorter by that, which stretches them more.
     behind, rest = cylinder_offset(room) + spacer.radius - radius, complex(-room.back_rest, spans.back_rest)
     return SideView(
@@ -238,21 +282,35 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         spacer=spacer,
         lower=lower,
         roll=roll,
-        pile=head.drawn / 2,
-        head=shape,
-        rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
-        rail_side=_rail_side(task),
-        carriage_motor=motor_corner(head, drive_of(head)),
-        retreat=(shape.top + room.clearance + below(path)) / -RETREAT.imag,
+        pile=head.drawn / 2 if head else pile_leg(task),
+        heads=_heads(task, head, room.clearance + below(path)) if head else None,
     )
 
 
-def _rail_side(task: "LoomTask") -> float:
+def pile_leg(task: "LoomTask") -> float:
+    """Length of a knot's leg in front of the warps, shorn [m]."""
+    yarns = task.yarns
+    return leg_length(yarns.warp.diameter, yarns.pile.diameter, task.params.pile)
+
+
+def _heads(task: "LoomTask", head: Weaver, room: float) -> HeadsView:
+    """The heads, which retreat until they stand a room [m] below the fell."""
+    shape = head.shape
+    return HeadsView(
+        shape=shape,
+        rail=SideBox(complex(shape.front, shape.rail - RAIL / 2), complex(RAIL, RAIL)),
+        rail_side=_rail_side(task, head),
+        motor=motor_corner(head, drive_of(head)),
+        retreat=(shape.top + room) / -RETREAT.imag,
+    )
+
+
+def _rail_side(task: "LoomTask", head: Weaver) -> float:
     """Side of the lightest section that bears the heads in the middle of a span of the rail [m], the largest of all.
 
     Not smaller than that of the frame, where they stand side by side. One head where their number is open.
     """
-    params, head = task.params, task.weaver
+    params = task.params
     span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
     weight = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
     sections = ascending()
@@ -287,12 +345,13 @@ def below(path: "BeatPath | None") -> float:
     return max(0.0, -min(float(path.carried(polygon, path.tip).imag.min()) for polygon in path.outline))
 
 
-def _lower_cylinders(task: "LoomTask", radius: float, head: Weaver) -> tuple[RoundPart, RoundPart, float]:
+def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundPart, float]:
     """Spacer, lower cylinder of a radius, and the radius of this with the whole carpet wound on it [m].
 
     A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
     """
-    thickness = head.params.pile_height + 3 * task.yarns.warp.diameter
+    head, height = task.weaver, task.params.pile.pile_height
+    thickness = (head.params.pile_height if head else height) + 3 * task.yarns.warp.diameter
     roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius

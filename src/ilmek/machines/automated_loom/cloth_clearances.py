@@ -18,7 +18,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.carpet.pile import leg_length
-from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, rectangle
+from ilmek.machines.arrangement.side_view import RETREAT, HeadsView, SideBox, SideView, rectangle
 from ilmek.machines.automated_loom.beat_motion import beat_displacement, beat_joints, beat_tip
 from ilmek.machines.automated_loom.cyclogram import EVEN, HEADS, ODD, weft_windows
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -159,21 +159,28 @@ def _within(windows: tuple[tuple[float, float], ...], angles: FloatArray) -> Boo
 
 def _bodies(loom: LoomDesign, side: SideView, angle: FloatArray) -> Iterator[MovedOutline]:
     """What moves: the carrier where it is in the loom, heads and rail in their retreat, what beats, the guide cams."""
-    row, beat, head = loom.row_cyclogram, loom.beat.path, side.head
-    away = RETREAT * sample(row.track(HEADS), np.mod(angle, turn)).position[:, None]
+    row, beat = loom.row_cyclogram, loom.beat.path
     yield MovedOutline(CARRIER, rectangle(side.carrier)[None, :])
-    for box in (SideBox(head.body, head.size), SideBox(head.magazine, head.magazine_size)):
-        yield MovedOutline(HEAD, rectangle(box) + away)
-    for tool in head.tools:
-        name = SLEY if tool.name == SLEY_TOOL else HEAD
-        yield MovedOutline(name, rectangle(SideBox(tool.corner, tool.size)) + away)
-    yield MovedOutline(RAIL, rectangle(side.rail) + away)
+    if side.heads is not None:
+        away = RETREAT * sample(row.track(HEADS), np.mod(angle, turn)).position[:, None]
+        yield from _heads(side.heads, away)
     tip = beat_tip(beat, row, angle)
     for polygon in beat.outline[1:]:
         yield MovedOutline(BAR, beat.carried(polygon, tip))
     sunk = beat_displacement(beat, row, angle) if loom.params.beat == GUIDED else np.zeros(1, complex)
     for cam in side.cams:
         yield MovedOutline(CAMS, (cam.at + sunk)[:, None], cam.guide_radius)
+
+
+def _heads(heads: HeadsView, away: ComplexArray) -> Iterator[MovedOutline]:
+    """Body, magazine and tools of a head, and the rail, with their retreat [m]."""
+    head = heads.shape
+    for box in (SideBox(head.body, head.size), SideBox(head.magazine, head.magazine_size)):
+        yield MovedOutline(HEAD, rectangle(box) + away)
+    for tool in head.tools:
+        name = SLEY if tool.name == SLEY_TOOL else HEAD
+        yield MovedOutline(name, rectangle(SideBox(tool.corner, tool.size)) + away)
+    yield MovedOutline(RAIL, rectangle(heads.rail) + away)
 
 
 def _cloth(loom: LoomDesign, side: SideView, angle: FloatArray) -> Iterator[MovedOutline]:
@@ -195,7 +202,7 @@ def _cloth(loom: LoomDesign, side: SideView, angle: FloatArray) -> Iterator[Move
 def _parts(loom: LoomDesign) -> Mapping[str, tuple[str, ...]]:
     """Ids of the parts of the bodies, of those that the loom has."""
     carrier = SHUTTLE_WOOD if isinstance(loom.weft.carried, Shuttle) else RAPIER_TUBE
-    listed, head = {line.part for line in parts_of_loom(loom).parts}, case_plates(loom.weaver)
+    listed, head = {line.part for line in parts_of_loom(loom).parts}, case_plates(loom.weaver) if loom.heads else ()
     every = {
         CARRIER: (carrier,),
         HEAD: head,

@@ -156,7 +156,7 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
 
     listed  parts of the loom      time, energy  of weaving the carpet [s], [J]
     """
-    params, rates = loom.params, loom.params.cost
+    params, rates = loom.params, rates_of(loom, loom.weavers)
     cost = machine_cost(listed.parts, listed.prices)
     made, sold = cost.sold(rates)
     fence = fence_of(loom)
@@ -174,16 +174,23 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
     )
 
 
-def costs_by_heads(
+def rates_of(loom: LoomDesign, weavers: int) -> CostRates:
+    """The rates of a loom: where weavers tie, these are its persons."""
+    return replace(loom.params.cost, persons=float(weavers)) if weavers else loom.params.cost
+
+
+def costs_by_number(
     loom: LoomDesign, listed: PartsList, energy: float, beat: BeatOption | None = None
 ) -> tuple[CarpetCost, ...]:
-    """Costs with 1, 2, ... heads up to what fits: an estimate, with frame and energy as they are.
+    """Costs with 1, 2, ... heads or weavers up to what fits: an estimate, with frame and energy as they are.
 
     beat  in place of the loom's
     """
     own = carpet_cost(loom, listed, 1.0, energy)
     of_heads = {line.part for name in loom.head.children for line in loom.machines[name].parts} | OF_A_HEAD
-    of_one = machine_cost((line for line in listed.parts if line.part in of_heads), listed.prices).times(1 / loom.heads)
+    of_one = machine_cost((line for line in listed.parts if line.part in of_heads), listed.prices).times(
+        1 / loom.knotters
+    )
     exchanged = {AMPLIFIER} if beat is None else {AMPLIFIER, *(line.part for line in loom.beat.parts)}
     others = (line for line in listed.parts if line.part not in of_heads | exchanged)
     without = machine_cost((*others, *(() if beat is None else beat.drive.parts)), listed.prices)
@@ -192,14 +199,15 @@ def costs_by_heads(
         cost = with_control(without.plus(of_one.times(number)), listed.prices)
         made, sold = cost.sold(own.rates)
         time = estimated_time(loom, number, None if beat is None else beat.period)
-        return replace(own, time=time, parts=cost.parts, made=made, sold=sold)
+        rates = rates_of(loom, number if loom.weavers else 0)
+        return replace(own, rates=rates, time=time, parts=cost.parts, made=made, sold=sold)
 
-    return tuple(with_heads(number) for number in range(1, loom.heads_max + 1))
+    return tuple(with_heads(number) for number in range(1, loom.knotters_max + 1))
 
 
 def costs_by_beats(loom: LoomDesign, listed: PartsList, energy: float) -> Mapping[str, tuple[CarpetCost, ...]]:
-    """Costs by heads with each kind of beat whose drive keeps its limits, estimated; with the loom's own as it is."""
+    """Costs by heads or weavers with each kind of beat whose drive keeps its limits, estimated; its own as it is."""
     options = ready_loom(replace(loom.params, beat=AUTO)).options
     own = loom.params.beat
     good = [option for option in options if option.kind == own or all(check.ok for check in option.checks)]
-    return {one.kind: costs_by_heads(loom, listed, energy, None if one.kind == own else one) for one in good}
+    return {one.kind: costs_by_number(loom, listed, energy, None if one.kind == own else one) for one in good}

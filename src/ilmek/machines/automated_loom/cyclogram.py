@@ -51,7 +51,7 @@ from ilmek.units import deg, turn
 EVEN, ODD, BEATER, TAKE_UP = "even warps", "odd warps", "beater", "take-up"
 SLIDE = "slide of the beater"
 SOURCE = "thesis, 3.3: the four steps of a row"
-HEADS = "heads"
+HEADS, WEAVERS, LOOM = "heads", "weavers", "loom"
 RETREAT_END = 36 * deg
 """Cam angle at which the heads have retreated from the warps; they return behind the second beat."""
 
@@ -68,7 +68,7 @@ class RowTiming:
     lift, law   of the warps [m]             window  shed angles between which the weft's carrier has room [rad]
     carrier     of the weft, and its passage beat_end, take_up_end  angles of each, and of the second, half
     beat        the beater's motion          row_pitch  carpet taken up for a row [m]
-    retreat     of the heads from the warps [m]
+    retreat     of the heads from the warps [m]; None: there are no heads
     turning     share of the row for which the shedding cams turn; else they stand, the shed closed, for the beats
     """
 
@@ -81,7 +81,7 @@ class RowTiming:
     beat_end: float
     row_pitch: float
     take_up_end: float
-    retreat: float = 0.0
+    retreat: float | None = None
     turning: float = 1.0
 
     def early(self, angle: float) -> float:
@@ -131,6 +131,16 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     )
     relations = (*tied.relations, *head_relations(head))
     return Cyclogram(tied.name, period, (*tied.tracks, track), relations, (*tied.exclusions, *apart))
+
+
+def weavers_row(knots: float, wefts: float) -> Cyclogram:
+    """The cyclogram of a row that weavers tie: the time of its knots, then that of its wefts and beats [s]."""
+    begin, law = turn * knots / (knots + wefts), _law("uniform")
+    tied = Track(
+        WEAVERS, "weavers by hand", (TrackSegment("knots", 0.0, begin, 0.0, 1.0, law),), unit="1", revolves=1.0
+    )
+    woven = Track(LOOM, "loom", (TrackSegment("wefts and beats", begin, turn, 0.0, 1.0, law),), unit="1", revolves=1.0)
+    return Cyclogram("row with its weavers", knots + wefts, (tied, woven))
 
 
 def cam_tables_of(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
@@ -186,7 +196,7 @@ def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
         _beater(timing, period),
         *_slide(timing, period),
         _take_up(timing),
-        _heads(timing),
+        *_heads(timing),
     )
     return Cyclogram("row", period, tracks, relations(timing))
 
@@ -293,19 +303,21 @@ def _take_up(timing: RowTiming) -> Track:
     return Track(TAKE_UP, "warp cylinder", (part,), revolves=timing.row_pitch)
 
 
-def _heads(timing: RowTiming) -> Track:
-    """The heads' rail: away from the warps while the shed opens, and back behind the second beat."""
+def _heads(timing: RowTiming) -> tuple[Track, ...]:
+    """The heads' rail, if any: away from the warps while the shed opens, and back behind the second beat."""
+    if timing.retreat is None:
+        return ()
     law = _law("cycloidal")
     parts = (
         TrackSegment("retreat", 0.0, timing.early(RETREAT_END), 0.0, timing.retreat, law),
         TrackSegment("return", _HALF + timing.late(timing.beat_end), turn, timing.retreat, 0.0, law),
     )
-    return Track(HEADS, "linear axes", parts)
+    return (Track(HEADS, "linear axes", parts),)
 
 
 def shortest_retreat(timing: RowTiming, speed_limit: float, acceleration_limit: float) -> float:
-    """The shortest turn of the cams [s] in which the heads' rail keeps its limits."""
-    return shortest_period(_heads(timing), speed_limit, acceleration_limit)
+    """The shortest turn of the cams [s] in which the heads' rail keeps its limits; 0 without heads."""
+    return max((shortest_period(track, speed_limit, acceleration_limit) for track in _heads(timing)), default=0.0)
 
 
 def row_ends(row: Cyclogram) -> tuple[float, ...]:

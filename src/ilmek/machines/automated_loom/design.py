@@ -7,8 +7,7 @@ from functools import lru_cache
 
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.programme import least_time
-from ilmek.loom.sharing import heads_that_fit, least_distance, share
+from ilmek.loom.sharing import least_distance, share
 from ilmek.loom.times import Times
 from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
@@ -21,6 +20,7 @@ from ilmek.machines.automated_loom.cyclogram import (
     shortest_retreat,
     take_up_time,
     timed,
+    weavers_row,
 )
 from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -51,8 +51,9 @@ class LoomDesign:
     machines       its machines by name, in the order of the report: head, shedding, warp tension, ...
     task           of its machines                        side  the side view
     head           what ties the knots       beat  the drive of the beat
+    knotters       heads or weavers who share a row, and knotters_max  the most that find room
     row_timing, row_cyclogram   of the wefts and beats of a row, one turn of the shedding cams
-    knot_cyclogram              of a knot
+    knot_cyclogram              of a knot; of a row with its weavers where these tie
     times          of the acts of weaving, as the programme counts them
     journal        of the choice of what the parameters left open; `params` has what was chosen
     """
@@ -60,8 +61,8 @@ class LoomDesign:
     params: AutomatedLoomParams
     rows: int
     columns: int
-    heads: int
-    heads_max: int
+    knotters: int
+    knotters_max: int
     machines: Mapping[str, Child]
     task: LoomTask
     side: SideView
@@ -84,8 +85,23 @@ class LoomDesign:
         return self.search.choices if self.search else ()
 
     @property
+    def heads(self) -> int:
+        """Knotting heads; 0 where weavers tie."""
+        return self.knotters if self.head.weaver else 0
+
+    @property
+    def heads_max(self) -> int:
+        """The most heads that can share a row without meeting; 0 where weavers tie."""
+        return self.knotters_max if self.head.weaver else 0
+
+    @property
+    def weavers(self) -> int:
+        """Weavers who tie beside each other; 0 where heads do."""
+        return self.knotters - self.heads
+
+    @property
     def weaver(self) -> Weaver:
-        """The knotting head."""
+        """The knotting head. Raises KeyError where weavers tie."""
         return self.machines["weaver"].design_as(Weaver)
 
     @property
@@ -128,8 +144,8 @@ class LoomDesign:
 
     @property
     def head_width(self) -> float:
-        """Width of a head, the least distance of two [m]."""
-        return self.weaver.width
+        """Width of a head or a weaver, the least distance of two [m]."""
+        return self.head.width
 
     @property
     def head_distance(self) -> float:
@@ -144,7 +160,7 @@ class LoomDesign:
 
     @property
     def cyclograms(self) -> tuple[Cyclogram, Cyclogram]:
-        """The cyclograms of a knot and of a row."""
+        """The cyclograms of a knot, or of a row with its weavers, and of wefts and beats."""
         return self.knot_cyclogram, self.row_cyclogram
 
 
@@ -206,20 +222,19 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
     """
     params, task, knotting = ready.params, ready.task, ready.head
     machines, rows, columns = dict(ready.machines), task.rows, task.columns
-    head, weft, cams = knotting.weaver, task.weft, task.shedding
+    weft, cams = task.weft, task.shedding
     task = replace(task, side=laid_out(task, option.plan.path))
     timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
-    times = times_at(head, task.cloth.knot_pitch, period)
-    most = heads_that_fit(columns, task.cloth.knot_pitch, head.width)
-    _require_room(params, most, head.width)
-    heads = params.heads or 1
+    times = times_at(params, knotting, task.cloth.knot_pitch, period)
+    most = knotting.most(columns, task.cloth.knot_pitch)
+    number = knotters(params, most, knotting)
     task = replace(
         task,
         designs={name: child.design for name, child in machines.items()},
         period=period,
         take_up_time=take_up_time(timing, period),
-        row_time=least_time(1, columns, heads, times),
+        row_time=knotting.least_time(1, columns, number, times),
     )
     beat = option.plan.drive(task)
     task = replace(task, beat=beat)
@@ -227,15 +242,19 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
         if name not in BEFORE_THE_ROW:
             machines[name], task = _made(name, task)
     side = laid_out(task, beat.path)
-    timing = replace(timing, retreat=side.retreat)
-    machines |= {name: replace(machines[name], number=heads) for name in knotting.children}
-    chosen = replace(params, beat=option.kind, heads=heads, weft=weft.carrier, knot_cycle=head.params.cycle)
+    timing = replace(timing, retreat=side.heads.retreat if side.heads else None)
+    machines |= {name: replace(machines[name], number=number) for name in knotting.children}
+    chosen = replace(params, beat=option.kind, weft=weft.carrier)
+    if knotting.weaver:
+        chosen = replace(chosen, heads=number, knot_cycle=knotting.weaver.params.cycle)
+    else:
+        chosen = replace(chosen, weavers=number)
     return LoomDesign(
         params=chosen,
         rows=rows,
         columns=columns,
-        heads=heads,
-        heads_max=most,
+        knotters=number,
+        knotters_max=most,
         machines=machines,
         task=task,
         side=side,
@@ -243,7 +262,9 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
         beat=beat,
         row_timing=timing,
         row_cyclogram=_row_cyclogram(timing, period, machines),
-        knot_cyclogram=knot_cyclogram(head, times.knot),
+        knot_cyclogram=knot_cyclogram(knotting.weaver, times.knot)
+        if knotting.weaver
+        else weavers_row(task.row_time - period, period),
         times=times,
         journal=journal or SearchJournal(),
     )
@@ -279,11 +300,15 @@ def _designed(name: str, params: Params) -> MachineDesign:
     return design
 
 
-def times_at(head: Weaver, knot_pitch: float, weft: float) -> Times:
-    """Times of the acts of weaving [s] with a head at a pitch of the knots [m], and wefts and beats of a row [s].
+def times_at(params: AutomatedLoomParams, knotting: KnottingHead, knot_pitch: float, weft: float) -> Times:
+    """Times of the acts of weaving [s] at a pitch of the knots [m], with the time of wefts and beats of a row [s].
 
-    A step to the next knot that is longer than the head leaves for it lengthens the knot.
+    A step to the next knot that is longer than a head leaves for it lengthens the knot. The knots of a weaver's day
+    count all that she does for them.
     """
+    head = knotting.weaver
+    if head is None:
+        return Times(params.hand_knot, 0.0, 0.0, weft)
     carriage = head.params.carriage
     late = max(0.0, move_time(knot_pitch, carriage) - head.carriage_window)
     return Times(head.cycle + late, head.colour_change, travel_time(knot_pitch, head.carriage_window, carriage), weft)
@@ -294,13 +319,19 @@ def with_changes(times: Times, changes: float) -> Times:
     return replace(times, knot=times.knot + changes * times.colour_change)
 
 
-def _require_room(params: AutomatedLoomParams, most: int, wide: float) -> None:
-    """Raise LoomError where more heads are given than fit."""
-    if params.heads is not None and params.heads > most:
-        width, head = format_quantity(params.width, "m"), format_quantity(wide, "mm")
-        given = f"{params.heads} heads of {head} do not fit a carpet {width} wide"
-        allowed = f"at most {most}: neighbours keep half a head's share of the row between them"
-        raise LoomError(given, allowed=allowed, do=f"set heads={most}, or narrower heads")
+def knotters(params: AutomatedLoomParams, most: int, knotting: KnottingHead) -> int:
+    """Number of heads, or of weavers; one head, or all weavers that fit, where it is open.
+
+    Raises LoomError where more are given than fit.
+    """
+    head = knotting.weaver is not None
+    noun, given = ("head", params.heads) if head else ("weaver", params.weavers)
+    if given is not None and given > most:
+        width, each = format_quantity(params.width, "m"), format_quantity(knotting.width, "mm")
+        allowed = f"at most {most}: neighbours keep half a {noun}'s share of the row between them"
+        do = f"set {noun}s={most}{', or narrower heads' if head else ''}"
+        raise LoomError(f"{given} {noun}s of {each} do not fit a carpet {width} wide", allowed=allowed, do=do)
+    return given or (1 if head else most)
 
 
 def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
@@ -316,7 +347,7 @@ def _row_timing(task: LoomTask, cams: SheddingDesign, beat: Beat) -> RowTiming:
         beat_end=params.beat_end,
         row_pitch=task.cloth.row_distance,
         take_up_end=params.take_up_end,
-        retreat=task.side.retreat,
+        retreat=task.side.heads.retreat if task.side.heads else None,
     )
 
 

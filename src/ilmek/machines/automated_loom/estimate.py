@@ -16,19 +16,21 @@ from ilmek.carpet.design import knot_grid
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.loom.bobbins import stop_time
-from ilmek.loom.programme import least_time
 from ilmek.machines.automated_loom.design import LoomDesign, times_at, with_changes
 from ilmek.records import computed, record, result
 
 
-def estimated_time(loom: LoomDesign, heads: int | None = None, weft: float | None = None) -> float:
-    """Weaving time [s] without a chart, for the loom's heads or another number, wefts and beats or their time [s]."""
+def estimated_time(loom: LoomDesign, number: int | None = None, weft: float | None = None) -> float:
+    """Weaving time [s] without a chart, for the loom's heads or weavers or another number, wefts and beats or their
+    time [s].
+    """
     busy = with_changes(replace(loom.times, weft=weft or loom.times.weft), loom.params.changes_per_knot)
-    return least_time(loom.rows, loom.columns, heads or loom.heads, busy, loom.bobbins)
+    return loom.head.least_time(loom.rows, loom.columns, number or loom.knotters, busy, loom.bobbins)
 
 
-def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> FloatArray:
-    """Weaving times [s] of the same carpet on warps of another pitch [m], rows closer by the same measure, by heads.
+def estimated_times_at(loom: LoomDesign, pitch: float, numbers: Sequence[int]) -> FloatArray:
+    """Weaving times [s] of the same carpet on warps of another pitch [m], rows closer by the same measure, by number of
+    heads or weavers.
 
     Wefts, beats and the knot itself take what they take on this loom; steps of the carriage are of the other pitch.
     Usual wefts are the thinner the finer the pitch, so that the stops for their bobbins are as many.
@@ -37,9 +39,9 @@ def estimated_times_at(loom: LoomDesign, pitch: float, heads: Sequence[int]) -> 
     quality = loom.params.quality
     size = CarpetSize(loom.params.width, loom.params.length)
     rows, columns = knot_grid(size, Quality(quality.across * finer, quality.along * finer))
-    times = with_changes(times_at(loom.weaver, 2 * pitch, loom.times.weft), loom.params.changes_per_knot)
-    stops = stop_time(loom.bobbins, loom.rows)
-    return np.array([least_time(rows, columns, number, times) + stops for number in heads])
+    own = times_at(loom.params, loom.head, 2 * pitch, loom.times.weft)
+    times, stops = with_changes(own, loom.params.changes_per_knot), stop_time(loom.bobbins, loom.rows)
+    return np.array([loom.head.least_time(rows, columns, number, times) + stops for number in numbers])
 
 
 @record
@@ -50,7 +52,7 @@ class TimeShares:
     colour_changes: float
     wefts: float
     stops: float
-    utilisation: float = result("%", "time that a head ties or changes colour, as the mean of the heads")
+    utilisation: float = result("%", "time that a head or a weaver ties or changes colour, as the mean of all")
 
     @computed("%", "where the time goes")
     def time_shares(self) -> dict[str, float]:
@@ -75,5 +77,5 @@ def time_shares(loom: LoomDesign) -> TimeShares:
     change = changes * times.colour_change
     tying = 1 - wefts - stops
     knotting = tying * times.knot / (times.knot + change)
-    busy = loom.rows * loom.columns * (times.knot + change) / loom.heads
+    busy = loom.rows * loom.columns * (times.knot + change) / loom.knotters
     return TimeShares(knotting, tying - knotting, wefts, stops, busy / total)

@@ -8,7 +8,6 @@ import numpy as np
 
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.quality import COARSEST, FINEST
-from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_times_at
 from ilmek.machines.automated_loom.motion.actuators import knot_forces, knot_speeds, row_forces, row_speeds
@@ -24,8 +23,9 @@ from ilmek.units import format_quantity
 
 def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
     """The loom's figures: views, a row and a knot in motion with their actuators, the scaling of the weaving time."""
-    scaling = time_of_one_head if loom.heads_max == 1 else time_against_pitch
+    scaling = time_of_one_knotter if loom.knotters_max == 1 else time_against_pitch
     by_grippers: tuple[Callable[[LoomDesign], Figure], ...] = (knot_from_the_front, yarn_to_knot)
+    by_heads: tuple[Callable[[LoomDesign], Figure], ...] = (knot_speeds, knot_forces)
     made: tuple[Callable[[LoomDesign], Figure], ...] = (
         side,
         room,
@@ -37,11 +37,10 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
         one_row,
         row_speeds,
         row_forces,
-        knot_from_the_side,
-        *(by_grippers if ties_by_grippers(loom) else ()),
+        *((knot_from_the_side,) if loom.heads else ()),
+        *(by_grippers if loom.heads and ties_by_grippers(loom) else ()),
         one_knot,
-        knot_speeds,
-        knot_forces,
+        *(by_heads if loom.heads else ()),
         scaling,
     )
     return tuple(partial(make, loom) for make in made)
@@ -55,7 +54,10 @@ def one_row(loom: LoomDesign) -> Timing:
 
 
 def one_knot(loom: LoomDesign) -> Timing:
-    """The cyclogram of a knot."""
+    """The cyclogram of a knot, or of a row with its weavers."""
+    if not loom.heads:
+        note = "The weavers tie beside each other, each the knots of her share; the loom lays and beats the wefts then."
+        return draw(loom.knot_cyclogram, "One row with its weavers", note, drive=Axis("angle of the row", "deg"))
     order = "Order of the motions: thesis, 2.2.3; angles chosen, the thesis prints none. The head steps on at the end."
     return draw(loom.cyclograms[0], "One knot: the head's cams, and its step to the next knot", order)
 
@@ -65,21 +67,21 @@ _FINER = (0.4, 0.5, 0.75, 1.0, 1.5, 2.0)
 
 
 def time_against_pitch(loom: LoomDesign) -> Plot:
-    """How the weaving time of the same carpet scales: over the number of heads, a curve for each pitch of the warps."""
-    params, own = loom.params, loom.task.cloth.warp_pitch
+    """How the weaving time of the same carpet scales: over heads or weavers, a curve for each pitch of the warps."""
+    params, own, of = loom.params, loom.task.cloth.warp_pitch, "heads" if loom.heads else "weavers"
     series = []
     for factor in _FINER:
         pitch = factor * own
         if not _finest(loom) <= factor <= _coarsest(loom):
             continue
         columns = round(params.width / (2 * pitch))
-        heads = range(1, heads_that_fit(columns, 2 * pitch, loom.head_width) + 1)
-        total = estimated_times_at(loom, pitch, heads)
+        numbers = range(1, loom.head.most(columns, 2 * pitch) + 1)
+        total = estimated_times_at(loom, pitch, numbers)
         label = f"{format_quantity(pitch, 'mm', 3)}: {format_quantity(0.5 / pitch, '1/dm', 3)}"
-        series.append(Series(label, np.array(heads, dtype=float), total, dashed=factor != 1.0))
-    note = "warp pitch and knots across; rows by the same measure; head, wefts and beats as of this loom"
-    axes = Axis("heads"), Axis("time", "h")
-    return Plot("weaving-time-pitch", "Weaving time, heads and pitch", *axes, tuple(series), note=note)
+        series.append(Series(label, np.array(numbers, dtype=float), total, dashed=factor != 1.0))
+    note = "warp pitch and knots across; rows by the same measure; knot, wefts and beats as of this loom"
+    axes = Axis(of), Axis("time", "h")
+    return Plot("weaving-time-pitch", f"Weaving time, {of} and pitch", *axes, tuple(series), note=note)
 
 
 def _finest(loom: LoomDesign) -> float:
@@ -95,12 +97,12 @@ def _coarsest(loom: LoomDesign) -> float:
     return min(fewest, min(0.5 / own, quality.along) / COARSEST)
 
 
-def time_of_one_head(loom: LoomDesign) -> Plot:
-    """How the weaving time of a carpet too narrow for a second head scales: over the pitch of the warps."""
+def time_of_one_knotter(loom: LoomDesign) -> Plot:
+    """How the weaving time of a carpet too narrow for a second head or weaver scales: over the pitch of the warps."""
     own = loom.task.cloth.warp_pitch
     pitches = own * np.linspace(max(_FINER[0], _finest(loom)), min(_FINER[-1], max(1.0, _coarsest(loom))), 33)
     total = np.array([float(estimated_times_at(loom, pitch, (1,))[0]) for pitch in pitches.tolist()])
-    note = "rows by the same measure; head, wefts and beats as of this loom; there is room for one head"
+    note = "rows by the same measure; knot, wefts and beats as of this loom; there is room for one head or weaver"
     axes = Axis("warp pitch", "mm"), Axis("time", "h")
     marks = (Mark(own, "this loom"),)
     return Plot("weaving-time-pitch", "Weaving time and pitch", *axes, (Series("", pitches, total),), marks, note)

@@ -25,6 +25,7 @@ from ilmek.elements.beam.model import Beam
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, eccentric, euler
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.whirl import Mass, frequencies
+from ilmek.errors import LoomError
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.feet import FEET, Foot
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
@@ -67,43 +68,53 @@ def welded_to(frame: "LoomFrame", depth: float) -> HollowSquare:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameTask:
-    """What the frame bears.
+class RailTask:
+    """What the heads' rail bears.
 
-    width           of the rail [m]     height  of the columns [m]     depth   of the feet [m]
-    pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
-    carried         mass on the columns [kg]
-    heads           that ride on the rail                      head_mass, head_width  of one [kg, m]
-    rail_spans      of the rail, between columns and posts     sag_limit  of the rail [m]
-    stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
-    room            for the side of a column [m]               rail_drop  of a support before the rail, below it [m]
-    frequency       least natural frequency of the rail [Hz]   rail_least  side of the rail at least [m]
-    cargo           by the side of the rail [m]: mass of a length of what lies along it [kg/m]
+    width      of the rail [m]                      spans      of it, between columns and posts
+    heads      that ride on it                      head_mass, head_width  of one [kg, m]
+    sag_limit  of the rail [m]                      drop       of a support before the rail, below it [m]
+    frequency  least natural frequency [Hz]         least      side of its section at least [m]
+    cargo      by the side of the rail [m]: mass of a length of what lies along it [kg/m]
     """
 
     width: float
-    height: float
-    depth: float
-    pull: float
-    lever: float
-    carried: float
+    spans: int
     heads: int
     head_mass: float
     head_width: float
-    rail_spans: int
     sag_limit: float
-    stress_safety: float
-    buckling_safety: float
-    bow_limit: float
-    room: float = math.inf
-    rail_drop: float = 0.0
+    drop: float = 0.0
     frequency: float = 0.0
-    rail_least: float = 0.0
+    least: float = 0.0
     cargo: Callable[[float], float] = lambda _side: 0.0
 
     def rail_mass(self, section: HollowSquare) -> float:
         """Mass of a length of the rail of a section, with what it carries beside the heads [kg/m]."""
         return section.line_mass + self.cargo(section.side)
+
+
+@dataclass(frozen=True, slots=True)
+class FrameTask:
+    """What the frame bears.
+
+    height          of the columns [m]     depth   of the feet [m]
+    pull            of all warps, worst case [N]               lever   of the pull off a column's axis [m]
+    carried         mass on the columns [kg]
+    stress_safety, buckling_safety   of a column, against yield and Euler's load      bow_limit  of a column [m]
+    room            for the side of a column [m]               rail    of the heads; None: there is none
+    """
+
+    height: float
+    depth: float
+    pull: float
+    lever: float
+    carried: float
+    stress_safety: float
+    buckling_safety: float
+    bow_limit: float
+    room: float = math.inf
+    rail: RailTask | None = None
 
     @property
     def force(self) -> float:
@@ -114,25 +125,33 @@ class FrameTask:
 @record
 class LoomFrame:
     """The frame, designed: choice of its sections, sections, columns of a side, stress [Pa] and bow [m] of a column,
-    its safety against buckling, sag [m] of the rail; levelling foot.
+    its safety against buckling; levelling foot. rail: section of the heads' rail, None where there is none.
     """
 
     task: FrameTask
     choices: tuple[Choice, ...]
     column: HollowSquare
-    rail: HollowSquare
+    rail: HollowSquare | None
     number: int
     column_stress: float
     column_bow: float
     buckling_factor: float
-    rail_sag: float
     foot: Foot = FEET[0]
     foot_load: float = result("N", "load of a levelling foot, where two bear the loom", default=math.nan)
     mass: float = result("kg", "mass of the frame with its brackets and its rail", name="frame_mass", default=math.nan)
 
     frame_column = computed("", "square hollow section of the columns", lambda it: it.column.name)
     columns_of_a_side = computed("1", "columns of a side of the frame, side by side", lambda it: it.number)
-    frame_rail = computed("", "square hollow section of the heads' rail", lambda it: it.rail.name)
+    frame_rail = computed(
+        "", "square hollow section of the heads' rail", lambda it: it.rail and it.rail.name, optional=True
+    )
+
+    @property
+    def guide(self) -> tuple[HollowSquare, RailTask]:
+        """Section of the heads' rail, and what it bears. Raises LoomError where there is none."""
+        if self.rail is None or self.task.rail is None:
+            raise LoomError("no rail of heads", allowed="a loom whose knots heads tie")
+        return self.rail, self.task.rail
 
     def beside(self, face: float) -> tuple[float, ...]:
         """Axes of the columns of a side, the inmost first, from the middle of the width [m]; face  of that one [m]."""
@@ -141,7 +160,8 @@ class LoomFrame:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Strength and stiffness of the columns and of the heads' rail."""
-        return (*column_checks(self.task, self.column, self.number), *rail_checks(self.task, self.rail))
+        of_columns = column_checks(self.task, self.column, self.number)
+        return of_columns if self.rail is None else (*of_columns, *rail_checks(self.guide[1], self.rail))
 
 
 def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] = lambda _frame: ()) -> LoomFrame:
@@ -155,14 +175,13 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] 
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
     columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
-    high = [(1, one) for one in sections if one.side >= task.rail_least]
-    (_, rail), of_rail = _chosen("rail", high, lambda one: rail_checks(task, one[1]))
+    rail, of_rail = (None, ()) if task.rail is None else rail_for(task.rail)
 
     def framed(column: tuple[int, HollowSquare], *choices: Choice) -> LoomFrame:
         number, section = column
         stress, bow = column_load(task, section, number)
-        factor, sag = number * euler(task.height, section) / task.force, rail_sag(task, rail)
-        return LoomFrame(task, choices, section, rail, number, stress, bow, factor, sag)
+        factor = number * euler(task.height, section) / task.force
+        return LoomFrame(task, choices, section, rail, number, stress, bow, factor)
 
     def strength(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
         return column_checks(task, column[1], column[0])
@@ -172,7 +191,14 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] 
         return (*own, *sway(framed(column))) if all(check.ok for check in own) else own
 
     column, of_column = _chosen("columns", columns, stiffness, strength)
-    return framed(column, of_column, of_rail)
+    return framed(column, of_column, *of_rail)
+
+
+def rail_for(task: RailTask) -> tuple[HollowSquare, tuple[Choice, ...]]:
+    """The lightest section of the heads' rail that keeps its checks, and the choice of it."""
+    high = [(1, one) for one in ascending() if one.side >= task.least]
+    (_, rail), choice = _chosen("rail", high, lambda one: rail_checks(task, one[1]))
+    return rail, (choice,)
 
 
 def _chosen(
@@ -212,7 +238,7 @@ def column_checks(task: FrameTask, section: HollowSquare, number: int = 1) -> tu
     )
 
 
-def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, Check]:
+def rail_checks(task: RailTask, section: HollowSquare) -> tuple[Check, Check]:
     """Sag and natural frequency of the heads' rail of a section."""
     cure, parts = "set a shorter rail_span or a larger rail_sag", (part_id("rail"),)
     return (
@@ -230,39 +256,39 @@ def rail_checks(task: FrameTask, section: HollowSquare) -> tuple[Check, Check]:
 
 
 @lru_cache(maxsize=64)
-def rail_frequency(task: FrameTask, section: HollowSquare) -> float:
+def rail_frequency(task: RailTask, section: HollowSquare) -> float:
     """Lowest natural frequency of the rail on its supports [Hz], the heads that find room on a span in the middle of
     the first.
     """
-    span = task.width / task.rail_spans
+    span = task.width / task.spans
     mass = min(task.heads, math.ceil(span / task.head_width)) * task.head_mass
-    beam = Beam(task.width, tuple(np.linspace(0.0, task.width, task.rail_spans + 1).tolist()))
+    beam = Beam(task.width, tuple(np.linspace(0.0, task.width, task.spans + 1).tolist()))
     stiffness = STEEL.modulus * section.inertia
     lowest = frequencies(beam, stiffness, task.rail_mass(section), (Mass(span / 2, mass),), count=1)[0]
     return float(lowest) / turn
 
 
-def rail_sag(task: FrameTask, section: HollowSquare) -> float:
+def rail_sag(task: RailTask, section: HollowSquare) -> float:
     """Deflection [m] in the middle of a span of the rail under its own weight, its cargo and the heads, spread over
     their width there, and what a support between the ends lets it sink.
 
     Of a load w over the middle b of a span l: w b (8 l^3 - 4 l b^2 + b^3) / (384 E I); for b = l the whole span's.
     """
-    span, stiff = task.width / task.rail_spans, STEEL.modulus * section.inertia
+    span, stiff = task.width / task.spans, STEEL.modulus * section.inertia
     own = uniform.deflection_max(task.rail_mass(section) * GRAVITY, span, STEEL.modulus, section.inertia)
     number = min(task.heads, math.ceil(span / task.head_width))
     wide = min(number * task.head_width, span)
     force = number * task.head_mass * GRAVITY
     bent = float(np.add(own, force * (8 * span**3 - 4 * span * wide**2 + wide**3) / (384 * stiff)))
-    if task.rail_spans == 1:
+    if task.spans == 1:
         return bent
-    twist = section.twist(rail_support_load(task, section) * rail_ahead(section, task.rail_drop) / 2, span)
-    return bent + rail_ahead(section, task.rail_drop) * twist
+    twist = section.twist(rail_support_load(task, section) * rail_ahead(section, task.drop) / 2, span)
+    return bent + rail_ahead(section, task.drop) * twist
 
 
-def rail_support_load(task: FrameTask, section: HollowSquare, spans: int = 2) -> float:
+def rail_support_load(task: RailTask, section: HollowSquare, spans: int = 2) -> float:
     """Greatest load of a support of the rail [N]: half of the spans beside it, and all heads that find room on them."""
-    span = task.width / task.rail_spans
+    span = task.width / task.spans
     number = min(task.heads, math.ceil(spans * span / task.head_width))
     return (task.rail_mass(section) * spans * span / 2 + number * task.head_mass) * GRAVITY
 

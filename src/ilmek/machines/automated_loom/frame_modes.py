@@ -44,7 +44,9 @@ class FrameModes:
 
     across: float = result("Hz", "the frame sways across the width", name="frame_sway_across")
     along: float = result("Hz", "the frame sways along the warps", name="frame_sway_along")
-    rail: float = result("Hz", "the heads' rail bends between its supports", name="rail_frequency")
+    rail: float | None = result(
+        "Hz", "the heads' rail bends between its supports", name="rail_frequency", optional=True
+    )
     beam: float = result("Hz", "the beat's beam bends between its posts", name="beat_beam_frequency")
     drives: Mapping[str, float]
 
@@ -67,7 +69,7 @@ def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
     return FrameModes(
         across=_across(loom, frame),
         along=_along(loom, frame),
-        rail=rail_frequency(frame.task, frame.rail),
+        rail=None if frame.rail is None else rail_frequency(frame.guide[1], frame.rail),
         beam=_beat_beam(loom),
         drives=drive_frequencies(loom),
     )
@@ -107,7 +109,7 @@ def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:
     return {
         "strokes of the beat": loom.beat.beat.strokes / loom.beat.beat.time,
         **crank,
-        "knots of the heads": loom.heads / loom.times.knot,
+        **({"knots of the heads": loom.heads / loom.times.knot} if loom.heads else {}),
         "picks of the weft": 1 / loom.weft.passage.time,
     }
 
@@ -209,8 +211,10 @@ def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, H
     """Posts on a side's front foot: depth, height, section, and what each carries [m, m, kg]."""
     held = supports(loom, frame)
     yield post_depth(loom, frame), held.height, held.post, sum(part.mass_all for part in loom.beat.parts) / 2
-    ends, rail = rail_supports(loom, frame)[0], frame.task.rail_mass(frame.rail) * frame.task.width
-    yield ends.depth, ends.height, ends.post, (loom.heads * frame.task.head_mass + rail) / (2 * frame.task.rail_spans)
+    for ends in rail_supports(loom, frame)[:1]:
+        section, task = frame.guide
+        rail = task.rail_mass(section) * task.width
+        yield ends.depth, ends.height, ends.post, (loom.heads * task.head_mass + rail) / (2 * task.spans)
 
 
 def _beat_beam(loom: LoomDesign) -> float:

@@ -86,7 +86,8 @@ def _round(title: str, part: str, side: float, wall: float, force: float, moment
 
 def joint_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
     """Stress of each weld, load of the feet, and whether the loom tips."""
-    return (*(seam.check for seam in seams(loom, frame)), foot_check(frame), tipping(loom, frame))
+    tips = tipping(loom, frame)
+    return (*(seam.check for seam in seams(loom, frame)), foot_check(frame), *((tips,) if tips else ()))
 
 
 def foot_check(frame: LoomFrame) -> Check:
@@ -96,13 +97,17 @@ def foot_check(frame: LoomFrame) -> Check:
     return at_most("load of a levelling foot", frame.foot_load, frame.foot.rating, "N", source).with_cure(cure, *parts)
 
 
-def tipping(loom: LoomDesign, frame: LoomFrame) -> Check:
-    """Whether the loom stays on its feet while it beats; the weight at the columns' axis, the beat at its beam."""
+def tipping(loom: LoomDesign, frame: LoomFrame) -> Check | None:
+    """Whether the loom stays on its feet while it beats; the weight at the columns' axis, the beat at its beam. None
+    where nothing pushes it along the warps.
+    """
     held, weight = supports(loom, frame), 2 * frame.number * frame.foot_load
     lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom)
     height = corner.imag - loom.side.floor
     pushes = sum(own.push * len(own.stations) * (own.height + FOOT) for own in rail_supports(loom, frame))
     moment = (loom.beat.frame_force * height if held.across else 0.0) + pushes
+    if moment == 0:
+        return None
     source = "weight at the columns against the beat at its beam; assumed by this project"
     return at_least("frame: against tipping over its feet", weight * lever / moment, TIPPING, "1", source).with_cure(
         "set a lower speed of the crank, or bolt the feet to the floor", part_id("levelling-foot")

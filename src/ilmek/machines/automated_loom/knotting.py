@@ -1,6 +1,7 @@
-"""What ties the knots of a loom: cams and grippers of the head, or arms on it; one face for both.
+"""What ties the knots of a loom: weavers by hand, cams and grippers of a head, or arms on it; one face for all.
 
-Either way the head has the weaver's pile handler, colour magazine, cutter, warp opener, sley and carriage:
+A loom for weavers has no head. Else the head has the thesis' pile handler, colour magazine, cutter, warp opener, sley
+and carriage:
 
     cams   the weaver as the thesis has it: side and centre grippers on its cams; they tie the symmetric knot alone
     arms   the knotting dyad in place of the grippers; the opener keeps cam 2, the arms tie between the opened warps and
@@ -10,7 +11,8 @@ Cams are the cheaper ones: one motor in place of four servos. Where the usual an
 within its time, the motions are stretched and overlapped within their order [`timing.solver`].
 """
 
-from collections.abc import Callable, Mapping
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import TypeVar
@@ -19,6 +21,11 @@ import numpy as np
 
 from ilmek.cams.laws import LAWS
 from ilmek.errors import LoomError
+from ilmek.loom.bobbins import Bobbin
+from ilmek.loom.programme import least_time
+from ilmek.loom.sharing import heads_that_fit
+from ilmek.loom.times import Times
+from ilmek.machines.automated_loom.params import HAND
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
@@ -56,7 +63,10 @@ from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 WEAVER, DYAD = "weaver", "knotting-dyad"
 CAMS, ARMS = "cams", "arms"
 KNOTTING = (CAMS, ARMS)
-"""Kinds of knotting, the cheaper first."""
+"""Kinds of knotting by heads, the cheaper first."""
+
+ELBOW_ROOM = 0.6
+"""Width of a weaver at her work [m]; assumed by this project."""
 
 _SAME = 1e-9
 
@@ -73,19 +83,31 @@ ARM_LAW = LAWS["3-4-5"]
 class KnottingHead:
     """What ties the knots of a loom.
 
-    kind      cams or arms                     weaver    the head, with the tracks of arms in its cyclogram
+    kind      hand, cams or arms     weaver  the head, with the tracks of arms in its cyclogram; None: weavers by hand
     children  the machines of one head, by name     checks  of all of them
     """
 
     kind: str
-    weaver: Weaver
+    weaver: Weaver | None
     children: Mapping[str, Child]
     checks: tuple[Check, ...]
 
     @property
     def width(self) -> float:
-        """Width of the head along the row [m]."""
-        return self.weaver.width
+        """Width of a head, or of a weaver, along the row [m]."""
+        return self.weaver.width if self.weaver else ELBOW_ROOM
+
+    def most(self, columns: int, pitch: float) -> int:
+        """The most that find room on a row of knots of a pitch [m]; weavers sit still, each before her share."""
+        if self.weaver:
+            return heads_that_fit(columns, pitch, self.width)
+        return max(1, math.floor(columns * pitch / self.width + _SAME))
+
+    def least_time(self, rows: int, columns: int, number: int, times: Times, bobbins: Sequence[Bobbin] = ()) -> float:
+        """Weaving time [s] of a number of them without colour changes: of weavers that of the longest share."""
+        if self.weaver is None:
+            columns, number = math.ceil(columns / number), 1
+        return least_time(rows, columns, number, times, bobbins)
 
 
 def knotting_head(task: LoomTask) -> KnottingHead:
@@ -93,6 +115,8 @@ def knotting_head(task: LoomTask) -> KnottingHead:
 
     Raises LoomError where the settings of its machines contradict the loom's.
     """
+    if task.params.knotting == HAND:
+        return KnottingHead(HAND, None, {}, ())
     component = MACHINES[WEAVER]
     assert component.fit is not None
     params: WeaverParams = component.fit(task)

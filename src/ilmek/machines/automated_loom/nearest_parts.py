@@ -87,6 +87,8 @@ def _passes(loom: LoomDesign, horizon: float) -> Iterator[tuple[str, tuple[Appro
         return 0.0 if machine[first] == machine[other] else loom.params.clearance
 
     yield MIDDLE, approaches(tree, ROW, horizon, windows, required)
+    if not loom.heads:
+        return
     yield MIDDLE, approaches(tree, KNOT, horizon, TURN, required)
     on_heads = frozenset(tree.carried_by(HEAD))
     range_ = range_of_a_head(loom)
@@ -99,8 +101,8 @@ def _passes(loom: LoomDesign, horizon: float) -> Iterator[tuple[str, tuple[Appro
 
 
 def range_of_a_head(loom: LoomDesign) -> float:
-    """Length of the share of the row that a head ties, between its first and its last knot [m]."""
-    return loom.task.cloth.width / loom.heads - loom.knot_pitch
+    """Length of the share of the row that a head ties, between its first and its last knot [m]; 0 without heads."""
+    return loom.task.cloth.width / loom.heads - loom.knot_pitch if loom.heads else 0.0
 
 
 def _shifted(tree: Tree, shift: float) -> Tree:

@@ -62,7 +62,8 @@ def off_loom(loom: LoomDesign) -> OffLoom:
     size, quality, pile = CarpetSize(params.width, params.length), params.quality, cloth.carpet_yarns.pile
     of_ground = ground_yarns(size, quality, loom.rows, loom.columns, ground)
     bound = (*of_ground, selvedge_yarn(size, quality, pile.linear_density, ground))
-    knots = loom.rows * loom.columns * loom.weaver.yarn_in_knot * pile.linear_density
+    of_knot = float(loom.weaver.yarn_in_knot) if loom.heads else params.billed
+    knots = loom.rows * loom.columns * of_knot * pile.linear_density
     return OffLoom(
         finish=params.finish,
         width=params.width,

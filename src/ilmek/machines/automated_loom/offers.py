@@ -16,15 +16,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from ilmek.elements.prices import PriceRates, read_prices
-from ilmek.loom.programme import least_time
-from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost import MachineCost, machine_cost, with_control
-from ilmek.machines.automated_loom.design import ReadyLoom, ready_loom, times_at, with_changes
+from ilmek.machines.automated_loom.design import ReadyLoom, knotters, ready_loom, times_at, with_changes
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
-from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, COST, HAND, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.report import LoomAnalysis
 from ilmek.machines.automated_loom.search import LoomOffer
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
@@ -87,11 +85,15 @@ def branches(params: AutomatedLoomParams, kind: str) -> tuple[HeadBranch, ...]:
     wefts = WEFT_CARRIERS if params.weft == AUTO and params.aim != PRICE else (params.weft,)
     usual = WeaverParams().cycle
     slowest = params.knot_cycle or usual
-    looms = [ready_loom(replace(params, knotting=kind, weft=weft, knot_cycle=slowest)) for weft in wefts]
-    head = looms[0].head.weaver
+    cycle = None if kind == HAND else slowest
+    looms = [ready_loom(replace(params, knotting=kind, weft=weft, knot_cycle=cycle)) for weft in wefts]
+    knotting = looms[0].head
     quicker = params.knot_cycle is None and (params.aim != PRICE or params.deadline is not None)
-    cycles = _cycles(head.params) if quicker else (slowest,)
-    fit = heads_that_fit(looms[0].task.columns, looms[0].task.cloth.knot_pitch, head.width)
+    if knotting.weaver is None:
+        cycles: tuple[float, ...] = (params.hand_knot,)
+    else:
+        cycles = _cycles(knotting.weaver.params) if quicker else (slowest,)
+    fit = knotting.most(looms[0].task.columns, looms[0].task.cloth.knot_pitch)
     return tuple(_branch(kind, ready, cycles, fit) for ready in looms)
 
 
@@ -104,6 +106,7 @@ def _branch(kind: str, ready: ReadyLoom, cycles: tuple[float, ...], most: int) -
 def undesigned_arms(branch: HeadBranch) -> HeadBranch:
     """The branch of looms with arms, before these are designed, from that with cams: arms that take no time to tie."""
     servo = read_prices(branch.ready.params.prices)["servo"].each
+    assert branch.ready.head.weaver is not None
     head, own = branch.ready.head.weaver.params, branch.cycles
     no_time = replace(head, arms=replace(head.arms, time=1e-3, yarn=0.0))
     extra = MachineCost(ARM_SERVOS / 2 * servo, 0, ARM_SERVOS)
@@ -145,7 +148,7 @@ def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
     exchanged = own | {AMPLIFIER} | {line.part for line in (*loom.machines["weft"].parts, *loom.beat.parts)}
     rest = [line for line in listed.parts if line.part not in exchanged | OF_A_HEAD]
     creel = machine_cost((line for line in listed.parts if line.part in OF_A_HEAD), listed.prices)
-    return LoomRest(offer, machine_cost(rest, listed.prices), creel.times(1 / loom.heads), found.cost.floor)
+    return LoomRest(offer, machine_cost(rest, listed.prices), creel.times(1 / loom.knotters), found.cost.floor)
 
 
 @record
@@ -174,7 +177,8 @@ class Bounds:
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
                 continue
-            for heads in (params.heads,) if params.heads else range(1, branch.most + 1):
+            number = params.heads or (knotters(params, branch.most, ready.head) if ready.head.weaver is None else 0)
+            for heads in (number,) if number else range(1, branch.most + 1):
                 for cycle in branch.cycles:
                     time = _least_time(ready, option, cycle, heads)
                     offer = LoomOffer(branch.kind, cycle, weft, option.kind, heads, time, 0.0, 0.0)
@@ -215,8 +219,8 @@ def value_of(found: LoomAnalysis, aim: str) -> float:
 
 def _least_time(ready: ReadyLoom, option: BeatOption, cycle: float, heads: int) -> float:
     """The weaving time with a time of the knot [s], estimated; the step to the next knot may take longer."""
-    head, params, cloth = ready.head.weaver, ready.params, ready.task.cloth
-    times = times_at(head, cloth.knot_pitch, option.period)
-    tied = replace(times, knot=cycle * head.cycle / head.params.cycle)
+    head, params, task = ready.head.weaver, ready.params, ready.task
+    times = times_at(params, ready.head, task.cloth.knot_pitch, option.period)
+    tied = replace(times, knot=cycle * (head.cycle / head.params.cycle if head else 1))
     busy = with_changes(tied, params.changes_per_knot)
-    return least_time(ready.task.rows, ready.task.columns, heads, busy, ready.weft.bobbins)
+    return ready.head.least_time(task.rows, task.columns, heads, busy, ready.weft.bobbins)

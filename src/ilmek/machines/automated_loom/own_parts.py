@@ -9,6 +9,7 @@ import math
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import smallest_motor
+from ilmek.machines.arrangement.side_view import RAIL as RAIL_ROOM
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -36,13 +37,14 @@ RETREAT_MOTOR = part_id("retreat-motor")
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
     """What the frame carries beside the machines: axes and motors of the rail's retreat."""
-    return Tree((_retreat(loom, frame),))
+    return Tree((_retreat(loom, frame),) if loom.heads else ())
 
 
 def mass_of_rail(loom: LoomDesign, frame: LoomFrame) -> float:
     """Mass of the rail with what lies along it and its arms, which retreats with the heads [kg]."""
     arms = RigidBody(RAIL, tuple(rail_brackets(loom, frame))).moments.zeroth
-    return frame.task.rail_mass(frame.rail) * frame.task.width + arms
+    section, task = frame.guide
+    return task.rail_mass(section) * task.width + arms
 
 
 def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
@@ -52,7 +54,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     with its cargo and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
     """
     row, held = loom.row_cyclogram, rail_supports(loom, frame)
-    heads, room = row.track(HEADS), loom.side.rail.size.real / 2  # the axes carry the rail beyond both ends of its run
+    heads, room = row.track(HEADS), RAIL_ROOM / 2  # the axes carry the rail beyond both ends of its run
     mass = ((loom.heads + 1) * head_mass(loom.weaver) + mass_of_rail(loom, frame)) / 2
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
@@ -105,17 +107,19 @@ def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, motor: 
 
 
 def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMotion | None = None) -> Tree:
-    """The frame with all that stands on it, and the rail that retreats with the heads.
+    """The frame with all that stands on it, and the rail that retreats with the heads, if any.
 
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    rail, middle = member("rail", "rail of the heads", frame.rail, frame.task.width), rail_middle(loom)
-    along = placement(-frame.task.width / 2, z=frame.rail.side / 2).after(ALONG_WIDTH)
+    standing = standing_frame(loom, frame, axes)
+    return Tree((standing, _rail(loom, frame, retreat)) if loom.heads else (standing,))
+
+
+def _rail(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None) -> RigidBody:
+    """The rail with the guide and the belt of the heads."""
+    (section, task), middle = frame.guide, rail_middle(loom)
+    rail = member("rail", "rail of the heads", section, task.width)
+    along = placement(-task.width / 2, z=section.side / 2).after(ALONG_WIDTH)
     parts = (Occurrence(rail, (along,)), *guide_parts(loom), *rail_brackets(loom, frame))
     joint = Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR)
-    return Tree(
-        (
-            standing_frame(loom, frame, axes),
-            RigidBody(RAIL, parts, joint=joint, positions=(placement(0.0, middle.imag, middle.real),)),
-        )
-    )
+    return RigidBody(RAIL, parts, joint=joint, positions=(placement(0.0, middle.imag, middle.real),))

@@ -24,6 +24,9 @@ QUALITY = 25 / dm
 """Knots per metre where neither density nor pitch is given: the thesis' loom."""
 
 
+HAND = "hand"
+"""What weavers do, in place of a machine."""
+
 AUTO = "auto"
 """The choice of what is left open."""
 
@@ -64,6 +67,9 @@ class AutomatedLoomParams(Params):
         None, unit="h", at_least=1.0, at_most=1e9, doc="time in which the carpet is to be woven; default: any"
     )
     price_limit: float | None = param(None, at_least=0.0, at_most=1e12, doc="price of the loom at most; default: any")
+    weavers: int | None = param(
+        None, at_least=1, at_most=100, doc="weavers who tie beside each other, knotting=hand; default: all that fit"
+    )
     head_width: float | None = kind.length(
         None, at_least=0.01, at_most=1.0, doc="width of a head, least distance of two; default: what its contents need"
     )
@@ -81,7 +87,9 @@ class AutomatedLoomParams(Params):
         doc="time in which an operator changes a package and ties its yarn to the old one; assumed by this project",
     )
     knotting: str = param(
-        AUTO, choices=(AUTO, "cams", "arms"), doc="what ties the knots: cams and grippers, or arms; auto: chosen by aim"
+        AUTO,
+        choices=(AUTO, HAND, "cams", "arms"),
+        doc="what ties the knots: weavers by hand, cams and grippers, or arms; auto: cams or arms, by aim",
     )
     knot_cycle: float | None = kind.time(
         None, at_least=1e-3, at_most=3600.0, doc="required time of a knot; default: 2 s, or less by aim"
@@ -247,8 +255,14 @@ class AutomatedLoomParams(Params):
         turn = self.machines.of("weft").get("turn", WEFT_TURN)
         return GroundParams(selvedge_warps=self.selvedge_warps, weft_turn=float(str(turn)), yarns=self.yarns)
 
+    @property
+    def hand_knot(self) -> float:
+        """Time of a knot that a weaver ties [s], by the knots of her day."""
+        return self.cost.weaver_day / self.cost.weaver_knots
+
     def check_together(self) -> None:
-        """Raise LoomError where the warp pitch does not give the knots across."""
+        """Raise LoomError where the warp pitch does not give the knots across, and for heads where weavers tie."""
+        self._check_knotting()
         gives = 0.5 / self._pitch
         if abs(self.quality.across / gives - 1) > _SAME:
             wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
@@ -258,6 +272,19 @@ class AutomatedLoomParams(Params):
             do = f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out"
             raise LoomError(f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}", allowed=allowed, do=do)
 
+    def _check_knotting(self) -> None:
+        """Raise LoomError for what only heads have where weavers tie, and for weavers where heads do."""
+        machines = (name for name in ("weaver", "knotting-dyad") if self.machines.of(name))
+        set_for_heads = [name for name in _OF_HEADS if getattr(self, name) is not None]
+        if self.knotting == HAND and (contrary := [*set_for_heads, *machines]):
+            given, do = ", ".join(contrary), "leave them out, or set knotting=cams or arms"
+            raise LoomError(f"{given} with knotting=hand", allowed="a loom without heads has weavers=", do=do)
+        if self.knotting != HAND and self.weavers is not None:
+            raise LoomError(f"weavers={self.weavers} with knotting={self.knotting}", do="set knotting=hand, or heads=")
+
+
+_OF_HEADS = ("heads", "head_width", "head_mass", "tubes", "knot_cycle")
+"""Parameters that only a loom with heads has; all are open by default."""
 
 _SAME = 5e-3
 """A pitch within half a percent is the quality's: dealers allow ten."""

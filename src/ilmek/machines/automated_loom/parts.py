@@ -11,7 +11,7 @@ from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import foot_for
-from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, frame_for
+from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, RailTask, frame_for
 from ilmek.machines.automated_loom.frame_modes import least_frequency, sway_checks
 from ilmek.machines.automated_loom.joints import TIPPING, tipping
 from ilmek.machines.automated_loom.on_rail import rail_cargo
@@ -68,10 +68,10 @@ def parts_of_loom(loom: LoomDesign) -> PartsList:
     machines, on_posts = tuple(_of_machines(loom)), sum(part.mass_all for part in loom.beat.parts)
     task = frame_task(loom, sum(part.mass_all for part in machines) - on_posts)
     listed = _listed(loom, machines, _frame(loom, task), prices)
-    short = TIPPING / tipping(loom, listed.frame).value
-    if short <= 1:
+    tips = tipping(loom, listed.frame)
+    if tips is None or tips.value >= TIPPING:
         return listed
-    reach = short * min(foot_reach(loom, listed.frame))
+    reach = TIPPING / tips.value * min(foot_reach(loom, listed.frame))
     return _listed(loom, machines, _frame(loom, replace(task, depth=reach)), prices)
 
 
@@ -89,8 +89,10 @@ def _listed(
 
 def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
     """The frame, with more spans of the rail where the supports of those that its parameter sets do not hold."""
-    offered = [replace(task, rail_spans=number) for number in range(task.rail_spans, 2 * task.rail_spans + 1)]
-    frames = (frame_for(spans, lambda frame: sway_checks(loom, frame)) for spans in offered)
+    rail = task.rail
+    spans = range(rail.spans, 2 * rail.spans + 1) if rail else ()
+    offered = [replace(task, rail=rail and replace(rail, spans=number)) for number in spans] or [task]
+    frames = (frame_for(one, lambda frame: sway_checks(loom, frame)) for one in offered)
     first = next(frames)
     return next((frame for frame in chain((first,), frames) if _rail_holds(loom, frame)), first)
 
@@ -109,41 +111,51 @@ def own_tree(loom: LoomDesign) -> Tree:
 
 def built_side(loom: LoomDesign) -> SideView:
     """The side view with the heads' rail as it is built: its section about the axis that the arrangement gives it."""
-    rail, side = loom.side.rail, parts_of_loom(loom).frame.rail.side
+    heads = loom.side.heads
+    if heads is None:
+        return loom.side
+    rail, side = heads.rail, parts_of_loom(loom).frame.guide[0].side
     size = complex(side, side)
-    return replace(loom.side, rail=SideBox(rail.corner + (rail.size - size) / 2, size))
+    return replace(loom.side, heads=replace(heads, rail=SideBox(rail.corner + (rail.size - size) / 2, size)))
 
 
 def frame_task(loom: LoomDesign, carried: float) -> FrameTask:
     """The load of this loom's frame, with the mass that its columns carry [kg]; posts bear crank-rockers."""
     params, cylinder = loom.params, loom.warp_tension
-    wide, (behind, before) = loom.task.rail_length, loom.side.column_room
+    behind, before = loom.side.column_room
     return FrameTask(
-        width=wide,
         height=loom.side.loom_height,
         depth=_DEPTH * loom.side.loom_height,
         pull=cylinder.loads.worst,
         lever=abs(loom.side.column),
         carried=carried,
-        heads=loom.heads,
-        head_mass=head_mass(loom.weaver),
-        head_width=loom.head_width,
-        rail_spans=math.ceil(wide / params.rail_span - 1e-9),
-        sag_limit=params.rail_sag,
         stress_safety=params.column_safety,
         buckling_safety=params.buckling_safety,
         bow_limit=params.column_bow,
         room=before - behind - 2 * ROOM,
-        rail_drop=_rail_drop(loom),
+        rail=_rail_task(loom, loom.side.heads.rail) if loom.side.heads else None,
+    )
+
+
+def _rail_task(loom: LoomDesign, rail: SideBox) -> RailTask:
+    """The load of the rail of a loom's heads, for which the arrangement keeps a room."""
+    params, wide = loom.params, loom.task.rail_length
+    return RailTask(
+        width=wide,
+        spans=math.ceil(wide / params.rail_span - 1e-9),
+        heads=loom.heads,
+        head_mass=head_mass(loom.weaver),
+        head_width=loom.head_width,
+        sag_limit=params.rail_sag,
+        drop=_rail_drop(loom, rail),
         frequency=least_frequency(loom),
-        rail_least=least_rail(loom.weaver, params.clearance),
+        least=least_rail(loom.weaver, params.clearance),
         cargo=partial(rail_cargo, loom),
     )
 
 
-def _rail_drop(loom: LoomDesign) -> float:
+def _rail_drop(loom: LoomDesign, rail: SideBox) -> float:
     """How far axes of the retreat before the rail lie below it, so that what beats passes above their ends [m]."""
-    rail = loom.side.rail
     end = (rail.corner + rail.size / 2).imag - rail.size.real / 2 * RETREAT.imag + RAIL_AXIS / 2 * RETREAT.real
     return max(0.0, end + below(loom.beat.path) + loom.params.clearance)
 

@@ -93,14 +93,17 @@ class RailSupport:
 
 
 def rail_supports(loom: LoomDesign, frame: LoomFrame) -> tuple[RailSupport, ...]:
-    """The supports at the ends, and those between where the rail has several spans."""
-    return (_at_ends(loom, frame), *(() if frame.task.rail_spans == 1 else (_between(loom, frame),)))
+    """The supports at the ends, and those between where the rail has several spans; none without heads."""
+    if frame.task.rail is None:
+        return ()
+    return (_at_ends(loom, frame), *(() if frame.task.rail.spans == 1 else (_between(loom, frame),)))
 
 
 def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
-    axis, near, bottom = rail_middle(loom), frame.task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
+    rail, task = frame.guide
+    axis, near, bottom = rail_middle(loom), task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
     beside = frame.beside(brackets_of(loom).face)[0]
-    load = rail_support_load(frame.task, frame.rail, spans=1)
+    load = rail_support_load(task, rail, spans=1)
 
     def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
         return RailSupport(
@@ -122,10 +125,11 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
 
 
 def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
-    spans, wide, ahead = frame.task.rail_spans, frame.task.width, _ahead(loom, frame)
-    axis = rail_middle(loom) + ahead - 1j * frame.task.rail_drop
-    end = axis + loom.side.retreat * RETREAT
-    load = rail_support_load(frame.task, frame.rail, spans=2)
+    (rail, task), ahead = frame.guide, _ahead(loom, frame)
+    spans, wide = task.spans, task.width
+    axis = rail_middle(loom) + ahead - 1j * task.drop
+    end = axis + loom.side.of_heads.retreated
+    load = rail_support_load(task, rail, spans=2)
 
     def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
         return RailSupport(
@@ -133,7 +137,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             arm_name="rail-bracket",
             height=end.imag - floor_top(loom, frame),
             lever=RAIL_AXIS / 2 + post.side / 2,
-            reach=ahead - frame.rail.side / 2,
+            reach=ahead - rail.side / 2,
             load=load + _push(loom, load) * -RETREAT.imag,
             push=_push(loom, load) * RETREAT.real,
             post=post,
@@ -150,8 +154,9 @@ def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
     """From the back of the rail to the axes between its ends [m]: their posts stand on a beam of their own, clear of
     that of the beat's posts, or on that.
     """
-    least = rail_ahead(frame.rail, frame.task.rail_drop)
-    depth, beam = (rail_middle(loom) + least + loom.side.retreat * RETREAT).real, base_section(loom, frame).side
+    rail, task = frame.guide
+    least = rail_ahead(rail, task.drop)
+    depth, beam = (rail_middle(loom) + least + loom.side.of_heads.retreated).real, base_section(loom, frame).side
     apart = post_depth(loom, frame) - depth
     if abs(apart) >= beam:
         return least
@@ -217,8 +222,7 @@ def rail_brackets(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
     """The arms of the rail between its ends, in its own axes."""
     for own in rail_supports(loom, frame):
         if own.name != "rail-post":
-            reach = (own.axis - rail_middle(loom)).real + RAIL_AXIS / 2 - frame.rail.side
+            side, drop = frame.guide[0].side, frame.guide[1].drop
+            reach = (own.axis - rail_middle(loom)).real + RAIL_AXIS / 2 - side
             arm = member(own.arm_name, "arm of the rail", own.arm, reach)
-            yield Occurrence(
-                arm, tuple(placement(x - RAIL_AXIS, -frame.task.rail_drop, frame.rail.side) for x in own.stations)
-            )
+            yield Occurrence(arm, tuple(placement(x - RAIL_AXIS, -drop, side) for x in own.stations))

@@ -10,7 +10,7 @@ from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
-from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_heads
+from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_number
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
@@ -80,16 +80,21 @@ class LoomAnalysis:
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
     knots_per_minute = computed("1", "of all heads, wefts included, estimated", lambda it: 60 * it.knots / it.time)
-    cycle_time_knot = computed("s", "time of a knot of one head", lambda it: it.loom.times.knot)
+    cycle_time_knot = computed("s", "time of a knot of one head or weaver", lambda it: it.loom.times.knot)
     cycle_time_row = computed(
         "s", "wefts and beats of a row: a turn of the shedding cams, without knots", lambda it: it.loom.times.weft
     )
     colour_change_time = computed(
         "s", "mean time to bring another yarn in line", lambda it: it.loom.times.colour_change
     )
-    knotting = computed("", "what ties the knots: cams or arms", lambda it: it.loom.head.kind)
-    heads = computed("1", "knotting heads", lambda it: it.loom.heads)
-    heads_max = computed("1", "the most that can share a row without meeting", lambda it: it.loom.heads_max)
+    knotting = computed("", "what ties the knots: hand, cams or arms", lambda it: it.loom.head.kind)
+    heads = computed("1", "knotting heads; 0: weavers tie", lambda it: it.loom.heads)
+    heads_max = computed(
+        "1",
+        "the most that can share a row without meeting; 0: weavers tie",
+        lambda it: it.loom.heads_max,
+    )
+    weavers = computed("1", "weavers who tie beside each other; 0: heads tie", lambda it: it.loom.weavers)
     rows = computed("1", "rows of knots", lambda it: it.loom.rows)
     columns = computed("1", "knots of a row", lambda it: it.loom.columns)
     knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
@@ -119,7 +124,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    path, modes = yarn_path(found.loom), frame_modes(found.loom, found.listed.frame)
+    path = (yarn_path(found.loom),) if found.loom.heads else ()
     return (
         found.cost,
         found,
@@ -127,21 +132,23 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
         found.shares,
         found.beat,
         found.energy,
-        path,
+        *path,
         found.listed,
         off_loom(found.loom),
-        modes,
+        frame_modes(found.loom, found.listed.frame),
     )
 
 
 def _heads_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """Room of the heads on their row."""
+    """Room of the heads on their row, and the tension of their belts."""
+    if not loom.heads:
+        return ()
     wide, plates = loom.head_width, case_plates(loom.weaver)
     number = at_most("heads that share a row", loom.heads, loom.heads_max, "1", "width and head_width")
     apart = at_least("distance of two heads", loom.head_distance, wide, "mm", "head_width")
-    return tuple(
-        replace(check, cure=FEWER_HEADS, parts=plates) for check in (number, *((apart,) if loom.heads > 1 else ()))
-    )
+    room = (number, apart) if loom.heads > 1 else (number,)
+    tension = tension_check(drive_of(loom.weaver), loom.heads)
+    return (*(replace(check, cure=FEWER_HEADS, parts=plates) for check in room), tension)
 
 
 @lru_cache(maxsize=4)
@@ -180,7 +187,6 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
         *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
-        tension_check(drive_of(loom.weaver), loom.heads),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
         *joint_checks(loom, found.listed.frame),
         *frame_modes(loom, found.listed.frame).checks,
@@ -190,6 +196,8 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
 
 def _retreat_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """The limits of the axes on which the heads' rail retreats."""
+    if not loom.heads:
+        return ()
     params, row = loom.params, loom.row_cyclogram
     heads = row.track(HEADS)
     speed, acceleration = peak_speed(heads, row.period), peak_acceleration(heads, row.period)
@@ -247,29 +255,31 @@ def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
     costs = _heads_table(found), _cost_table(found)
     listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
-    return (*listed, cloth_table(found.loom), *yarn_tables(found.loom))
+    return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
 
 
 def _heads_table(found: LoomAnalysis) -> Table:
     loom = found.loom
     rows = tuple(
-        (heads, cost.time, cost.time / loom.rows, 60 * found.knots / cost.time, cost.parts, cost.cost_per_carpet)
-        for heads, cost in enumerate(costs_by_heads(loom, found.listed, found.energy.total), 1)
+        (number, cost.time, cost.time / loom.rows, 60 * found.knots / cost.time, cost.parts, cost.cost_per_carpet)
+        for number, cost in enumerate(costs_by_number(loom, found.listed, found.energy.total), 1)
     )
+    of = "heads" if loom.heads else "weavers"
     heads_of = columns(
-        "heads | weaving time [h] | a row [s] | knots a minute | price of the parts | cost of a carpet without yarn"
+        f"{of} | weaving time [h] | a row [s] | knots a minute | price of the parts | cost of a carpet without yarn"
     )
-    return Table("loom-heads", "Time, price and cost by number of heads, estimated: the frame as it is", heads_of, rows)
+    return Table(f"loom-{of}", f"Time, price and cost by number of {of}, estimated: the frame as it is", heads_of, rows)
 
 
 def _cost_table(found: LoomAnalysis) -> Table:
     costs = costs_by_beats(found.loom, found.listed, found.energy.total)
     rows = tuple(
-        (heads, *(cost.cost_per_carpet for cost in row))
-        for heads, row in enumerate(zip(*costs.values(), strict=True), 1)
+        (number, *(cost.cost_per_carpet for cost in row))
+        for number, row in enumerate(zip(*costs.values(), strict=True), 1)
     )
-    title = "Cost of a carpet without yarn by beat and number of heads, estimated: knot and frame as they are"
-    return Table("loom-cost", title, columns("heads", *costs), rows)
+    of = "heads" if found.loom.heads else "weavers"
+    title = f"Cost of a carpet without yarn by beat and number of {of}, estimated: knot and frame as they are"
+    return Table("loom-cost", title, columns(of, *costs), rows)
 
 
 def _parts_table(listed: PartsList) -> Table:
@@ -303,9 +313,10 @@ def _row_table(loom: LoomDesign) -> Table:
 
 
 def cam_tables(loom: LoomDesign) -> tuple[CamTable, ...]:
-    """Electronic cams of the weft's carrier, beater, take-up and carriage."""
+    """Electronic cams of the weft's carrier, beater, take-up, and the heads' carriage."""
     knot, row = loom.cyclograms
-    return (*cam_tables_of(row, (loom.row_timing.carrier, BEATER, TAKE_UP)), *cam_tables_of(knot, (CARRIAGE,)))
+    of_row = cam_tables_of(row, (loom.row_timing.carrier, BEATER, TAKE_UP))
+    return (*of_row, *cam_tables_of(knot, (CARRIAGE,))) if loom.heads else of_row
 
 
 def warnings(found: LoomAnalysis) -> tuple[str, ...]:

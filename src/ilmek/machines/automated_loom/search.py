@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from ilmek.machines.automated_loom.params import AUTO, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, HAND, TIME, AutomatedLoomParams
 from ilmek.records import record
 from ilmek.report import Check, Choice, Json
 from ilmek.report.choice import failing
@@ -14,7 +14,10 @@ _SAME = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class LoomOffer:
-    """Finite choices of a loom, and the least that it has: weaving time [s], price of its parts, value of the aim."""
+    """Finite choices of a loom, and the least that it has: weaving time [s], price of its parts, value of the aim.
+
+    cycle  time of a knot [s]      heads  number of heads, or of weavers
+    """
 
     knotting: str
     cycle: float
@@ -28,6 +31,8 @@ class LoomOffer:
     def of(self, params: AutomatedLoomParams) -> AutomatedLoomParams:
         """The parameters with these choices."""
         kinds = replace(params, knotting=self.knotting, weft=self.weft, beat=self.beat)
+        if self.knotting == HAND:
+            return replace(kinds, weavers=self.heads)
         return replace(kinds, knot_cycle=self.cycle, heads=self.heads)
 
     @property
@@ -38,14 +43,11 @@ class LoomOffer:
     @property
     def names(self) -> Mapping[str, str]:
         """The choices as texts, by the names of their parameters."""
+        kinds = {"beat": self.beat, "knotting": self.knotting}
+        if self.knotting == HAND:
+            return {**kinds, "weft": self.weft}
         cycle = format_quantity(self.cycle, "s")
-        return {
-            "beat": self.beat,
-            "knotting": self.knotting,
-            "knot_cycle": cycle,
-            "weft": self.weft,
-            "heads": str(self.heads),
-        }
+        return {**kinds, "knot_cycle": cycle, "weft": self.weft, "heads": str(self.heads)}
 
 
 @record

@@ -30,7 +30,7 @@ from ilmek.machines.automated_loom.offers import (
     undesigned_arms,
     value_of,
 )
-from ilmek.machines.automated_loom.params import AUTO, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, HAND, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.report import all_checks, analyse
 from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch, SearchJournal
@@ -50,8 +50,8 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
 
     The last looms are kept: commands and reports that begin with the same parameters share the design.
 
-    Raises LoomError where more heads are given than fit, or the shed leaves no time for the weft; CarpetError for a
-    carpet without knots; the errors of the machines where their parameters contradict each other.
+    Raises LoomError where more heads or weavers are given than fit, or the shed leaves no time for the weft;
+    CarpetError for a carpet without knots; the errors of the machines where their parameters contradict each other.
     """
     return _chosen(params, _ALL)
 
@@ -74,7 +74,8 @@ def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]
     kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
     first = branches(params, kinds[0])
     journal = SearchJournal()
-    one = len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1 and params.heads
+    given = params.heads is not None or params.knotting == HAND
+    one = given and len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1
     bounds = None if one else _simplest(first[0], journal, params)
     if bounds is None:
         return with_beat(first[0].ready, first[0].ready.options[0])
@@ -94,7 +95,7 @@ def _simplest(branch: HeadBranch, journal: SearchJournal, params: AutomatedLoomP
             found = analyse(with_beat(branch.ready, option, journal))
         except ParameterError:
             continue
-        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, option.kind, found.loom.heads, 0.0, 0.0, 0.0)
+        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, option.kind, found.loom.knotters, 0.0, 0.0, 0.0)
         return Bounds(params, found, [rest_of(offer, found)])
     return None
 

@@ -83,8 +83,11 @@ def _front_depths(loom: LoomDesign, frame: LoomFrame) -> tuple[float, ...]:
 
 def _front(loom: LoomDesign, frame: LoomFrame) -> float:
     """Axis of the last of what stands before the columns, in the side view [m]."""
-    rail = (loom.side.rail.corner + loom.side.rail.size).real + loom.side.retreat
-    return max(rail + frame.column.side / 2, *_front_depths(loom, frame))
+    heads, posts = loom.side.heads, max(_front_depths(loom, frame))
+    if heads is None:
+        return posts
+    rail: float = (heads.rail.corner + heads.rail.size).real + heads.retreat
+    return max(rail + frame.column.side / 2, posts)
 
 
 def _before_the_roll(loom: LoomDesign, frame: LoomFrame) -> tuple[float, bool]:

@@ -173,7 +173,7 @@ def _post_checks(section: HollowSquare, height: float, force: float, *, across: 
 
 def rail_middle(loom: LoomDesign) -> complex:
     """Back of the heads' rail, where its axes of the retreat begin, in the side view [m]."""
-    rail = loom.side.rail
+    rail = loom.side.of_heads.rail
     return rail.corner + rail.size / 2
 
 
@@ -183,6 +183,8 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
     """
     beam, corner = beat_beam(loom)
     middle, half = corner.real + beam.section.side / 2, supports(loom, frame).post.side / 2
+    if loom.side.heads is None:
+        return middle
     arm, apart = rail_middle(loom), RAIL_AXIS / 2 + ROOM + half
     if corner.imag <= arm.imag - RAIL_AXIS / 2 or abs(middle - arm.real) >= apart:
         return middle

@@ -232,18 +232,22 @@ def _heights(view: SideView, left: float) -> tuple[Stroke, ...]:
 
 
 def _room_dimensions(loom: LoomDesign, low: float) -> tuple[Stroke, ...]:
-    """Front span, height of the weft and stroke of the beat at the left, the retreat below."""
+    """Front span, height of the weft and stroke of the beat at the left, the retreat of heads below."""
     view, cam = loom.side, loom.side.cams[0]
     left = cam.at.real - cam.guide_radius
-    retreat = float(sample(loom.row_cyclogram.track(HEADS), np.linspace(0.0, turn, 721)).position.max())
-    corner = view.head.body.real
-    away = np.array([corner, corner + retreat]) + 1j * low
     return (
+        *(() if view.heads is None else (_retreat(loom, view.heads.shape.body.real, low),)),
         _upright(left - 0.02, 0.0, view.front_span, "front span"),
         _upright(left + 0.05, 0.0, view.weft_height, "weft"),
         _upright(left + 0.10, 0.0, view.beat_stroke, "beat"),
-        Stroke(away, "dimension", f"retreat {format_quantity(retreat, 'mm', 3)}"),
     )
+
+
+def _retreat(loom: LoomDesign, corner: float, low: float) -> Stroke:
+    """The dimension of the heads' retreat from the lower corner of their bodies, at a height [m]."""
+    retreat = float(sample(loom.row_cyclogram.track(HEADS), np.linspace(0.0, turn, 721)).position.max())
+    away = np.array([corner, corner + retreat]) + 1j * low
+    return Stroke(away, "dimension", f"retreat {format_quantity(retreat, 'mm', 3)}")
 
 
 def spread(heights: list[float], apart: float) -> list[float]:

@@ -1,5 +1,7 @@
 """The arm of a crank-rocker that clears heads and reed: at rest its rocker is over heads that knot, its plate in front.
 
+Where weavers tie, the rocker at rest is over the room of their hands, which do not retreat.
+
 Side view, the fell at 0, the pivot of the rocker at P in front of it. At rest the rocker has swung up by d; its half
 width is e. The plate of crank and rocker has its lower corner at P - e - i e, and its edge there runs as the heads
 retreat, down and to the front at the angle r. A corner x + i y of a head or of its rail keeps a distance c from both
@@ -44,11 +46,11 @@ def ground_beside_heads(
     ground = linkage.params.ground
     if side is None:
         return ground
-    longer = max(
+    longer = (
         *((clearance - gap) / math.sin(linkage.swing) for gap in _over(linkage, side)),
         *((clearance - gap) / math.sin(_SLOPE) for gap in _before(linkage, side)),
     )
-    grown = 1 + max(longer, 0.0) / linkage.lengths["beater"]
+    grown = 1 + max(*longer, 0.0) / linkage.lengths["beater"]
 
     def clear(scale: float) -> bool:
         free = bar is None or _before_bar(linkage, bar, scale) >= clearance
@@ -64,25 +66,25 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     cure = "leave the ground of the crank-rocker open, or set fewer heads"
     source = "parameter clearance; the rail no larger than its room in the arrangement"
     named = "clearance: coupler and cams", _before_cams(linkage, side), clearance, "mm", "parameter clearance"
+    tying = "heads" if side.heads else "hands"
     return (
         at_least(*named).with_cure("leave the ground of the crank-rocker open", PART_IDS["coupler"]),
         at_least(
-            "clearance: rocker at rest and heads that knot", min(_over(linkage, side)), clearance, "mm", source
+            f"clearance: rocker at rest and {tying} that knot", min(_over(linkage, side)), clearance, "mm", source
         ).with_cure(cure, PART_IDS["rocker"]),
-        at_least(
-            "clearance: plate of the crank-rocker and heads that retreat",
-            min(_before(linkage, side)),
-            clearance,
-            "mm",
-            source,
-        ).with_cure(cure, PLATE),
+        *(
+            at_least(
+                "clearance: plate of the crank-rocker and heads that retreat", gap, clearance, "mm", source
+            ).with_cure(cure, PLATE)
+            for gap in sorted(_before(linkage, side))[:1]
+        ),
     )
 
 
 def _over(linkage: BeatUp, side: SideView) -> Iterator[float]:
     """Gaps between the rocker at rest and the corners of heads and rail [m]."""
     swing, arm, half = linkage.swing, linkage.lengths["beater"], linkage.params.width / 2
-    return ((arm - corner.real) * math.sin(swing) - corner.imag * math.cos(swing) - half for corner in _corners(side))
+    return ((arm - corner.real) * math.sin(swing) - corner.imag * math.cos(swing) - half for corner in side.tying)
 
 
 def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:
@@ -90,7 +92,7 @@ def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:
     arm, half = linkage.lengths["beater"], linkage.params.width / 2
     return (
         (arm - half - corner.real) * math.sin(_SLOPE) - (half + corner.imag) * math.cos(_SLOPE)
-        for corner in _corners(side)
+        for corner in (side.heads.corners if side.heads else ())
     )
 
 
@@ -130,10 +132,3 @@ def _coupler(linkage: BeatUp, *, on_rocker: bool = False) -> ComplexArray:
 def _in_side_view(linkage: BeatUp, pin: ComplexArray) -> ComplexArray:
     """Positions of a pin of the linkage in the side view [m] (see `tree.in_side_view`)."""
     return np.asarray(shaft(linkage) - np.conj(pin) * np.exp(1j * linkage.rocker_angles[0]))
-
-
-def _corners(side: SideView) -> Iterator[complex]:
-    """Upper corners in front of a head that knots, of its carriage's motor, and of its rail, in the side view [m]."""
-    yield from side.head.corners
-    yield side.carriage_motor
-    yield side.rail.corner + side.rail.size / 2 + side.rail_side * (1 + 0.5j)

@@ -34,7 +34,10 @@ from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.bill import bill
 from ilmek.records import record
 from ilmek.report import Check, Choice, Work, at_least, at_most, must
-from ilmek.units import turn
+from ilmek.units import mm, turn
+
+ABOVE_SIGHT = 400 * mm
+"""Of what crosses the loom before weavers, over the fell [m]: they see the fell below it; assumed by this project."""
 
 _SHARES = 181
 
@@ -71,6 +74,7 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         beam_length=task.rail_length + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
         leaf_reach=_before_reeds(task, kind),
+        axes_height=ABOVE_SIGHT if task.weaver is None else None,
     )
 
 

@@ -107,6 +107,9 @@ class HammerParams(Params):
         at_most=50.0,
         doc="length of the beam that carries axes or crank-rockers; default: the width, and posts beside it",
     )
+    axes_height: float | None = kind.length(
+        None, at_least=10 * mm, at_most=2.0, doc="lower end of vertical axes over the fell; default: above heads"
+    )
     leaf_reach: float | None = kind.length(
         None,
         at_least=1 * mm,

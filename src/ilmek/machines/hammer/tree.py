@@ -50,7 +50,7 @@ ABOVE_PILE = 12 * mm
 """Bar of a comb on crank-rockers over its striking edge [m]; assumed by this project."""
 
 ABOVE_HEADS = 90 * mm
-"""Lower end of the axes over the fell [m]: above heads that knot; assumed by this project."""
+"""Lower end of the axes over the fell [m], where it is not given: above heads that knot; assumed by this project."""
 
 
 def tree(hammer: Hammer, motions: Mapping[str, SceneMotion] | None = None) -> Tree:
@@ -165,7 +165,7 @@ def _beam_before_axes(hammer: Hammer) -> tuple[Occurrence, ...]:
 
 def _low(params: HammerParams) -> float:
     """Lower end of the vertical axes over the fell [m]."""
-    return max(params.depth - BLOCK_HEIGHT, ABOVE_HEADS)
+    return max(params.depth - BLOCK_HEIGHT, params.axes_height or ABOVE_HEADS)
 
 
 def _before_axes(hammer: Hammer) -> float:

@@ -24,7 +24,7 @@ def fit(task: LoomTask) -> WeftParams:
     edge = WeftParams().edge
     if RAPIER in (carrier, laid and laid.carrier):
         room = SPARE * params.clearance + SIDE / 2
-        beside = (task.weaver.width + task.cloth.knot_pitch) / 2 + room if laid else 0.0
+        beside = (task.weaver.width + task.cloth.knot_pitch) / 2 + room if laid and task.weaver else 0.0
         edge = max(BESIDE_HEADS, beside)
     return WeftParams(
         carrier=carrier,

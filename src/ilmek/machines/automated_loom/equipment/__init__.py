@@ -1,1 +1,1 @@
-"""What stands round the loom and watches it: guards with their doors, sensors, safety circuit, creel and yarn path."""
+"""What stands round the loom and watches it: guards, sensors, circuit; creel and yarn path, or weavers' station."""

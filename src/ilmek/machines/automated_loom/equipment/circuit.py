@@ -45,7 +45,7 @@ _DEVICES: tuple[tuple[str, str, FieldDevice], ...] = (
 
 def terminals(loom: LoomDesign) -> int:
     """Terminals of two levels, a level for each signal."""
-    return math.ceil(signals.signal_count(loom.heads) / 2)
+    return math.ceil(signals.signal_count(loom.heads, loom.weavers) / 2)
 
 
 def circuit(loom: LoomDesign) -> Tree:
@@ -108,9 +108,11 @@ def circuit_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """Whether the terminals of all signals have room on two rails."""
     (control,) = surroundings(loom).of(CONTROL)
     needed = math.fsum(row.size[0] for _, _, row in _DEVICES) + terminals(loom) * TERMINAL.size[0]
-    source = f"two side walls of the cabinet; {signals.signal_count(loom.heads)} signals, two on a terminal"
+    source = (
+        f"two side walls of the cabinet; {signals.signal_count(loom.heads, loom.weavers)} signals, two on a terminal"
+    )
     return (
         at_most("control: length of its mounting rails", needed, 2 * _rail_length(control), "mm", source).with_cure(
-            "set fewer heads", signals.TERMINAL, part_id("mounting-rail")
+            "set fewer heads or weavers", signals.TERMINAL, part_id("mounting-rail")
         ),
     )

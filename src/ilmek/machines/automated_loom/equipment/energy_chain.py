@@ -46,7 +46,7 @@ ACROSS = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
 
 
 def _side(loom: LoomDesign) -> float:
-    return parts_of_loom(loom).frame.rail.side
+    return parts_of_loom(loom).frame.guide[0].side
 
 
 def energy_chain(loom: LoomDesign) -> EnergyChain:

@@ -11,10 +11,17 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
-from ilmek.elements.field_devices import ACTUATOR, BUTTON, INTERLOCK, STOP
+from ilmek.elements.field_devices import ACTUATOR, BUTTON, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, TO_THE_RIGHT, UPWARDS, device, placed
+from ilmek.machines.automated_loom.equipment.devices import (
+    TO_THE_BACK,
+    TO_THE_LEFT,
+    TO_THE_RIGHT,
+    UPWARDS,
+    device,
+    placed,
+)
 from ilmek.machines.automated_loom.equipment.guards import (
     BOTTOM,
     DOOR,
@@ -51,6 +58,9 @@ _ABOVE_CABINET = 5 * mm
 _STOP_HEIGHT, _RESET_HEIGHT = 1.1, 1.3
 """Of emergency stops and reset over the floor [m]: ISO 13850, 0.6 to 1.7 m."""
 
+_GRID_LOW = 0.25
+"""Lower end of the light grid over the floor [m]: its beams at 0.3, 0.6, 0.9 and 1.2 m, ISO 13855, table E.1."""
+
 _STOPS_APART = 3.0
 """Greatest distance of two emergency stops along the doors [m]; assumed by this project."""
 
@@ -63,20 +73,22 @@ _SECTION = HollowSquare(POST, 3 * mm)
 def guards(loom: LoomDesign) -> Tree:
     """The fence, its doors, and what is on its posts."""
     fence, near = fence_of(loom), surroundings(loom)
-    lines = _Lines(fence, near)
-    parts = (*lines.posts(), lines.lintel(), *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front))
-    return Tree((RigidBody(GUARDS[0], parts), _doors(fence, lines.front)))
+    lines = _Lines(fence, near, doors=loom.heads > 0)
+    front = (lines.lintel(), *_latches(fence, lines.front)) if loom.heads else (_grid(fence),)
+    parts = (*lines.posts(), *front, *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front))
+    doors = (_doors(fence, lines.front),) if loom.heads else ()
+    return Tree((RigidBody(GUARDS[0], parts), *doors))
 
 
 class _Lines:
     """The posts of the four sides, and the bays between them; middles of the posts [m]."""
 
-    def __init__(self, fence: Fence, near: Surroundings) -> None:
+    def __init__(self, fence: Fence, near: Surroundings, *, doors: bool) -> None:
         half = POST / 2
         self._fence, self._near = fence, near
         self.left, self.right, self.back = fence.left - half, fence.right + half, fence.rear - half
         self.forward = fence.front + half
-        self.front = bays(self.left, self.right)
+        self.front = bays(self.left, self.right) if doors else (self.left, self.right)
         self.side = side_posts(fence)
         (self._control,) = near.of(CONTROL)
         # The cabinet is in the fence's line, or stands inside of it.
@@ -182,14 +194,28 @@ def _standing(wide: float, tall: float) -> Profile:
     return Profile(polygon(corners))
 
 
-def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
-    """Interlocks at the latches of the doors, emergency stops at front and rear, the reset beside the last door."""
+def _grid(fence: Fence) -> Occurrence:
+    """Sender and receiver of the light grid at the inner sides of the front's posts, from ankle to chest."""
+    grid, height = device(signals.GRID, "light grid of the front", GRID), fence.floor + _GRID_LOW
+    wide, high, _ = GRID.size
+    z, y = fence.front + wide / 2, height + high / 2
+    ends = (fence.left, TO_THE_RIGHT), (fence.right, TO_THE_LEFT)
+    return Occurrence(grid, tuple(placed(x, y, z, turned) for x, turned in ends))
+
+
+def _latches(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
+    """Interlocks at the latches of the doors."""
     wide, thick, _ = INTERLOCK.size
     latch = device(signals.INTERLOCK, "interlock of a door", INTERLOCK)
     height, inner = fence.floor + _STOP_HEIGHT, fence.front - thick / 2
     # Beside the last post's middle, to which the panel of the side reaches.
     beside = wide / 2 + 2 * WIRE
     yield Occurrence(latch, tuple(placed(x - beside, height, inner, UPWARDS) for x in front[1:]))
+
+
+def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
+    """Emergency stops at front and rear, the reset at the last post of the front."""
+    height = fence.floor + _STOP_HEIGHT
     stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
     # Beside the creel's rails, which may reach past the corner.
     left = fence.left - POST + STOP.size[0] / 2

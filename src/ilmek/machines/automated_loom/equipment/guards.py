@@ -2,8 +2,10 @@
 
 A fence of welded mesh stands round all that moves, at least as far away as an arm reaches through its openings
 [`elements.safety_distances`], and outside of all that stands. Its front consists of doors with interlocks, as far away
-as a body comes while the loom still moves. The rear stands at the ends of the rear feet, to which its posts are bolted,
-and ends at the cabinet of the control. It is as low as the table allows for the distances that are there.
+as a body comes while the loom still moves. Where weavers tie, the front is a light grid behind them, and each of them
+has two buttons that she holds while the loom moves [`station`]. The rear stands at the ends of the rear feet, to which
+its posts are bolted, and ends at the cabinet of the control. It is as low as the table allows for the distances that
+are there.
 
 Axes of the scene: x to the right, y up from the fell, z to the front [m].
 """
@@ -14,10 +16,11 @@ from functools import lru_cache
 from itertools import pairwise
 
 from ilmek.elements.field_devices import ENCODER
-from ilmek.elements.safety_distances import FENCES, door, least_fence, over_span, through
+from ilmek.elements.safety_distances import FENCES, GRID_REACH, approach, least_fence, over_span, through
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.sensors import ROW_MOTORS
+from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.stopping import StoppingTime, stopping_time
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Hazard, Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
@@ -97,9 +100,15 @@ def fence_of(loom: LoomDesign) -> Fence:
     encoders = behind + ENCODER.size[2] + GAP
     right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
-    front = max(float(stands_high[2]) + BESIDE, float(moves_high[2]) + door(stopping.whole))
+    inside = 0.0 if loom.heads else station_of(loom).rear
+    front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(loom, stopping))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
+
+
+def _approach(loom: LoomDesign, stopping: StoppingTime) -> float:
+    """Least distance of the front, doors or a light grid, from all that moves [m]."""
+    return approach(stopping.whole, 0.0 if loom.heads else GRID_REACH)
 
 
 def _heights(floor: float, one: Hazard) -> tuple[float, float]:
@@ -127,13 +136,14 @@ def rear_feet(near: Surroundings) -> tuple[float, ...]:
 
 
 def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """Reaching through the mesh and over the fence, and the distance of the doors; stopping time of the loom."""
+    """Reaching through the mesh and over the fence, and the distance of the front; stopping time of the loom."""
     fence = fence_of(loom)
     nearest = min(fence.hazards, key=fence.distance)
     worst = min(fence.hazards, key=lambda one: fence.distance(one) - fence.needed(one))
     moved = max(float(one.high[2]) for one in fence.hazards)
     height, opening = format_quantity(fence.height, "m", 3), format_quantity(MESH - WIRE, "mm")
     stops = format_quantity(fence.stopping.whole, "s", 3)
+    title, device = ("doors", signals.INTERLOCK) if loom.heads else ("light grid", signals.GRID)
     return (
         at_least(
             f"guards: reaching through, to the {_named(nearest)}",
@@ -150,12 +160,12 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
             f"ISO 13857, table 2, high risk: fence of {height}",
         ).with_cure("set a narrower lift or a lower tension: the loom is to be lower", PANEL),
         at_least(
-            "guards: distance of the doors",
+            f"guards: distance of the {title}",
             fence.front - moved,
-            door(fence.stopping.whole),
+            _approach(loom, fence.stopping),
             "mm",
-            f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after a door opens",
-        ).with_cure(_CURE, DOOR, signals.INTERLOCK, signals.RELAY),
+            f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after it opens",
+        ).with_cure(_CURE, *((DOOR,) if loom.heads else ()), device, signals.RELAY),
         at_most("guards: height", fence.height, FENCES[-1], "m", "highest fence of ISO 13857, table 2").with_cure(
             "set a lower tension or a smaller lift", PANEL
         ),

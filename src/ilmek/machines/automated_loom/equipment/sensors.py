@@ -61,11 +61,13 @@ class MountedSensor:
 def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     """The sensors of a loom."""
     near = surroundings(loom)
+    of_heads: tuple[MountedSensor, ...] = ()
+    if loom.heads:
+        of_heads = _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)), _on_the_axis(near)
     return (
-        _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)),
+        *of_heads,
         _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)),
         _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (signals.SHEDDING_MOTOR,)),
-        _on_the_axis(near),
         _strain(near),
         _barriers(loom, near),
         _weft_sensor(loom, near),

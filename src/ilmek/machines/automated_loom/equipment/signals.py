@@ -28,6 +28,7 @@ from ilmek.machines.weft.carriers import MOTOR as WEFT_MOTOR
 from ilmek.machines.weft.rapier_tree import EDGE_MOTOR
 
 STOP, RESET = part_id("emergency-stop"), part_id("reset-button")
+HANDS, GRID = part_id("hand-button"), part_id("light-grid")
 INTERLOCK, ACTUATOR = part_id("door-interlock"), part_id("interlock-actuator")
 RELAY, CONTROLLER, SUPPLY = part_id("safety-relay"), part_id("motion-controller"), part_id("power-supply")
 TERMINAL = part_id("terminal")
@@ -71,14 +72,21 @@ SIGNALS: Mapping[str, tuple[str, ...]] = MappingProxyType(_BY_SIGNAL)
 drives for it; of the kinds of beat, weft and knotting a loom has its own.
 """
 
+OF_WEAVERS = ("HandsOnButtons", "GridFree")
+"""Signals of a loom for weavers in place of those of heads, of their retreat and of doors; the first of each weaver."""
+
+OF_HEADS = ("HeadsClear", "DoorClosed")
+"""Signals that only a loom with heads has, beside those of each head."""
+
 PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieFault", "TieStart", "TieColumn", "TieTube"))
 """Signals of which each head has its own."""
 
 
-def signal_count(heads: int) -> int:
-    """Number of signals of a loom with a number of heads.
+def signal_count(heads: int, weavers: int = 0) -> int:
+    """Number of signals of a loom with a number of heads, or for a number of weavers.
 
-    >>> signal_count(1), signal_count(3)
-    (19, 31)
+    >>> signal_count(1), signal_count(3), signal_count(0, 2)
+    (19, 31, 14)
     """
-    return len(SIGNALS) + (heads - 1) * len(PER_HEAD)
+    of_heads = len(SIGNALS) + (heads - 1) * len(PER_HEAD)
+    return of_heads - len(OF_HEADS) + weavers + len(OF_WEAVERS) - 1 if weavers else of_heads

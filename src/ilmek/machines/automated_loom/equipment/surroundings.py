@@ -84,7 +84,8 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     """The room of a loom; heads travel along the whole row, which no turn of a drive shows."""
     tree = joined(machine_branches(loom))
     found = extents(tree, (ROW, KNOT))
-    row, riding = half_width(loom) + loom.head_width / 2, {body.id for body in head_tree(loom.weaver).bodies}
+    row = half_width(loom) + loom.head_width / 2
+    riding = {body.id for body in head_tree(loom.weaver).bodies} if loom.heads else set[str]()
     bodies: dict[str, list[Extent]] = {}
     for one in found:
         if one.moving:

@@ -12,6 +12,7 @@ from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
 from ilmek.machines.automated_loom.equipment.signals import HEAD_ANGLE, YARN_STOP
+from ilmek.machines.automated_loom.equipment.station import station_checks, station_tree
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
@@ -33,8 +34,7 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
         *sensors(loom),
         MachineTree(_NAME, guards(loom)),
         MachineTree(_NAME, circuit(loom)),
-        *creel_trees(loom),
-        *chain_trees(loom),
+        *((*creel_trees(loom), *chain_trees(loom)) if loom.heads else (MachineTree(_NAME, station_tree(loom)),)),
     )
 
 
@@ -59,5 +59,6 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
 
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
-    """The checks of guards, sensors, circuit, chains and yarn path."""
-    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *chain_checks(loom), *yarn_checks(loom))
+    """The checks of guards, sensors, circuit, and of chains and yarn path of heads or of the weavers' station."""
+    served = (*chain_checks(loom), *yarn_checks(loom)) if loom.heads else station_checks(loom)
+    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *served)

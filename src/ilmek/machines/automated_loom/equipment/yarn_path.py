@@ -133,7 +133,8 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
     along, up = float(low[0]) - creel.duct_end, float(low[1] + high[1]) / 2 - height
     loop = math.hypot(along, up)
     share, long = share_of(loom), float(high[0] - low[0])
-    tube, middle = loom.side.head.magazine, float(low[2] + high[2]) / 2
+    heads = loom.side.of_heads
+    tube, middle = heads.shape.magazine, float(low[2] + high[2]) / 2
     rise, back = tube.imag - float(low[1]), middle - tube.real
     line, (at_tube, at_guide, at_eye) = yarn_line(loom.weaver), yarn_wraps(loom.weaver)
     first, last = np.diff(line, axis=0).tolist()
@@ -141,7 +142,7 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
         PathStep("from the package over its nose", math.hypot(nose, half), 0.0, math.atan2(half, nose)),
         PathStep("conduit to the duct", math.hypot(y - height, z - depth), height - y, turn / 2, PTFE),
         PathStep("duct over the foot", creel.duct_end - start, share=PTFE),
-        PathStep("loop to the rail", loop + loom.side.retreat, up, 2 * math.atan2(abs(up), max(along, 0.0)), PTFE),
+        PathStep("loop to the rail", loop + heads.retreat, up, 2 * math.atan2(abs(up), max(along, 0.0)), PTFE),
         PathStep("trough to the farthest head", long - share / 2, share=PTFE),
         PathStep("energy chain", energy_chain(loom).length(share), 0.0, turn / 2, PTFE),
         PathStep("to the tube", math.hypot(rise, back), rise, turn / 4, PTFE),

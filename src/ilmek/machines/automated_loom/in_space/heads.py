@@ -73,9 +73,11 @@ _ARM_TOOLS = {"link 1": "left arm", other("link 1"): "right arm", CENTRE_OF_ARMS
 _YARN_SAMPLES, _ON_WARP, _LIFTS, _CUT = 181, 12, 121, 25
 
 
-def heads(loom: LoomDesign) -> MachineTree:
-    """The heads on their rail."""
-    return MachineTree("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST))
+def heads(loom: LoomDesign) -> tuple[MachineTree, ...]:
+    """The heads on their rail; none where weavers tie."""
+    if not loom.heads:
+        return ()
+    return (MachineTree("weaver", heads_tree(loom), parent=RAIL, deviations=(FINE, COARSE, COARSEST)),)
 
 
 def arms(loom: LoomDesign) -> tuple[MachineTree, ...]:
@@ -89,6 +91,8 @@ def arms(loom: LoomDesign) -> tuple[MachineTree, ...]:
 def tools(loom: LoomDesign) -> Mapping[str, str]:
     """What people call the tools that tie a knot, by the bodies that they are, or that carry the rest of them."""
     of_arms = {body_id(DYAD, body): name for body, name in _ARM_TOOLS.items()}
+    if not loom.heads:
+        return {}
     return _TOOLS | of_arms if loom.weaver.params.with_arms else _TOOLS
 
 
@@ -126,7 +130,7 @@ def heads_tree(loom: LoomDesign) -> Tree:
 
     A head's origin lies in the side view's: at the fell, in the heads' origin while they knot.
     """
-    rail = loom.side.rail
+    rail = loom.side.of_heads.rail
     middle, share = rail.corner + rail.size / 2, loom.task.cloth.width / loom.heads
     middles = [(number + 0.5) * share - half_width(loom) for number in range(loom.heads)]
     return placed(loom.weaver, [placement(x, -middle.imag, -middle.real) for x in middles]).moving(motions(loom))
@@ -232,13 +236,13 @@ def _lift(knot: Cyclogram, track: str, weaver: Weaver) -> tuple[FloatArray, Floa
 
 
 def knot_yarn(loom: LoomDesign) -> tuple[SceneYarn, ...]:
-    """The taut yarn of a knot over its angle, from where it is presented; none of a head with arms.
+    """The taut yarn of a knot over its angle, from where it is presented; none of a head with arms, or of weavers.
 
     It is led by the side grippers, drawn by the centre gripper, pushed down by the sley, and stays when the head steps.
     """
-    weaver, knot, by = loom.weaver, loom.knot_cyclogram, loom.weaver.grippers
-    if weaver.params.with_arms or weaver.tied.knot is None:
+    if not loom.heads or loom.weaver.params.with_arms or loom.weaver.tied.knot is None:
         return ()
+    weaver, knot, by = loom.weaver, loom.knot_cyclogram, loom.weaver.grippers
     angle = np.linspace(0.0, turn, _YARN_SAMPLES)
     _, taken, released = led_between(knot)
     side, centre, sley, step = (

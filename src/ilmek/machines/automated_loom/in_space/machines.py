@@ -15,7 +15,7 @@ from ilmek.part.tree import Tree
 @lru_cache(maxsize=2)
 def machine_branches(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees, each after what carries it."""
-    return (*standing(loom), cams(loom), beating(loom), weft(loom), heads(loom), *arms(loom))
+    return (*standing(loom), cams(loom), beating(loom), weft(loom), *heads(loom), *arms(loom))
 
 
 def joined(branches: tuple[MachineTree, ...]) -> Tree:

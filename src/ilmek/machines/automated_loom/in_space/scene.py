@@ -64,7 +64,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         dyed=(PACKAGE, TUBE),
         phases=tuple(
             ScenePhase(drive, track.name, own.name, own.start, own.end)
-            for drive, cyclogram in ((ROW, loom.row_cyclogram), (KNOT, loom.knot_cyclogram))
+            for drive, cyclogram in ((ROW, loom.row_cyclogram), *(((KNOT, loom.knot_cyclogram),) if loom.heads else ()))
             for track in cyclogram.tracks
             for own in track.segments
         ),
@@ -77,8 +77,8 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
 
 
 def periods_of(loom: LoomDesign) -> dict[str, float]:
-    """Times of a row and of a knot [s]."""
-    return {ROW: loom.row_cyclogram.period, KNOT: loom.times.knot}
+    """Times of a row and of a head's knot [s]."""
+    return {ROW: loom.row_cyclogram.period, **({KNOT: loom.times.knot} if loom.heads else {})}
 
 
 def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:

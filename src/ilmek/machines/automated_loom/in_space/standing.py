@@ -34,7 +34,8 @@ from ilmek.units import mm
 def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """Frame with its rail, what it carries, cylinders, and compensator."""
     listed = parts_of_loom(loom)
-    retreat = along_track(loom.row_cyclogram, HEADS, (0.0, RETREAT.imag, RETREAT.real))
+    away = (0.0, RETREAT.imag, RETREAT.real)
+    retreat = along_track(loom.row_cyclogram, HEADS, away) if loom.heads else None
     warps = _warp_cylinders(loom).bodies
     turned = [body for body in warps if body.joint.kind is JointKind.PIN]
     winding, slotted = (tuple(body for body in turned if (SPACER in body.id) is own) for own in (False, True))

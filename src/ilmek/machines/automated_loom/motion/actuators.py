@@ -72,8 +72,9 @@ def row_forces(loom: LoomDesign) -> Plot:
         Series(name, angle, number * warp_force(cams, sample(row.track(name), angle).position))
         for name, number in sheets.items()
     ]
-    heads = loom.heads * head_mass(loom.weaver) + mass_of_rail(loom, parts_of_loom(loom).frame)
-    masses = {loom.row_timing.carrier: loom.weft.axis.mass, HEADS: heads}
+    masses = {loom.row_timing.carrier: loom.weft.axis.mass}
+    if loom.heads:
+        masses[HEADS] = loom.heads * head_mass(loom.weaver) + mass_of_rail(loom, parts_of_loom(loom).frame)
     for name, mass in masses.items():
         bend = sample(row.track(name), angle).bend
         series.append(Series(name, angle, mass * bend * row.speed**2))

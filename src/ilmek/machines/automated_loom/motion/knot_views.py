@@ -31,7 +31,7 @@ _ABOVE = 1.6
 def knot_from_the_side(loom: LoomDesign) -> Animation:
     """The tools of a head in the side view: grippers, opener and sley at the warps, the head's case behind them."""
     side, warp = loom.side, loom.task.yarns.warp.diameter / 2
-    high = 1j * side.head.top
+    high = 1j * side.of_heads.shape.top
     case = max((curve for outline in _case(loom, View.SIDE) for curve in outline.curves), key=len)
     still = Drawing(
         "loom-knot-side",
@@ -45,7 +45,7 @@ def knot_from_the_side(loom: LoomDesign) -> Animation:
         note="to scale; the fell is at 0",
     )
     strokes = _tools(loom, View.SIDE)
-    tracks = {tool.track: loom.knot_cyclogram.track(tool.track) for tool in side.head.tools}
+    tracks = {tool.track: loom.knot_cyclogram.track(tool.track) for tool in side.of_heads.shape.tools}
     return Animation(
         still, DRIVE, _angles(), strokes, (), period=loom.times.knot, readings=_readings(tracks, _angles())
     )

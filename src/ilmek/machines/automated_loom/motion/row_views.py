@@ -39,7 +39,7 @@ def row_from_the_side(loom: LoomDesign) -> Animation:
     angle, row, view = _angles(), loom.row_cyclogram, loom.side
     sheets = (MovingStroke(_sheet(view, sample(row.track(name), angle).position), "yarn", name) for name in (EVEN, ODD))
     strokes = (*sheets, *named_strokes(_in_the_shed(outline, loom) for outline in _moving(loom, View.SIDE)))
-    low = 1j * min(-view.lower.radius, view.head.body.imag)
+    low = 1j * min(-view.lower.radius, *((view.heads.shape.body.imag,) if view.heads else ()), 0.0)
     carpet = np.array([-view.room.warp + low, view.pile + low, view.pile, -view.room.warp])
     still = Drawing(
         "loom-row-moving",
@@ -48,7 +48,7 @@ def row_from_the_side(loom: LoomDesign) -> Animation:
         (Dot(0j, "fell", "point"),),
         note="over the angle of the row's cyclogram; shuttles and their carriage are drawn while they are in the shed",
     )
-    return _animation(loom, still, strokes, (EVEN, ODD, HEADS))
+    return _animation(loom, still, strokes, (EVEN, ODD, *((HEADS,) if loom.heads else ())))
 
 
 def row_from_the_front(loom: LoomDesign) -> Animation:
@@ -80,7 +80,7 @@ def row_from_above(loom: LoomDesign) -> Animation:
     note = "the sheets of warps at the height of the wefts; the weaver stands below the picture"
     still = Drawing("loom-row-above", "A row from above", (Stroke(ends + 0j, "yarn", "fell"),), note=note)
     strokes = (*sheets, *named_strokes(_moving(loom, View.TOP)), *_wefts(loom, View.TOP))
-    return _animation(loom, still, strokes, (EVEN, ODD, HEADS))
+    return _animation(loom, still, strokes, (EVEN, ODD, *((HEADS,) if loom.heads else ())))
 
 
 def _angles() -> FloatArray:
