@@ -15,6 +15,7 @@ from ilmek.machines.automated_loom.cost import CarpetCost
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy
+from ilmek.machines.automated_loom.equipment.station import WeaversStation
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
@@ -74,6 +75,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
         BeatDrive,
         Energy,
         YarnPath,
+        WeaversStation,
         PartsList,
         CarpetCost,
         OffLoom,

@@ -14,6 +14,7 @@ from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
@@ -124,7 +125,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    path = (yarn_path(found.loom),) if found.loom.heads else ()
+    served = yarn_path(found.loom) if found.loom.heads else station_of(found.loom)
     return (
         found.cost,
         found,
@@ -132,7 +133,7 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
         found.shares,
         found.beat,
         found.energy,
-        *path,
+        served,
         found.listed,
         off_loom(found.loom),
         frame_modes(found.loom, found.listed.frame),

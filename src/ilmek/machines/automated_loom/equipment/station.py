@@ -26,7 +26,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import UPWARDS, device, placed
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
-from ilmek.machines.automated_loom.equipment.surroundings import surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import Hazard, surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.weft.materials import BEECH
 from ilmek.part.part import Part
@@ -68,8 +68,8 @@ BENCH = part_id("bench")
 class WeaversStation:
     """Where weavers sit: front of the seat [m], its height over the floor, that of the floor, ends of the bench [m].
 
-    middles   of the weavers along the row [m]       moved  the foremost z of what moves [m]
-    distance  that their buttons need from that [m]  section, sag  of the bench's beams, and their deflection [m]
+    middles   of the weavers along the row [m]       hazard  that decides on the distance of their buttons
+    distance  that these need from it [m]            section, sag  of the bench's beams, and their deflection [m]
     """
 
     front: float
@@ -77,7 +77,7 @@ class WeaversStation:
     floor: float
     half: float
     middles: tuple[float, ...]
-    moved: float
+    hazard: Hazard
     distance: float
     section: HollowSquare
     sag: float
@@ -105,7 +105,9 @@ def station_of(loom: LoomDesign) -> WeaversStation:
     """The station of a loom: as near to the warps as its buttons and what stands before the weavers allow."""
     near, floor = surroundings(loom), loom.side.floor
     seat, cloth = max(loom.side.fell_height - ELBOW, LEAST_SEAT), loom.task.cloth.width
-    moved, distance = float(near.moving[1][2]), approach(stopping_time(loom).whole)
+    stops = stopping_time(loom)
+    hazard = max(near.hazards, key=lambda one: float(one.high[2]) + approach(stops.of(one.body)))
+    distance = approach(stops.of(hazard.body))
     feet = near.of(part_id("front-foot"))
     half = float(feet[-1].high[0]) + _SECTION.side
     top = floor + seat
@@ -122,14 +124,14 @@ def station_of(loom: LoomDesign) -> WeaversStation:
     front = max(
         before(top - _SECTION.side - BOARD[1], top, half) + _GAP,
         before(top, top + SHOULDER, cloth / 2) + _GAP + TRUNK - HIP,
-        moved + distance + BUTTON.size[0] / 2 - BOARD[0],
+        float(hazard.high[2]) + distance + BUTTON.size[0] / 2 - BOARD[0],
     )
     number = loom.weavers
     load = number * WEIGHT * GRAVITY / (2 * 2 * half)
     offered = [(one, _sag(one, load, 2 * half)) for one in ascending() if one.side >= _SECTION.side]
     section, sag = next((own for own in offered if own[1] <= _SAG * 2 * half), offered[-1])
     middles = tuple(((k + 0.5) / number - 0.5) * cloth for k in range(number))
-    return WeaversStation(front, seat, floor, half, middles, moved, distance, section, sag)
+    return WeaversStation(front, seat, floor, half, middles, hazard, distance, section, sag)
 
 
 def _sag(section: HollowSquare, load: float, span: float) -> float:
@@ -194,10 +196,10 @@ def station_checks(loom: LoomDesign) -> tuple[Check, ...]:
         at_most("weavers: reach to the fell", station.reach, ARM, "mm", assumed, cure=cure, parts=parts),
         at_least(
             "guards: distance of the buttons that weavers hold",
-            station.buttons - station.moved,
+            station.buttons - float(station.hazard.high[2]),
             station.distance,
             "mm",
-            f"ISO 13855, 1.6 m/s: the {stopping_time(loom).axis} stand after they are released",
+            f"ISO 13855, 1.6 m/s: until the {stopping_time(loom).axis_of(station.hazard.body)} stands; shrouded",
         ).with_cure(cure, signals.HANDS),
         at_most(
             "bench: deflection of a beam",

@@ -2,24 +2,49 @@
 
     T = t guard + t relay + t control + max v / a        over the axes, v greatest speed, a allowed deceleration
 
+Where a hand may come near a body alone, the time is that of the axis of this body.
+
 A controlled stop, category 1 of IEC 60204-1: each axis is braked as hard as it may be accelerated; the beat as hard as
 its own motion is, the shedding cams in the time in which they stop for a beat.
 """
 
+from collections.abc import Mapping
+
 from ilmek.elements.field_devices import CONTROLLER, GRID, INTERLOCK, RELAY
 from ilmek.machines.automated_loom.cyclogram import BEATER, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.beat_up.design import BeatUp
 from ilmek.records import record
 from ilmek.timing.track import peak_acceleration, peak_speed
+
+BEAT, CARRIER = "beat", "carrier of the weft"
+"""Names of axes."""
 
 
 @record
 class StoppingTime:
-    """Time of the circuit [s], and the slowest axis with its time to stand [s]."""
+    """Time of the circuit [s], and the time of each axis to stand [s]."""
 
     circuit: float
-    axis: str
-    braking: float
+    axes: Mapping[str, float]
+
+    @property
+    def axis(self) -> str:
+        """The slowest axis."""
+        return max(self.axes, key=self.axes.__getitem__)
+
+    @property
+    def braking(self) -> float:
+        """Time of the slowest axis to stand [s]."""
+        return self.axes[self.axis]
+
+    def axis_of(self, body: str) -> str:
+        """The axis that moves a body of the loom; the slowest one where it is not known."""
+        return {"weft": CARRIER, "beat-up": BEAT, "hammer": BEAT}.get(body.partition("/")[0], self.axis)
+
+    def of(self, body: str) -> float:
+        """From the opening of the guard to the standstill of a body [s]."""
+        return self.circuit + self.axes[self.axis_of(body)]
 
     @property
     def whole(self) -> float:
@@ -33,13 +58,20 @@ def stopping_time(loom: LoomDesign) -> StoppingTime:
     beater, carrier = row.track(BEATER), loom.row_timing.carrier
     times = {
         "shedding cams": params.shed_stop,
-        carrier: peak_speed(row.track(carrier), row.period) / weft.acceleration,
-        "beat": peak_speed(beater, row.period) / peak_acceleration(beater, row.period),
+        CARRIER: peak_speed(row.track(carrier), row.period) / weft.acceleration,
+        BEAT: max(peak_speed(beater, row.period) / peak_acceleration(beater, row.period), _slide(loom)),
     }
     if loom.heads:
         carriage = loom.weaver.params
         times["heads' retreat"] = peak_speed(row.track(HEADS), row.period) / params.retreat_acceleration
         times["carriages"] = carriage.carriage_speed / carriage.carriage_acceleration
     guard = INTERLOCK if loom.heads else GRID
-    axis = max(times, key=times.__getitem__)
-    return StoppingTime(guard.response + RELAY.response + CONTROLLER.response, axis, times[axis])
+    return StoppingTime(guard.response + RELAY.response + CONTROLLER.response, times)
+
+
+def _slide(loom: LoomDesign) -> float:
+    """Time in which the slide of a travelling beater stands [s]; 0 without one."""
+    if not isinstance(loom.beat.design, BeatUp):
+        return 0.0
+    across = loom.beat.use.travel
+    return float(across.step.speed / across.params.acceleration)
