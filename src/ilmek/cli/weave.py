@@ -18,7 +18,7 @@ from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
-from ilmek.jobs.weave import WeaveResult, order_in_words, time_in_words, weave, weave_json
+from ilmek.jobs.weave import WeaveResult, days_in_words, order_in_words, time_in_words, wage, weave, weave_json
 from ilmek.machines.automated_loom.cost import YEAR, CarpetCost
 from ilmek.machines.automated_loom.params import AIMS
 from ilmek.machines.automated_loom.report import analyse
@@ -32,6 +32,7 @@ Examples:
   ilmek weave photo.jpg --size 120x180cm --quality 40x40/dm --yarns wool.toml --knot symmetric --deadline 72h
   ilmek weave photo.jpg --size kelle --colours 8 --heads 6 --out carpet --force
   ilmek weave photo.jpg --loom beat=comb --loom shedding.law=modified-sine --loom prices=@prices.txt
+  ilmek weave photo.jpg --loom knotting=hand
   ilmek weave photo.jpg --colours 24 --heads 4 --loom tubes=12 --loom package_mass=1kg
   ilmek weave carpet.toml --deadline 72h
   ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
@@ -85,7 +86,8 @@ def command(
 
     The output folder contains report.html (the carpet), loom.html, report.json, carpet.png, chart.png, chart.pdf (see
     --pdf), rows.txt, rows.pdf, yarn.csv, programme.ilmek and machine.json. Where the loom cannot weave the carpet, the
-    report has the reasons and what would cure them, there is no programme, and the command ends with 3.
+    report has the reasons and what would cure them, there is no programme, and the command ends with 3. A loom for
+    weavers, --loom knotting=hand, has no programme: its weavers tie by the chart and its rows.
     """
     order = read_order(**carpet)
     loom_file, settings = loom_settings(settings)
@@ -151,16 +153,23 @@ def rival_in_words(search: LoomSearch) -> str:
 
 
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
-    """Weaving time, heads and choices of the loom; none where it cannot be designed."""
+    """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
     made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
-    if made is None or programme is None:
+    time = woven.loomed.weaving_time
+    if made is None or time is None:
         return []
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
+    if programme is None:
+        how = days_in_words(made, time)
+        of_knots = ("weavers", f"{made.weavers} (of {made.knotters_max} that fit), wage {wage(made, time):,.0f}")
+    else:
+        how = order_in_words(programme)
+        of_knots = ("heads", f"{programme.heads} (of {made.heads_max} that fit)")
     cost = analyse(made).cost
     chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
     return [
-        ("weaving time", f"{time_in_words(programme.duration)}{within}; {order_in_words(programme)}"),
-        ("heads", f"{programme.heads} (of {made.heads_max} that fit)"),
+        ("weaving time", f"{time_in_words(time)}{within}; {how}"),
+        of_knots,
         ("cost", cost_in_words(cost, woven.charted.bill.price)),
         ("loom", price_in_words(cost)),
         *([("chosen", "; ".join(chosen))] if chosen else []),

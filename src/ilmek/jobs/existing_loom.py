@@ -107,7 +107,9 @@ def yarns_on(existing: ExistingLoom, settings: Mapping[str, Setting]) -> CarpetY
 
 
 def heads_used(existing: ExistingLoom, chart: Chart) -> int:
-    """Heads that share a row of the chart: those of the loom, or fewer, if only so many fit; the others are parked."""
+    """Heads that share a row of the chart: those of the loom, or fewer, if only so many fit; the others are parked. 0
+    where weavers tie.
+    """
     made = existing.design
     return min(made.heads, heads_that_fit(chart.columns, made.knot_pitch, made.head_width))
 
@@ -135,7 +137,7 @@ def carpet_checks(
 ) -> tuple[Check, ...]:
     """What a carpet needs, against what the loom has.
 
-    heads  that are used
+    heads  that are used; 0: weavers tie, whatever the knot, its yarns and colours
     yarns  of the carpet, the pile as of the chart       knot_yarn  the longest pile yarn of a knot [m]
     """
     made, params = existing.design, existing.design.params
@@ -146,7 +148,7 @@ def carpet_checks(
         ).with_cure("design the loom again with this version of ilmek, or leave its file as it was written"),
         *_fit_checks(made, chart),
         *_row_checks(existing, chart),
-        colours_check(chart, heads, params),
+        *((colours_check(chart, heads, params),) if heads else ()),
         *_yarn_checks(made, carpet_yarns(yarns, made.task.cloth.warp_pitch), knot_yarn),
     )
 
@@ -181,9 +183,9 @@ def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
             "1",
             "cams, slots and healds of the loom",
         ).with_cure(f"set a size of at most {widest} width"),
-        must("carpet: knot", chart.knot == params.knot, f"the heads tie the {params.knot} knot").with_cure(
-            f"set --knot {params.knot}"
-        ),
+        must(
+            "carpet: knot", not made.heads or chart.knot == params.knot, f"the heads tie the {params.knot} knot"
+        ).with_cure(f"set --knot {params.knot}"),
         at_most(
             "carpet: length", chart.size.length, params.length, "m", "warp and roll of the loom's cylinders"
         ).with_cure(f"set a size of at most {format_quantity(params.length, 'm')} length"),
@@ -210,6 +212,18 @@ def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tupl
     """The yarns, against those that slots, opener, grippers and handler were made for."""
     own = made.task.yarns
     finer = "take a finer yarn"
+    of_head = (
+        (
+            at_most(
+                "carpet: thickness of the pile in a gripper", yarns.pressed, own.pressed, "mm", "grippers and gaps"
+            ).with_cure(f"{finer}: --yarn-count"),
+            at_most(
+                "carpet: pile yarn of a knot", knot_yarn, made.weaver.drawn, "mm", "motion of the pile handler"
+            ).with_cure("set a lower --pile-height"),
+        )
+        if made.heads
+        else ()
+    )
     return (
         at_most(
             "carpet: diameter of a warp", yarns.warp.diameter, own.warp.diameter, "mm", "slots of the spacer"
@@ -224,10 +238,5 @@ def _yarn_checks(made: LoomDesign, yarns: CarpetYarns, knot_yarn: float) -> tupl
             "N",
             "tension of the open shed and of the beat",
         ).with_cure("take a stronger warp"),
-        at_most(
-            "carpet: thickness of the pile in a gripper", yarns.pressed, own.pressed, "mm", "grippers and gaps"
-        ).with_cure(f"{finer}: --yarn-count"),
-        at_most(
-            "carpet: pile yarn of a knot", knot_yarn, made.weaver.drawn, "mm", "motion of the pile handler"
-        ).with_cure("set a lower --pile-height"),
+        *of_head,
     )

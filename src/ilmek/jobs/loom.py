@@ -1,6 +1,6 @@
 """The loom of an order: its parameters, its design for a chart, and its programme."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -29,7 +29,8 @@ from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.programme import Programme, make_programme
-from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
+from ilmek.machines.automated_loom.params import HAND
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import BUILDABLE, Check, Report, Result, at_most, must
@@ -72,13 +73,14 @@ class LoomOrder:
 
 @dataclass(frozen=True, slots=True)
 class LoomResult:
-    """A loom for a chart, and the programme that weaves the chart on it.
+    """A loom for a chart, and the programme that weaves the chart on it; none where weavers tie.
 
     report   of the loom; without a design it has the reason as a failed check
     checks   of the loom for this chart: its deadline; of a loom that exists, what the carpet needs of it
     design, programme  None where the loom cannot be designed; no programme either where it exists and the carpet does
              not fit it
     setup    of the programme
+    weaving_time       of the programme, or of the weavers [s]; None where there is neither
     row_pitch_left     distance of the rows that the beat leaves [m]; None without a design
     notes    on the use of a loom that exists
     """
@@ -89,8 +91,11 @@ class LoomResult:
     programme: Programme | None = None
     setup: LoomSetup | None = None
     row_pitch_left: float | None = None
+    weaving_time: float | None = None
     notes: tuple[str, ...] = ()
 
+
+NO_PROGRAMME = "no programme: the weavers tie by the chart and its rows; the loom does the same after each row"
 
 OF_THE_CARPET = {
     "width": "--size",
@@ -210,6 +215,8 @@ def make_loomed(
         return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
         carpet = CarpetPile(chart, knot_yarns(charted))
+        if params.knotting == HAND:
+            return _for_weavers(params, reported, progress, assembled=assembled)
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
         if assembled:
             made = MACHINE.with_room(made, replace(params, heads=made.heads))
@@ -227,8 +234,21 @@ def make_loomed(
     report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, made, report, programme.duration)
     left = made.beat.row_pitch_left
-    checks = (*colours, *deadline_checks(loom_order.deadline, programme))
-    return LoomResult(report, checks, made, programme, loom_setup(made, carpet, programme), left)
+    checks = (*colours, *deadline_checks(loom_order.deadline, programme.duration))
+    setup = loom_setup(made, carpet, programme)
+    return LoomResult(report, checks, made, programme, setup, left, programme.duration)
+
+
+def _for_weavers(
+    params: AutomatedLoomParams, reported: Callable[[LoomDesign], Report], progress: Progress, *, assembled: bool
+) -> LoomResult:
+    """The loom at which weavers tie; the check of its deadline says how many it needs."""
+    made = design(params)
+    if assembled:
+        made = MACHINE.with_room(made, params)
+    report = with_nearest(reported(made), params, progress)
+    left, time = made.beat.row_pitch_left, estimated_time(made)
+    return LoomResult(report, (), made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
 
 
 def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartResult, progress: Progress) -> LoomResult:
@@ -240,13 +260,17 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
         return LoomResult(existing.report, checks, made, row_pitch_left=left)
+    if made.weavers:
+        time = made.head.least_time(chart.rows, chart.columns, made.weavers, made.times, made.bobbins)
+        checks = (*checks, *deadline_checks(loom_order.deadline, time))
+        return LoomResult(existing.report, checks, made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
     carpet = CarpetPile(chart, knot_yarns(charted))
     bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
     programme = _programme(made, carpet, heads, bobbins, progress.part(0.0, 1.0, "programme"))
-    checks = (*checks, *deadline_checks(loom_order.deadline, programme))
+    checks = (*checks, *deadline_checks(loom_order.deadline, programme.duration))
     setup = loom_setup(made, carpet, programme)
-    return LoomResult(existing.report, checks, made, programme, setup, left, notes)
+    return LoomResult(existing.report, checks, made, programme, setup, left, programme.duration, notes)
 
 
 def _programme(
@@ -295,12 +319,12 @@ def yarn_of_a_knot(charted: ChartResult) -> float:
     return max(knot_yarns(charted))
 
 
-def deadline_checks(deadline: float | None, programme: Programme) -> tuple[Check, ...]:
-    """The check of the deadline [s], if one is given."""
+def deadline_checks(deadline: float | None, time: float) -> tuple[Check, ...]:
+    """The check of a weaving time [s] against the deadline [s], if one is given."""
     if deadline is None:
         return ()
     cure = "give more time, more heads, or a coarser quality"
-    return (at_most("weaving time", programme.duration, deadline, "h", "the deadline given").with_cure(cure),)
+    return (at_most("weaving time", time, deadline, "h", "the deadline given").with_cure(cure),)
 
 
 def _without_settings(params: AutomatedLoomParams) -> AutomatedLoomParams:

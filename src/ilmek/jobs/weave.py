@@ -18,6 +18,7 @@ from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import Programme
 from ilmek.machines.automated_loom.assembly import LoomAssembly
+from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
 from ilmek.report import NEAREST, Check, Json, Report, declared_results, must, verdict_json
@@ -165,9 +166,10 @@ def weave_results(woven: WeaveResult) -> JsonObject:
         "nearest": woven.loom[NEAREST] if woven.loom_order.existing is None else [],
         **{name: of_loom.get(name) for name in _OF_THE_PARTS},
         **chart_results(woven.charted),
-        "heads": programme and programme.heads,
+        "heads": programme.heads if programme else 0 if made and made.weavers else None,
         "heads_max": made and made.heads_max,
-        "weaving_time": programme and programme.duration,
+        "weavers": made and made.weavers,
+        "weaving_time": woven.loomed.weaving_time,
         "time_bound": programme and programme.bound,
         "time_naive": programme and programme.naive.time,
         "knot_time": made and made.times.knot,
@@ -261,18 +263,44 @@ def _loom_page(woven: WeaveResult) -> LoomPage:
 
 
 def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
-    """Heads, weaving time and deadline of the loom; none where it cannot be designed."""
+    """Heads or weavers, weaving time and deadline of the loom; none where it cannot be designed."""
     made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
-    if made is None or programme is None:
+    time = woven.loomed.weaving_time
+    if made is None or time is None:
         return ()
+    facts = _of_weavers(made, time) if programme is None else _of_heads(made, programme)
+    if deadline is None:
+        return facts
+    met = time <= deadline
+    return (*facts, Fact("Deadline", time_in_words(deadline), "met" if met else "missed", "good" if met else "bad"))
+
+
+def _of_weavers(made: LoomDesign, time: float) -> tuple[Fact, ...]:
+    """Weavers, their days and their wage."""
+    return (
+        Fact("Weavers", str(made.weavers), f"{made.knotters_max} would fit"),
+        Fact("Weaving time", time_in_words(time), days_in_words(made, time)),
+        Fact("Wage", f"{wage(made, time):,.0f}", "of the weavers, for this time"),
+    )
+
+
+def days_in_words(made: LoomDesign, time: float) -> str:
+    """A time of the weavers of a loom [s] in days of their hours."""
+    day = made.params.cost.weaver_day
+    return f"{time / day:.1f} days of {format_quantity(day, 'h')}"
+
+
+def wage(made: LoomDesign, time: float) -> float:
+    """What the weavers of a loom are paid for a time of weaving [s]."""
+    return made.weavers * made.params.cost.wage * time
+
+
+def _of_heads(made: LoomDesign, programme: Programme) -> tuple[Fact, ...]:
+    """Heads, weaving time and stops of a programme."""
     stops = programme.stops
     packages = len(programme.tubes.changes)
-    facts = (
+    return (
         Fact("Heads", str(programme.heads), f"{made.heads_max} would fit"),
         Fact("Weaving time", time_in_words(programme.duration), f"{programme.rows} rows; {order_in_words(programme)}"),
         Fact("Planned stops", str(len(stops)), f"{time_in_words(programme.stop_time)}; {packages} packages changed"),
     )
-    if deadline is None:
-        return facts
-    met = programme.duration <= deadline
-    return (*facts, Fact("Deadline", time_in_words(deadline), "met" if met else "missed", "good" if met else "bad"))

@@ -43,9 +43,10 @@ def beat_options(task: LoomTask, task_of: Callable[[PlannedBeat], LoomTask]) -> 
     return tuple(sorted(options, key=lambda one: (one.price, one.period)))
 
 
-def deadline_check(deadline: float, time: float) -> Check:
+def deadline_check(
+    deadline: float, time: float, cure: str = "set more heads, aim=time, a later deadline, or a coarser quality"
+) -> Check:
     """Whether the carpet is woven within the deadline [s], by the estimated time [s]."""
-    cure = "set more heads, aim=time, a later deadline, or a coarser quality"
     return at_most("weaving time, estimated", time, deadline, "h", "parameter deadline").with_cure(cure)
 
 

@@ -17,7 +17,7 @@ from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
-from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares
+from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares, weavers_needed
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.off_loom import off_loom
@@ -226,7 +226,7 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
     params, price = found.loom.params, found.listed.price
     cure = "set a higher price_limit, fewer heads, or a coarser quality"
     return (
-        *(() if params.deadline is None else (deadline_check(params.deadline, found.time),)),
+        *(() if params.deadline is None else (_deadline_check(found, params.deadline),)),
         *(
             ()
             if params.price_limit is None
@@ -235,6 +235,18 @@ def _wishes(found: LoomAnalysis) -> tuple[Check, ...]:
             )
         ),
         *(() if params.shed_speed is None else (_cam_speed_check(found.loom, params.shed_speed),)),
+    )
+
+
+def _deadline_check(found: LoomAnalysis, deadline: float) -> Check:
+    """The deadline [s]; where weavers tie, with how many of them it needs."""
+    if not found.loom.weavers:
+        return deadline_check(deadline, found.time)
+    needed = weavers_needed(found.loom, deadline)
+    wide = format_quantity((needed or 0) * found.loom.head.width, "m")
+    cure = f"{needed} weavers are needed, who find room on {wide}: set a later deadline, or knotting=cams"
+    return deadline_check(
+        deadline, found.time, cure if needed else "no number of weavers is enough: set a later deadline"
     )
 
 
