@@ -36,21 +36,22 @@ _SLOPE = -cmath.phase(RETREAT)
 
 
 def ground_beside_heads(
-    linkage: BeatUp, side: SideView | None, clearance: float, bar: ComplexArray | None = None
+    linkage: BeatUp, side: SideView | None, clearance: float, bar: ComplexArray | None = None, *, parked: bool = False
 ) -> float:
     """The ground with which a linkage keeps a clearance [m] from the heads; its own where it does, or without a side
     view.
 
-    bar  corners of a comb's bar on the rocker, at the fell in the side view [m]
+    bar     corners of a comb's bar on the rocker, at the fell in the side view [m]
+    parked  whether the mechanism is beside the cloth while weavers tie
     """
     ground = linkage.params.ground
     if side is None:
         return ground
     longer = (
-        *((clearance - gap) / math.sin(linkage.swing) for gap in _over(linkage, side)),
+        *((clearance - gap) / math.sin(linkage.swing) for gap in _over(linkage, side, parked)),
         *((clearance - gap) / math.sin(_SLOPE) for gap in _before(linkage, side)),
     )
-    grown = 1 + max(*longer, 0.0) / linkage.lengths["beater"]
+    grown = 1 + max((*longer, 0.0)) / linkage.lengths["beater"]
 
     def clear(scale: float) -> bool:
         free = bar is None or _before_bar(linkage, bar, scale) >= clearance
@@ -59,8 +60,10 @@ def ground_beside_heads(
     return ground * next((one for one in (grown * np.arange(1.0, _LARGEST, _STEP)).tolist() if clear(one)), grown)
 
 
-def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float) -> tuple[Check, ...]:
-    """Whether rocker and plate keep the clearance [m]; none without a side view."""
+def checks_beside_heads(
+    linkage: BeatUp, side: SideView | None, clearance: float, *, parked: bool = False
+) -> tuple[Check, ...]:
+    """Whether rocker and plate keep the clearance [m]; none without a side view. `parked`: as above."""
     if side is None:
         return ()
     cure = "leave the ground of the crank-rocker open, or set fewer heads"
@@ -69,9 +72,12 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     tying = "heads" if side.heads else "hands"
     return (
         at_least(*named).with_cure("leave the ground of the crank-rocker open", PART_IDS["coupler"]),
-        at_least(
-            f"clearance: rocker at rest and {tying} that knot", min(_over(linkage, side)), clearance, "mm", source
-        ).with_cure(cure, PART_IDS["rocker"]),
+        *(
+            at_least(f"clearance: rocker at rest and {tying} that knot", gap, clearance, "mm", source).with_cure(
+                cure, PART_IDS["rocker"]
+            )
+            for gap in sorted(_over(linkage, side, parked))[:1]
+        ),
         *(
             at_least(
                 "clearance: plate of the crank-rocker and heads that retreat", gap, clearance, "mm", source
@@ -81,10 +87,11 @@ def checks_beside_heads(linkage: BeatUp, side: SideView | None, clearance: float
     )
 
 
-def _over(linkage: BeatUp, side: SideView) -> Iterator[float]:
-    """Gaps between the rocker at rest and the corners of heads and rail [m]."""
+def _over(linkage: BeatUp, side: SideView, parked: bool) -> Iterator[float]:
+    """Gaps between the rocker at rest and the corners of heads and rail, or of hands where it is not parked [m]."""
+    tying = side.tying if side.heads or not parked else ()
     swing, arm, half = linkage.swing, linkage.lengths["beater"], linkage.params.width / 2
-    return ((arm - corner.real) * math.sin(swing) - corner.imag * math.cos(swing) - half for corner in side.tying)
+    return ((arm - corner.real) * math.sin(swing) - corner.imag * math.cos(swing) - half for corner in tying)
 
 
 def _before(linkage: BeatUp, side: SideView) -> Iterator[float]:

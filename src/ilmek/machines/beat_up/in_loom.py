@@ -103,7 +103,7 @@ class TravellingBeat:
             force=across.stroke_force,
             beaten=across.stroke_warps,
             frame_force=frame_force(made.state),
-            loom_checks=checks_beside_heads(made, task.side, task.params.clearance),
+            loom_checks=checks_beside_heads(made, task.side, task.params.clearance, parked=True),
             striking=across.beater.ids,
             use=use,
         )
@@ -121,7 +121,7 @@ def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
     for width, thickness in FLAT_BARS:
         usual = replace(usual, width=width, thickness=thickness)
         made = design(task.parameters("beat-up", usual))
-        ground = ground_beside_heads(made, task.side, SPARE * task.params.clearance)
+        ground = ground_beside_heads(made, task.side, SPARE * task.params.clearance, parked=True)
         made = design(task.parameters("beat-up", replace(usual, ground=ground)))
         found = in_use(made, fabric)
         given = (made.params.width, made.params.thickness) != (width, thickness)
