@@ -22,6 +22,7 @@ from ilmek.linkage.quality import grashof
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.beat_up.family import FamilyResult, chosen_ratio, family_of, is_chosen
+from ilmek.machines.beat_up.hand import HAND
 from ilmek.machines.beat_up.linkage import PINS, BeatUpState, evaluate, lengths_of, magnitudes, mechanism, state_of
 from ilmek.machines.beat_up.links import inertia_of, link_masses, moving_masses
 from ilmek.machines.beat_up.params import BeatUpParams
@@ -296,15 +297,18 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
 
 
 @lru_cache(maxsize=8)
-def _rise_of_a_metre() -> float:
-    """Height that the beater of the paper's linkage with a ground of 1 m rises above the fell [m]."""
-    params = BeatUpParams(ground=1.0)
+def _rise_of_a_metre(hand: str) -> float:
+    """Height that the beater of a linkage with a ground of 1 m rises above the fell [m]; hand: its positions."""
+    params = BeatUpParams(ground=1.0, hand=hand)
     return lengths_of(params, _links(params, 0.0))["beater"] * math.sin(params.rocker_swing)
 
 
-def ground_for(rise: float) -> float:
-    """Distance of the pivots [m] of the paper's linkage whose beater rises to a height above the fell [m]."""
-    return rise / _rise_of_a_metre()
+def ground_for(rise: float, hand: str = HAND) -> float:
+    """Distance of the pivots [m] of a linkage whose beater rises to a height above the fell [m].
+
+    hand  its positions; default: the paper's
+    """
+    return rise / _rise_of_a_metre(hand)
 
 
 def _links(params: BeatUpParams, hole: float) -> LinkRatios:

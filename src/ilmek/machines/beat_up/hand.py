@@ -11,8 +11,23 @@ from ilmek.params.text_lists import read_points
 from ilmek.plane.vectors import cross
 from ilmek.units import turn
 
+FOREARM = 0.35
+"""Of a weaver, from the elbow to the beater in her hand [m]; assumed by this project."""
+
 HAND = "(40.1923788646684mm,150mm) (10.2222521132795mm,77.6457135307562mm) (0,0)"
 """Positions on an arc of 30 deg with a radius of 300 mm: the paper's swing. Its Fig 2 prints no coordinates."""
+
+
+def forearm_positions(height: float) -> str:
+    """First, second and final position of a hand that beats from a height over the fell [m], about an elbow level with
+    the fell, as a text; from no higher than a forearm is long.
+
+    >>> round(float(np.degrees(hand_swing(*hand_positions(forearm_positions(0.175))))), 6)
+    30.0
+    """
+    swing = float(np.arcsin(min(height / FOREARM, 1.0)))
+    places = FOREARM * (1 - np.exp(-1j * np.array([swing, swing / 2, 0.0])))
+    return " ".join(f"({place.real!r}m,{place.imag!r}m)" for place in places.tolist())
 
 
 def hand_positions(text: str) -> tuple[complex, complex, complex]:

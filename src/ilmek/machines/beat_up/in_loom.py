@@ -13,6 +13,7 @@ from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_besi
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import crank_start
 from ilmek.machines.beat_up.design import BeatUp, design, ground_for
+from ilmek.machines.beat_up.hand import HAND, forearm_positions
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
 from ilmek.machines.beat_up.strength import beat_up_strength_checks, frame_force
@@ -31,10 +32,12 @@ from ilmek.units import turn
 def fit(task: LoomTask) -> BeatUpParams:
     """The paper's beat-up for the loom's warps: the force that its rows need, the time from beat to beat."""
     needed = float(loom_fabric(task).resistance(task.cloth.row_distance))
-    every = task.period / 2
+    every, stroke = task.period / 2, stroke_needed(task)
+    hand = forearm_positions(stroke + SPARE * task.params.clearance) if task.weaver is None else HAND
     return BeatUpParams(
+        hand=hand,
         speed=task.params.beat_speed,
-        ground=ground_for(stroke_needed(task)),
+        ground=ground_for(stroke, hand),
         beat_force=needed,
         interval=every if every > 0 else None,
         cloth=task.cloth,
