@@ -38,6 +38,7 @@ class Beat:
     law, back_law   of both motions                     actuator  its name on the cyclogram
     strokes  across the width; between the first and the last of several the beater counts as at the fell
     slide    run of the slide that carries it across [m]; 0: none
+    park, park_time   run of the slide beyond its first and its last stroke, where it stands between beats, and its time
     """
 
     stroke: float
@@ -49,6 +50,13 @@ class Beat:
     actuator: str
     strokes: int = 1
     slide: float = 0.0
+    park: float = 0.0
+    park_time: float = 0.0
+
+    @property
+    def whole(self) -> float:
+        """Time of the beat with the slide's runs beyond its strokes [s]."""
+        return self.time + 2 * self.park_time
 
 
 @record

@@ -176,11 +176,11 @@ def timed(timing: RowTiming, cam_turn: float, stop: float) -> tuple[RowTiming, f
     free = timing.beat_end - last - GAP
     if free <= 0 or last <= first:
         return timing, math.inf
-    slow = max(cam_turn, timing.beat.time * turn / free)
+    slow = max(cam_turn, timing.beat.whole * turn / free)
     if slow <= cam_turn * (1 + 1e-12):
         return timing, cam_turn
     after = (_HALF - timing.beat_end) / turn * cam_turn
-    stands = cam_turn + 2 * (stop + timing.beat.time + after)
+    stands = cam_turn + 2 * (stop + timing.beat.whole + after)
     return (replace(timing, turning=cam_turn / stands), stands) if stands < slow else (timing, slow)
 
 
@@ -270,7 +270,7 @@ def weft_windows(row: Cyclogram) -> tuple[tuple[float, float], tuple[float, floa
 
 def _beater(timing: RowTiming, period: float) -> Track:
     """Two beats, each forward, pressed where it is, and back."""
-    beat, spent, back = timing.beat, turn * timing.beat.time / period, timing.late(timing.beat_end)
+    beat, spent, back = timing.beat, turn * timing.beat.time / period, _crank_rests(timing, period)
     parts: list[TrackSegment] = []
     for number, end in ((1, back), (2, _HALF + back)):
         start = end - spent
@@ -283,18 +283,31 @@ def _beater(timing: RowTiming, period: float) -> Track:
     return Track(BEATER, beat.actuator, tuple(parts), events)
 
 
+def _crank_rests(timing: RowTiming, period: float) -> float:
+    """Master angle at which the first beat ends but for the run of its slide to where it stands [rad]."""
+    return timing.late(timing.beat_end) - turn * timing.beat.park_time / period
+
+
 def _slide(timing: RowTiming, period: float) -> tuple[Track, ...]:
-    """The slide that carries the beater across, from edge to edge and back in the two beats; drawn as one motion."""
-    beat, back = timing.beat, timing.late(timing.beat_end)
-    if not beat.slide or beat.strokes == 1:
-        return ()
-    spent = turn * beat.time / period
-    start, end = back - spent * (1 - beat.forward), back - spent * (1 - beat.forward - beat.pressed)
-    parts = (
-        TrackSegment("across", start, end, 0.0, beat.slide, _law("modified-sine")),
-        TrackSegment("back", _HALF + start, _HALF + end, beat.slide, 0.0, _law("modified-sine")),
+    """The slide that carries the beater across, from edge to edge and back in the two beats; drawn as one motion, with
+    its runs from and to where it stands beside the cloth.
+    """
+    beat, back, law = timing.beat, _crank_rests(timing, period), _law("modified-sine")
+    spent, parked = (turn * time / period for time in (beat.time, beat.park_time))
+    first, last = back - spent * (1 - beat.forward), back - spent * (1 - beat.forward - beat.pressed)
+    whole = 2 * beat.park + beat.slide
+    runs = (
+        ("in", back - spent - parked, back - spent, 0.0, beat.park),
+        ("across", first, last, beat.park, beat.park + beat.slide),
+        ("out", back, back + parked, beat.park + beat.slide, whole),
     )
-    return (Track(SLIDE, "linear axis", parts),)
+    there = [TrackSegment(*one, law) for one in runs if one[3] != one[4]]
+    again = [
+        TrackSegment(f"{name} again", _HALF + start, _HALF + end, whole - begin, whole - finish, law)
+        for name, start, end, begin, finish in runs
+        if begin != finish
+    ]
+    return (Track(SLIDE, "linear axis", (*there, *again)),) if there else ()
 
 
 def _take_up(timing: RowTiming) -> Track:

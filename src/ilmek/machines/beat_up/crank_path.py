@@ -10,6 +10,7 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.beat import Beat, BeatPath
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.beat_up.design import BeatUp
+from ilmek.machines.beat_up.travel import BeaterTravel
 from ilmek.units import turn
 
 _POINTS = np.linspace(0.0, 1.0, 26)[1:-1]
@@ -19,8 +20,8 @@ _TURN_SAMPLES = 41
 _ACTUATOR = "beat-up crank"
 
 
-def crank_beat(start: CrankStart, slide: float = 0.0) -> Beat:
-    """The beat in time of a crank with its start and stop; slide: run of its slide across the carpet [m]."""
+def crank_beat(start: CrankStart, across: BeaterTravel | None = None) -> Beat:
+    """The beat in time of a crank with its start and stop; across: its travel along the carpet."""
     linkage, duty = start.duty.linkage, start.duty
     there, back = _times(start)
     travel, time = start.travel, start.time
@@ -37,7 +38,9 @@ def crank_beat(start: CrankStart, slide: float = 0.0) -> Beat:
         back_law=_spline(tuple(backward.tolist())),
         actuator=_ACTUATOR if linkage.params.speed else "",
         strokes=duty.strokes * duty.starts,
-        slide=slide,
+        slide=across.slide_run if across else 0.0,
+        park=across.params.park if across else 0.0,
+        park_time=across.parking if across else 0.0,
     )
 
 

@@ -17,7 +17,7 @@ from ilmek.machines.beat_up.hand import HAND, forearm_positions
 from ilmek.machines.beat_up.params import BeatUpParams
 from ilmek.machines.beat_up.report import criteria
 from ilmek.machines.beat_up.strength import beat_up_strength_checks, frame_force
-from ilmek.machines.beat_up.tree import travelling
+from ilmek.machines.beat_up.tree import beside_beater, travelling
 from ilmek.machines.beat_up.use import BeatUpUse, in_use, on_its_beam, use_checks
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.machines.fell_of_loom import loom_fabric
@@ -70,7 +70,7 @@ class TravellingBeat:
     @property
     def beat(self) -> Beat:
         """All strokes across the width, from the start of the crank to its stop."""
-        return crank_beat(self.use.start, self.use.travel.slide_run)
+        return crank_beat(self.use.start, self.use.travel)
 
     @property
     def path(self) -> BeatPath:
@@ -90,12 +90,13 @@ class TravellingBeat:
         duty = replace(self.use.start.duty, linkage=made, every=params.interval)
         use = on_its_beam(made, self.use.travel, crank_start(duty, params.start))
         across = use.travel
-        sliding = across.strokes * across.slide_mass * across.step.speed**2 / 2
+        moves = across.strokes + (2 if across.params.park else 0)
+        sliding = moves * across.slide_mass * across.step.speed**2 / 2
         return BeatDrive(
             name="beat-up",
             design=made,
             task=task,
-            beat=crank_beat(use.start, across.slide_run),
+            beat=crank_beat(use.start, across),
             fabric=fabric,
             parts=bill(travelling(made, use)),
             work=(Work("beating", use.start.start_work + sliding, "beat"),),
@@ -130,4 +131,9 @@ def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
         given = (made.params.width, made.params.thickness) != (width, thickness)
         if given or all(check.ok for check in beat_up_strength_checks(found.strength)):
             break
+    if task.weaver is None:
+        beside = beside_beater(made, found) + SPARE * task.params.clearance
+        travel = replace(usual.travel, park=beside)
+        made = design(task.parameters("beat-up", replace(usual, ground=made.params.ground, travel=travel)))
+        found = in_use(made, fabric)
     return TravellingBeat(made, found)

@@ -32,7 +32,7 @@ from ilmek.part.part import Bought, Part
 from ilmek.part.shapes import box
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most, must
-from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
+from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve
 from ilmek.units import mm, turn
 from ilmek.weaving.cloth import Cloth
 
@@ -69,8 +69,16 @@ class BeaterTravel:
     stroke_warp_force = computed("N", "force of the beat for a warp", lambda it: it.stroke_force / it.stroke_warps)
     beater_width = computed("mm", "width of the beater", lambda it: it.stroke_warps * it.cloth.warp_pitch)
     slide_run = computed(
-        "mm", "run of the slide", lambda it: max(it.cloth.warps - it.stroke_warps, 0) * it.cloth.warp_pitch
+        "mm",
+        "run of the slide from the first stroke to the last",
+        lambda it: max(it.cloth.warps - it.stroke_warps, 0) * it.cloth.warp_pitch,
     )
+
+    @property
+    def parking(self) -> float:
+        """Time of a run beside the cloth, no quicker than a step [s]; 0 without one."""
+        limits = AxisLimits(self.step.speed, self.params.acceleration, self.params.jerk)
+        return move_time(self.params.park, limits) if self.params.park else 0.0
 
 
 def travel(design: BeatUp, params: TravelParams, run_up: float) -> BeaterTravel:
@@ -161,8 +169,8 @@ def _slide_cycle(params: TravelParams, step: SCurve, mass: float, every: float) 
 
 
 def slide_length(found: BeaterTravel) -> float:
-    """Length of the slide: its run, its carriage, and room at both ends [m]."""
-    return float(found.slide_run + BLOCK_LENGTH + 2 * SLIDE_END)
+    """Length of the slide: its run, with those beside the cloth, its carriage, and room at both ends [m]."""
+    return float(found.slide_run + 2 * found.params.park + BLOCK_LENGTH + 2 * SLIDE_END)
 
 
 def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:

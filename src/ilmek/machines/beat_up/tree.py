@@ -45,13 +45,14 @@ from ilmek.machines.beat_up.travel import MOTOR, slide_length, travel_parts
 from ilmek.machines.beat_up.use import BeatUpUse, in_use
 from ilmek.machines.link_tree import GAP, JOURNAL
 from ilmek.part import catalogue
+from ilmek.part.extents import around, extents
 from ilmek.part.link_motion import carriers, closures
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
 
-CARRIAGE = "beat-up/carriage"
+CARRIAGE, RAIL = "beat-up/carriage", "beat-up/rail"
 """Body that carries crank and rocker."""
 
 _Z = (0.0, 0.0, 1.0)
@@ -84,7 +85,7 @@ def travelling(
         _in_loom(design, Occurrence(axis, (placement(z=-length / 2),)), on_beam, middle),
         *(_in_loom(design, one, raised, middle) for one in in_line(drive, -length / 2)),
     )
-    rail = RigidBody("beat-up/rail", standing)
+    rail = RigidBody(RAIL, standing)
     on_block = beam_corner(design) + complex(AXIS_SIDE / 2, high + AXIS_SIDE + BLOCK_HEIGHT / 2)
     block = _in_loom(design, Occurrence(slide_block()), on_block, plate_begin(design) - BLOCK_LENGTH)
     parts = (*on_slide(design, high, start_parts(use.start)), block)
@@ -98,6 +99,13 @@ def travelling(
 def beater_shift(design: BeatUp, beater: Beater) -> float:
     """Middle of the beater from that of the rocker along z [m]: beside it, with its plate between."""
     return -((0.5 + GAP) * design.params.thickness + beater.width / 2)
+
+
+def beside_beater(design: BeatUp, use: BeatUpUse) -> float:
+    """The run beside a cloth in which all that travels clears it: how far that reaches beyond the beater [m]."""
+    riding = (one for one in extents(travelling(design, use), ()) if one.body != RAIL)
+    ends = around(riding)
+    return use.travel.beater.width / 2 + max(float(ends[1][2]), -float(ends[0][2]))
 
 
 def beam_occurrences(design: BeatUp, beam: BeatBeam) -> tuple[Occurrence, ...]:

@@ -53,6 +53,12 @@ class TravelParams(Params):
         20 * mm, at_least=0.0, at_most=1.0, doc="distance of the beater's bar from the warps, to the front"
     )
     reach: float = kind.length(20 * mm, at_least=0.1 * mm, at_most=1.0, doc="reach of the beater's teeth in the warps")
+    park: float = kind.length(
+        0.0,
+        at_least=0.0,
+        at_most=5.0,
+        doc="run of the slide beyond its first and its last stroke, where the beater stands beside weavers",
+    )
     beam_length: float | None = kind.length(
         None, at_least=10 * mm, at_most=50.0, doc="length of the beam that carries the slide; default: the slide's"
     )

@@ -39,8 +39,8 @@ def _placed(loom: LoomDesign) -> tuple[Tree, Placement]:
         one = beat.design
         slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if _slides(loom) else None
         motions = _of_links(one, angle, tip) | ({CARRIAGE: slide} if slide else {})
-        # At angle 0 the beater stands at the left edge of the cloth.
-        start = beat.beaten * loom.task.cloth.warp_pitch / 2 - half_width(loom) if slide else 0.0
+        # At angle 0 the beater stands at the left edge of the cloth, or beside it.
+        start = beat.beaten * loom.task.cloth.warp_pitch / 2 - half_width(loom) - beat.beat.park if slide else 0.0
         return travelling(one, beat.use, motions, start), in_side_view(one)
     if beat.design.linkage is None:
         shift = np.stack([tip.real, tip.imag, np.zeros(tip.size)], axis=1)
