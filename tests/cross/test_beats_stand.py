@@ -24,6 +24,7 @@ LOOMS = (
     {"beat": "linkage", "heads": "2"},
     {"beat": "comb", "heads": "2", "weft": "rapier"},
     {"beat": "guide-cams", "heads": "1"},
+    {"beat": "travelling", "knotting": "hand"},
 )
 LOOKED_AT = {"beat-up", "hammer", "weft"}
 

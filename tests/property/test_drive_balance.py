@@ -22,6 +22,7 @@ _LOOMS: tuple[dict[str, object], ...] = (
     {"beat": "comb", "heads": 2},
     {"beat": "guide-cams"},
     {"weft.carrier": "rapier", "heads": 3},
+    {"beat": "travelling", "knotting": "hand"},
 )
 
 

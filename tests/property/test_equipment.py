@@ -29,6 +29,9 @@ from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CORE, DENSIT
 from ilmek.machines.automated_loom.equipment.energy_chain import chain_checks, energy_chain, trough_box
 from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.station import station_of
+from ilmek.machines.automated_loom.equipment.stopping import stopping_time
+from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.tree import equipment_trees, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import PathStep, tensions, yarn_path
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
@@ -201,6 +204,30 @@ def test_boxes_of_copies_contain_their_own_points(origins, turned: bool, carried
         assert found.low == pytest.approx(points.min(0), abs=2 * mm)
         assert found.high == pytest.approx(points.max(0), abs=2 * mm)
     assert next(boxes, None) is None
+
+
+@pytest.mark.parametrize("beat", ["comb", "travelling"])
+def test_nothing_comes_nearer_to_a_hand_on_its_button_than_it_comes_while_that_moves(beat: str) -> None:
+    """Meshes over a row; and while weavers tie, nothing that moves in a row stands before the cloth at their hands."""
+    loom = _loom(knotting="hand", beat=beat)
+    station, stops, tree = station_of(loom), stopping_time(loom), loom_tree(loom)
+    half, hands = loom.task.cloth.width / 2, 0.12
+    own = {body.id for tree in equipment_trees(loom) for body in tree.bodies}
+    for chain in chains(tree):
+        body = chain[-1].body
+        if body.id in own or all(one.body.joint.motion is None for one in chain):
+            continue
+        here = poses(chain, ROW, np.linspace(0.0, turn, 37))
+        for occurrence in body.occurrences:
+            assert occurrence.part.shape is not None
+            mesh = occurrence.part.shape.mesh(1 * mm).points
+            points = np.concatenate([here.points(placed.points(mesh)) for placed in occurrence.positions], axis=1)
+            gap = station.buttons - float(points[:, :, 2].max())
+            assert gap >= 1.6 * stops.of(body.id) - 2 * mm, body.id
+            at_rest = points[0]
+            before = (np.abs(at_rest[:, 0]) < half) & (at_rest[:, 2] > 5 * mm) & (np.abs(at_rest[:, 1]) < hands)
+            assert not before.any(), occurrence.part.id
+    assert min(1.6 * stops.of(one.body) for one in surroundings(loom).hazards) > 0.05
 
 
 @given(st.floats(0.1, 1.2), st.floats(0.2, 2.6))

@@ -2,6 +2,7 @@
 
 import contextlib
 import itertools
+import math
 from dataclasses import replace
 from functools import lru_cache
 
@@ -12,6 +13,7 @@ from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
 from ilmek.machines.automated_loom.cost import CarpetCost, annuity_factor, costs_by_beats
 from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.estimate import weavers_needed
 from ilmek.machines.automated_loom.offers import CYCLES, value_of
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.report import LoomAnalysis, all_checks, analyse
@@ -65,6 +67,25 @@ def test_shares_of_the_cost_are_those_of_a_computation_by_hand(beat: str, heads:
     assert (cost.payback_time is None) == (saved <= 0)
     if saved > 0:
         assert cost.payback_time == pytest.approx(cost.sold / saved * 365.25 * 86400)
+
+
+def test_time_and_wage_of_weavers_are_those_of_a_computation_by_hand() -> None:
+    """Two weavers, 9,000 knots a day of 7.5 h: 3 s a knot, 75 of each row; a loom pays both for all of its hours."""
+    rates = replace(RATES, weaver_knots=9000.0, weaver_day=7.5 * 3600)
+    params = AutomatedLoomParams(width=1.2, length=0.6, knots_across=125.0, knotting="hand", beat="comb", cost=rates)
+    found = analyse(design(params))
+    stops = sum((75 - 1) // bobbin.rows * bobbin.time for bobbin in found.loom.bobbins)
+    time = 75 * (75 * 3.0 + found.cycle_time_row) + stops
+    assert (found.loom.weavers, found.loom.heads, found.knots) == (2, 0, 75 * 150)
+    assert found.weaving_time == pytest.approx(time)
+    assert found.loom.knot_cyclogram.period == pytest.approx(75 * 3.0 + found.cycle_time_row)
+    carpets = 4000 * 0.85 / (time / 3600 + 5)
+    assert found.cost.cost_shares["operators"] == pytest.approx(14 * 2 * 4000 / carpets)
+    for deadline in (time - 1, 0.7 * time, 0.3 * time):
+        times = {n: 75 * (math.ceil(150 / n) * 3.0 + found.cycle_time_row) + stops for n in range(1, 151)}
+        enough = next((n for n, needed in times.items() if needed <= deadline), None)
+        assert weavers_needed(found.loom, deadline) == enough
+    assert weavers_needed(found.loom, 75 * found.cycle_time_row) is None
 
 
 TABLE = list(itertools.product(("cams", "arms"), (1.8, 1.25), WEFT_CARRIERS, BEATS, (1, 2)))

@@ -48,6 +48,8 @@ def reported(**settings: Any) -> Report:
         dict(width=2.0, length=3.0, knots_across=100 / dm, heads=11),
         dict(width=2.2, length=2.8, knots_across=90 / dm, heads=10),
         dict(width=1.2, knots_across=10 / dm, knots_along=20 / dm, heads=2),
+        dict(width=1.2, knotting="hand", beat="travelling"),
+        dict(width=2.5, length=3.5, knotting="hand"),
     ],
 )
 def test_looms_for_other_carpets_keep_all_limits_but_those_in_space(settings: dict[str, Any]) -> None:
@@ -60,7 +62,10 @@ def test_looms_for_other_carpets_keep_all_limits_but_those_in_space(settings: di
     assert loom.warps == 2 * loom.columns + 8
     assert loom.shedding.params.cloth.warps == loom.warp_tension.params.cloth.warps == loom.warps
     assert loom.knot_pitch * loom.columns == pytest.approx(loom.params.width, abs=loom.knot_pitch)
-    assert loom.head_distance >= loom.head_width
+    if loom.heads:
+        assert loom.head_distance >= loom.head_width
+    else:
+        assert loom.weavers == math.floor(loom.params.width / 0.6)
 
 
 def test_checks_carry_the_name_of_their_machine() -> None:
@@ -186,6 +191,9 @@ def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: fl
         ),
         (dict(warp_pitch=2 * mm, knots_across=20 / dm), "25 knots/dm is what that 2 mm pitch gives"),
         (dict(heads=9), "9 heads of 88 mm do not fit a carpet 1.2 m wide; at most 7"),
+        (dict(knotting="hand", heads=2, tubes=8), "heads, tubes with knotting=hand; a loom without heads has weavers="),
+        (dict(knotting="hand", weavers=3), "3 weavers of 600 mm do not fit a carpet 1.2 m wide; at most 2"),
+        (dict(weavers=2), "weavers=2 with knotting=auto"),
         (dict(open_share=1.0), "a shed of 60 mm is never as open as open_share=1 of it"),
         (dict(beat_end=105 * deg), "the shed is free of the shuttle from 108.4 deg on"),
         (dict(take_up_end=150 * deg), "the take-up ends before the beat"),

@@ -21,7 +21,7 @@ from ilmek.jobs.existing_loom import ExistingLoom, carpet_checks, for_rows, head
 from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
 from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
-from ilmek.machines.automated_loom import AutomatedLoomParams, design
+from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
 from ilmek.machines.automated_loom.cyclogram import TAKE_UP, row_ends
 from ilmek.report import Report
 
@@ -37,6 +37,7 @@ LOOMS = (
     ("beat=travelling",),
     ("beat=comb", "comb_acceleration=4m/s^2"),
     ("beat=guide-cams",),
+    ("beat=comb", "knotting=hand"),
     ("width=2m", "length=3m", "knots_across=30/dm", "knots_along=25/dm", "deadline=200h"),
     ("beat=comb", "knots_across=12/dm", "shedding.law=modified-sine", "yarns.warp=wool", "prices=bearing each = 9"),
 )
@@ -196,6 +197,24 @@ def test_a_deadline_is_a_check_and_fewer_heads_can_be_used(loom_file: Path, pict
     assert one.notes == ("1 of the loom's 2 heads are used; the others are parked",)
     late = made(loom_file, picture, deadline=f"{0.9 * two.programme.duration / 3600}h")
     assert failed(late) == {"weaving time"}
+
+
+def test_weavers_weave_by_the_chart_with_no_programme(tmp_path: Path, picture: Path) -> None:
+    """Their time by hand: 8 h of 8,000 knots a day are 3.6 s a knot; 90 knots of a row, one weaver."""
+    order = read_order(picture, size=SIZE, quality=QUALITY)
+    charted = make_charted(order)
+    designed = make_loomed(read_loom_order(order, loom={"knotting": "hand"}), charted)
+    assert designed.design is not None
+    assert (designed.programme, designed.setup, designed.design.weavers, failed(designed)) == (None, None, 1, set())
+    row = 90 * 3.6 + designed.design.row_cyclogram.period
+    stops = sum((bobbin.changes(135)) * bobbin.time for bobbin in designed.design.bobbins)
+    assert designed.weaving_time == pytest.approx(135 * row + stops)
+    file = tmp_path / "hand.json"
+    file.write_text(json.dumps(MACHINE.report(designed.design).as_json()))
+    half = made(file, picture, size="60x45cm", deadline="7h")
+    assert (half.programme, half.notes, failed(half)) == (None, designed.notes, {"weaving time"})
+    assert half.weaving_time is not None
+    assert designed.weaving_time == pytest.approx(2 * half.weaving_time, rel=0.01)
 
 
 def test_a_narrow_carpet_parks_heads(existing: ExistingLoom, picture: Path) -> None:
