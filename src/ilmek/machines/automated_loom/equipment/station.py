@@ -190,24 +190,24 @@ def _on_board(station: WeaversStation) -> Iterator[Occurrence]:
 
 def station_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """Reach of the weavers, the distance of their buttons, and the beams of the bench."""
-    station, parts = station_of(loom), (part_id("bench-board"),)
-    assumed, cure = "assumed by this project", "set beat=comb, or a shorter shed_stop"
+    station, nearer = station_of(loom), "set beat=comb, or a shorter shed_stop"
+    until = f"ISO 13855, 1.6 m/s: until the {stopping_time(loom).axis_of(station.hazard.body)} stands; shrouded"
     return (
-        at_most("weavers: reach to the fell", station.reach, ARM, "mm", assumed, cure=cure, parts=parts),
+        at_most("weavers: reach to the fell", station.reach, ARM, "mm", "assumed by this project").with_cure(
+            nearer, part_id("bench-board")
+        ),
         at_least(
             "guards: distance of the buttons that weavers hold",
             station.buttons - float(station.hazard.high[2]),
             station.distance,
             "mm",
-            f"ISO 13855, 1.6 m/s: until the {stopping_time(loom).axis_of(station.hazard.body)} stands; shrouded",
-        ).with_cure(cure, signals.HANDS),
+            until,
+        ).with_cure(nearer, signals.HANDS),
         at_most(
             "bench: deflection of a beam",
             station.sag,
             _SAG * 2 * station.half,
             "mm",
             "length over 300, assumed by this project",
-            cure="set fewer weavers",
-            parts=(part_id("bench-beam"),),
-        ),
+        ).with_cure("set fewer weavers", part_id("bench-beam")),
     )
