@@ -142,7 +142,7 @@ def _sag(section: HollowSquare, load: float, span: float) -> float:
 def station_tree(loom: LoomDesign) -> Tree:
     """The bench, fixed to the front feet, with its buttons."""
     station = station_of(loom)
-    return Tree((RigidBody(BENCH, (*_stand(loom, station), *_seat(station), *_on_board(station))),))
+    return Tree((RigidBody(BENCH, (*_stand(loom, station), *_seat(loom, station), *_on_board(station))),))
 
 
 def _stand(loom: LoomDesign, station: WeaversStation) -> Iterator[Occurrence]:
@@ -160,7 +160,7 @@ def _stand(loom: LoomDesign, station: WeaversStation) -> Iterator[Occurrence]:
     yield Occurrence(leg, tuple(placement(own, low, z).after(UPRIGHT) for own in (-x, x) for z in ends))
 
 
-def _seat(station: WeaversStation) -> Iterator[Occurrence]:
+def _seat(loom: LoomDesign, station: WeaversStation) -> Iterator[Occurrence]:
     """Beams along the width, the board on them, and a foot board under a high seat."""
     half, section, (deep, thick) = station.half, station.section, BOARD
     under = station.floor + station.seat - thick
@@ -173,7 +173,8 @@ def _seat(station: WeaversStation) -> Iterator[Occurrence]:
     if station.seat > FREE_FEET:
         side = _SECTION.side
         rail = member("foot-board", "foot board of the bench", _SECTION, 2 * half - 2 * side)
-        at = station.floor + station.seat - FREE_FEET
+        over = float(surroundings(loom).of(part_id("front-foot"))[-1].high[1]) + side / 2
+        at = max(station.floor + station.seat - FREE_FEET, over)
         yield Occurrence(rail, (placement(side - half, at, station.front + side / 2).after(ALONG_WIDTH),))
 
 
