@@ -20,13 +20,14 @@ HAND = "(40.1923788646684mm,150mm) (10.2222521132795mm,77.6457135307562mm) (0,0)
 
 def forearm_positions(height: float) -> str:
     """First, second and final position of a hand that beats from a height over the fell [m], about an elbow level with
-    the fell, as a text; from no higher than a forearm is long.
+    the fell, as a text; about a longer arm where the forearm would swing by more than 45 deg.
 
     >>> round(float(np.degrees(hand_swing(*hand_positions(forearm_positions(0.175))))), 6)
     30.0
     """
-    swing = float(np.arcsin(min(height / FOREARM, 1.0)))
-    places = FOREARM * (1 - np.exp(-1j * np.array([swing, swing / 2, 0.0])))
+    arm = max(FOREARM, height / np.sin(turn / 8))
+    swing = float(np.arcsin(height / arm))
+    places = arm * (1 - np.exp(-1j * np.array([swing, swing / 2, 0.0])))
     return " ".join(f"({place.real!r}m,{place.imag!r}m)" for place in places.tolist())
 
 
