@@ -34,24 +34,26 @@ export function Controls({ state, heads, rows, onShow, onChange }: ControlsProps
     <>
       <fieldset class="loom-views">
         <legend>{t("loom.views")}</legend>
-        {VIEW_NAMES.map((name) => (
+        {VIEW_NAMES.filter((name) => heads > 0 || name !== "head").map((name) => (
           <Button key={name} size="small" onClick={() => onShow(name)}>
             {t(`loom.${name}`)}
           </Button>
         ))}
       </fieldset>
-      <Select
-        label={t("loom.follow")}
-        value={state.followed}
-        choices={[
-          { value: "", label: t("loom.nobody") },
-          ...Array.from({ length: heads }, (_, k) => ({
-            value: String(k),
-            label: t("loom.headNumber", { number: k + 1 }),
-          })),
-        ]}
-        onChange={(followed) => onChange({ followed })}
-      />
+      {heads > 0 && (
+        <Select
+          label={t("loom.follow")}
+          value={state.followed}
+          choices={[
+            { value: "", label: t("loom.nobody") },
+            ...Array.from({ length: heads }, (_, k) => ({
+              value: String(k),
+              label: t("loom.headNumber", { number: k + 1 }),
+            })),
+          ]}
+          onChange={(followed) => onChange({ followed })}
+        />
+      )}
       <Select
         label={t("loom.section")}
         value={axis}

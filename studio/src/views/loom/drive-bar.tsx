@@ -11,12 +11,14 @@ interface DriveBarProps {
   player: Player;
   drive: Drive;
   period: number;
+  /** Whether heads tie knots. */
+  knots: boolean;
   /** The motions of the machine at an angle. */
   motions: (angle: number) => readonly ScenePhase[];
   onDrive: (drive: Drive) => void;
 }
 
-export function DriveBar({ player, drive, period, motions, onDrive }: DriveBarProps) {
+export function DriveBar({ player, drive, period, knots, motions, onDrive }: DriveBarProps) {
   const { angle, playing, speed } = player;
   const turned = angle.value;
   const degrees = formatNumber(Math.round((turned * 3600) / TURN) / 10);
@@ -35,7 +37,10 @@ export function DriveBar({ player, drive, period, motions, onDrive }: DriveBarPr
         label={t("loom.drive")}
         labelHidden
         value={drive}
-        choices={(["row", "knot"] as const).map((value) => ({ value, label: t(`loom.${value}`) }))}
+        choices={(knots ? (["row", "knot"] as const) : (["row"] as const)).map((value) => ({
+          value,
+          label: t(`loom.${value}`),
+        }))}
         onChange={onDrive}
       />
       <Slider

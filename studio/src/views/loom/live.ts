@@ -32,7 +32,7 @@ export function liveOf(model: SceneModel, { going, tied }: Run, news: RunNews, b
     rows: Math.min(news.row + (tying ? 0 : 1), news.rows),
     heads: at,
     angles: {
-      knot: tying ? ((news.time % periods.knot) / periods.knot) * TURN : 0,
+      knot: tying && periods.knot ? ((news.time % periods.knot) / periods.knot) * TURN : 0,
       row: tying ? 0 : Math.min(Math.max(news.time - tied, 0) / periods.row, 1) * TURN,
     },
   };

@@ -163,7 +163,8 @@ export interface SceneAbout extends Judgement {
   /** Frames of fence and doors. */
   guards: string[];
   floor: number;
-  periods: Record<Drive, number>;
+  /** Times of a row, and of a head's knot where heads tie [s]. */
+  periods: { row: number; knot?: number };
   /** What moves when, of a row and of a knot. */
   phases: ScenePhase[];
   frames: SceneFrame[];

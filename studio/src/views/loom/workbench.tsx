@@ -63,7 +63,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     (angle: number) => stage.current?.turn({ row: drive === "row" ? angle : 0, knot: drive === "knot" ? angle : 0 }),
     [drive, model],
   );
-  const player = usePlayer(about.periods[drive], show);
+  const player = usePlayer(about.periods[drive] ?? about.periods.row, show);
   useEffect(() => {
     if (pair === null) {
       stage.current?.choose([chosen]);
@@ -153,7 +153,8 @@ export function Workbench({ model, above, below, running, drawing, live = null }
               <DriveBar
                 player={player}
                 drive={drive}
-                period={about.periods[drive]}
+                period={about.periods[drive] ?? about.periods.row}
+                knots={about.periods.knot !== undefined}
                 motions={(angle) => underWay(model, drive, angle)}
                 onDrive={(to) => {
                   setDrive(to);
