@@ -29,7 +29,7 @@ from ilmek.machines.weaver.carriage_drive import tension_check
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.records import computed, record
-from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
+from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -52,7 +52,7 @@ class LoomVerdict:
 
     @computed("", "checks that do not hold, the heaviest first, with what would cure them", shown=False)
     def reasons(self) -> list[Json]:
-        return [reason.as_json() for reason in self.report.reasons]
+        return [reason_json(reason) for reason in self.report.reasons]
 
 
 @record
