@@ -15,11 +15,11 @@ def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
         (
             body,
             _size(found.sections[body]),
-            one.stress,
-            _where(one),
-            *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)),
+            link.stress,
+            _where(link),
+            *(_finite(v) for v in (link.fatigue, link.buckling, link.frequency / turn)),
         )
-        for body, one in found.links.items()
+        for body, link in found.links.items()
     )
     pins = tuple(
         (pin, one.diameter, one.force, one.shear, one.bending, one.pressure, one.wear / MPa)

@@ -208,7 +208,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
     assert shedding.params.spans_of_warp is not None  # the loom sets the spans of its cams
     front, back = shedding.params.spans_of_warp
-    along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
+    along, last = [shaft.beyond for shaft in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
     shape, comb = head.shape, _comb(room, spans, path)
@@ -220,12 +220,12 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         spans=spans,
         cams=tuple(
             CamPosition(
-                complex(-one.cam.prime_radius, height),
-                one.stack.guide_radius,
+                complex(-shaft.cam.prime_radius, height),
+                shaft.stack.guide_radius,
                 front_of(shedding, index),
-                one.params.lift,
+                shaft.params.lift,
             )
-            for index, (one, height) in enumerate(zip(shedding.shafts, spans.front, strict=True))
+            for index, (shaft, height) in enumerate(zip(shedding.shafts, spans.front, strict=True))
         ),
         carrier=_carrier(room, spans),
         comb=comb,

@@ -52,7 +52,7 @@ class Seam:
 def seams(loom: LoomDesign, frame: LoomFrame) -> tuple[Seam, ...]:
     """The welds of brackets and posts."""
     made = brackets_of(loom)
-    return (*(_of_bracket(frame, made.face, one) for one in made.plates), *_of_posts(loom, frame))
+    return (*(_of_bracket(frame, made.face, plate) for plate in made.plates), *_of_posts(loom, frame))
 
 
 def _of_bracket(frame: LoomFrame, face: float, one: Bracket) -> Seam:

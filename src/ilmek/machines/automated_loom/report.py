@@ -171,15 +171,15 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         ).with_cure("set a larger lift, or a smaller open_share"),
         *(replace(check, name=f"row: {check.name}", cure=SLOWER_CAMS) for check in check_all(row, row.relations)),
         *(
-            replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
-            for one in knot.exclusions
+            replace(check_apart(knot, exclusion), name=f"knot: {exclusion.label(knot.units)}", cure=SLOWER_KNOT)
+            for exclusion in knot.exclusions
         ),
         *cloth_checks(loom),
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
-        *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
+        *(check for rail_support in rail_supports(loom, found.listed.frame) for check in rail_support.checks),
         tension_check(drive_of(loom.weaver), loom.heads),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
         *joint_checks(loom, found.listed.frame),

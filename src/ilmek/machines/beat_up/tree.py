@@ -206,8 +206,8 @@ def _turned(x: float, z: float, angle: float) -> Placement:
 def _struck(design: BeatUp, beater: Beater) -> Iterator[Occurrence]:
     """The parts of a beater on its rocker, beside it."""
     shift = placement(z=beater_shift(design, beater))
-    for one in beater.occurrences:
-        placed = on_rocker(one, design.lengths["beater"])
+    for occurrence in beater.occurrences:
+        placed = on_rocker(occurrence, design.lengths["beater"])
         yield replace(placed, positions=tuple(shift.after(position) for position in placed.positions))
 
 

@@ -78,7 +78,7 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
     tolerated = params.error_max is not None
     ranked = ranked_by_error(options, lambda one: finite(one.details[error]), tolerated=tolerated)
     choice = choose(ranked, answers.left_out, params, rank=ranked.index)
-    candidates = [one.candidate for one in options]
+    candidates = [option.candidate for option in options]
     kept = tuple(answers.found[candidates.index(one.candidate)] for one in choice.kept)
     return FunctionFourBar(choice=choice, params=params, function=function, approximations=kept)
 

@@ -163,13 +163,13 @@ def _pose_tables(posed: PosedFourBar) -> tuple[Table, ...]:
     )
     four_bars = tuple(
         (
-            one.crank + 1,
-            *one.candidate.four_bar.lengths,
-            one.candidate.grashof.kind,
-            one.candidate.least_transmission,
-            "to build" if one is found.best else "; ".join(one.defects.values()) or "no defect",
+            choice.crank + 1,
+            *choice.candidate.four_bar.lengths,
+            choice.candidate.grashof.kind,
+            choice.candidate.least_transmission,
+            "to build" if choice is found.best else "; ".join(choice.defects.values()) or "no defect",
         )
-        for one in found.choices
+        for choice in found.choices
     )
     four_bar_table = Table("knotting-four-bars", "The arms joined as one four-bar", heads, four_bars, brief=True)
 

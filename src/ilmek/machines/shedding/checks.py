@@ -31,7 +31,7 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
     def of(checks_of: Callable[[CamShaft], Iterator[Check]], *names: str) -> Iterator[Check]:
         """The worst of the shafts' checks, which concern these parts of every shaft."""
         parts = tuple(part_id(name, index) for name in names for index in range(len(design.shafts)))
-        return (replace(check, parts=parts) for check in worst([tuple(checks_of(one)) for one in design.shafts]))
+        return (replace(check, parts=parts) for check in worst([tuple(checks_of(shaft)) for shaft in design.shafts]))
 
     return (
         *of(_cam_checks, "shedding-cam"),
@@ -46,7 +46,7 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
         *of(_key_checks, "key", "cam-shaft"),
         *of(_motor_checks, "motor", "reducer"),
         *_reed_checks(design),
-        *worst([tuple(_warp_checks(one)) for one in design.shafts]),
+        *worst([tuple(_warp_checks(shaft)) for shaft in design.shafts]),
     )
 
 

@@ -64,18 +64,18 @@ def _shafts_table(design: SheddingDesign) -> Table:
     rows = tuple(
         (
             index + 1,
-            one.beyond,
-            *one.numbers,
-            one.params.lift,
-            one.cam.prime_radius,
-            one.stack.guide_radius,
-            one.stack.mass,
-            one.shaft.bar,
-            one.drive.torque_max.value,
-            one.shaft.seat.bearing.name,
-            one.drive.motor.name if one.drive.motor else "given",
+            shaft.beyond,
+            *shaft.numbers,
+            shaft.params.lift,
+            shaft.cam.prime_radius,
+            shaft.stack.guide_radius,
+            shaft.stack.mass,
+            shaft.shaft.bar,
+            shaft.drive.torque_max.value,
+            shaft.shaft.seat.bearing.name,
+            shaft.drive.motor.name if shaft.drive.motor else "given",
         )
-        for index, one in enumerate(design.shafts)
+        for index, shaft in enumerate(design.shafts)
     )
     return Table("shedding-shafts", "The cam shafts one above the other", heads, rows)
 

@@ -34,8 +34,8 @@ def side_view(design: SheddingDesign) -> tuple[Drawing, ...]:
             Stroke(np.array([axis.imag * 1j, tip]), "dimension", f"lift {format_quantity(one.params.lift, 'mm')}")
         )
         dots.append(Dot(axis, "", "pivot"))
-    aside = -2.2 * max(one.stack.guide_radius for one in design.shafts)
-    heights = [0.0, *(front + one.beyond for one in design.shafts), top]
+    aside = -2.2 * max(shaft.stack.guide_radius for shaft in design.shafts)
+    heights = [0.0, *(front + shaft.beyond for shaft in design.shafts), top]
     for low, high in pairwise(heights):
         strokes.append(
             Stroke(np.array([aside + 1j * low, aside + 1j * high]), "dimension", format_quantity(high - low, "mm"))

@@ -50,7 +50,7 @@ def _side(found: WarpTensionAnalysis) -> _Side:
 def side_view(found: WarpTensionAnalysis) -> Drawing:
     """The three cylinders from the side, to scale, with the path of the warps and the loads."""
     side, height = _side(found), found.design.params.free_length
-    longest = max(abs(one.load) for one in found.cylinders)
+    longest = max(abs(cylinder.load) for cylinder in found.cylinders)
     strokes = [Stroke(side.path, "yarn", "warps")]
     for one in found.cylinders:
         at = side.middle[one.name]

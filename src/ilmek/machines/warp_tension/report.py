@@ -109,9 +109,9 @@ def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
         f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
     ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end"))
     yield from (
-        one.driven_end.check(f"{one.name} cylinder", larger, (part_id(f"{one.name}-key"),))
-        for one in found.cylinders
-        if one.torque > 0
+        cylinder.driven_end.check(f"{cylinder.name} cylinder", larger, (part_id(f"{cylinder.name}-key"),))
+        for cylinder in found.cylinders
+        if cylinder.torque > 0
     )
 
 

@@ -157,7 +157,7 @@ def bobbin_plot(made: Weft) -> Plot:
     """Weft left on the bobbins over the rows: each row takes its length, each stop brings a full one."""
     assert isinstance(made.carried, Shuttle)
     last = min(made.params.rows, MOST_ROWS)
-    series = tuple(_left(one, last) for one in made.carried.windings)
+    series = tuple(_left(winding, last) for winding in made.carried.windings)
     axes = Axis("rows of knots woven"), Axis("weft on the bobbin", "m")
     return Plot("weft-bobbins", "Weft on the bobbins", *axes, series, note="each jump is a stop of the loom")
 

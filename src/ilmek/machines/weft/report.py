@@ -62,7 +62,7 @@ def _bobbins(made: Weft) -> Table:
 
 def _stops(made: Weft) -> Table:
     heads = columns("before row", "new bobbins", "time [s]")
-    first = MOST_STOPS * min(one.rows for one in made.bobbins) + 1
+    first = MOST_STOPS * min(bobbin.rows for bobbin in made.bobbins) + 1
     stops = change_stops(made.bobbins, min(first, made.params.rows))[:MOST_STOPS]
-    rows = tuple((one.row + 1, " and ".join(one.yarns), one.time) for one in stops)
+    rows = tuple((stop.row + 1, " and ".join(stop.yarns), stop.time) for stop in stops)
     return Table("weft-stops", "Stops for new bobbins, rows from the bottom", heads, rows)

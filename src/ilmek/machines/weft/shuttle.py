@@ -53,11 +53,11 @@ class Shuttle:
 
     @computed("m", "length of each weft on a full bobbin")
     def capacity(self) -> dict[str, float]:
-        return {one.name: one.capacity for one in self.windings}
+        return {winding.name: winding.capacity for winding in self.windings}
 
     @computed("1", "rows that a bobbin of each weft lasts")
     def rows_of_a_bobbin(self) -> dict[str, int]:
-        return {one.name: one.rows for one in self.windings}
+        return {winding.name: winding.rows for winding in self.windings}
 
     @property
     def width(self) -> float:
@@ -113,7 +113,7 @@ def _weighed(params: WeftParams, made: Shuttle) -> Shuttle:
 
 def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
     """The checks that the size of the bobbin decides."""
-    lasts = min(*(one.rows for one in made.windings), params.rows)
+    lasts = min(*(winding.rows for winding in made.windings), params.rows)
     least = min(params.least_rows, params.rows)
     where = "assumed by this project: parameters least_rows, packing, reserve"
     cure = "set a higher lift, weft=rapier, or a smaller weft.least_rows"

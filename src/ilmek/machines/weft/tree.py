@@ -115,7 +115,7 @@ def _tree(made: WeftBodies) -> Tree:
     shuttles = (STRAIGHT, SINUOUS) if isinstance(made.carried, Shuttle) else ()
     # The magnets draw a shuttle along; the guide, and at the right edge the box, hold its height.
     drawn = (Closure(JointKind.TRANSMISSION, (DRAGGING, one), kept_by=(MAGNET,), along=across) for one in shuttles)
-    held = (Closure(JointKind.TRANSMISSION, (RIGHT_BOX, one), kept_by=(BOX,), along=up) for one in shuttles)
+    held = (Closure(JointKind.TRANSMISSION, (RIGHT_BOX, shuttle), kept_by=(BOX,), along=up) for shuttle in shuttles)
     return Tree(tuple(made.bodies()), (*drawn, *held))
 
 

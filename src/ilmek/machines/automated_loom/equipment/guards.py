@@ -131,7 +131,7 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
     fence = fence_of(loom)
     nearest = min(fence.hazards, key=fence.distance)
     worst = min(fence.hazards, key=lambda one: fence.distance(one) - fence.needed(one))
-    moved = max(float(one.high[2]) for one in fence.hazards)
+    moved = max(float(hazard.high[2]) for hazard in fence.hazards)
     height, opening = format_quantity(fence.height, "m", 3), format_quantity(MESH - WIRE, "mm")
     stops = format_quantity(fence.stopping.whole, "s", 3)
     return (
@@ -172,7 +172,7 @@ def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[fl
     >>> bays(0.0, 1.5), bays(0.0, 1.0, (0.4,))
     ((0.0, 0.75, 1.5), (0.0, 0.4, 1.0))
     """
-    ends = (begin, *sorted(one for one in stations if begin + POST < one < end - POST), end)
+    ends = (begin, *sorted(station for station in stations if begin + POST < station < end - POST), end)
     posts = [begin]
     for first, then in pairwise(ends):
         number = math.ceil((then - first) / BAY - 1e-9)

@@ -44,7 +44,7 @@ class Surroundings:
 
     def of(self, part: str) -> tuple[Extent, ...]:
         """The boxes of the pieces of a part, from left to right. Raises LoomError where the loom has none."""
-        pieces = sorted((one for one in self.extents if one.part == part), key=lambda one: float(one.low[0]))
+        pieces = sorted((extent for extent in self.extents if extent.part == part), key=lambda one: float(one.low[0]))
         if not pieces:
             raise LoomError(f"no part {part!r} in the loom", allowed="a part of its tree")
         return tuple(pieces)
@@ -52,7 +52,7 @@ class Surroundings:
     @property
     def standing(self) -> tuple[Corner, Corner]:
         """Corners of the box about all that stands, but the cabinet of the control [m]."""
-        return around(one for one in self.extents if not one.moving and one.part != CONTROL)
+        return around(extent for extent in self.extents if not extent.moving and extent.part != CONTROL)
 
     @property
     def moving(self) -> tuple[Corner, Corner]:
@@ -76,7 +76,7 @@ class Surroundings:
 
     def free(self, low: Corner, high: Corner, *, but: str = "") -> bool:
         """Whether a box has room in the loom, over all motions; `but`: the part that carries it is not looked at."""
-        return not any(one.meets(low, high, GAP) for one in self.extents if one.part != but)
+        return not any(extent.meets(low, high, GAP) for extent in self.extents if extent.part != but)
 
 
 @lru_cache(maxsize=4)
