@@ -262,13 +262,13 @@ def largest_bar(mass: float, length: float, density: float) -> tuple[float, floa
     return light[-1] if light else FLAT_BARS[0]
 
 
-def equilibrium_test(found: LinkageStrength) -> Check:
+def equilibrium_test(strength: LinkageStrength) -> Check:
     """The test that all that acts on each link is in equilibrium."""
-    return at_most("equilibrium of the links' loads", found.equilibrium, EQUILIBRIUM, "1", "d'Alembert")
+    return at_most("equilibrium of the links' loads", strength.equilibrium, EQUILIBRIUM, "1", "d'Alembert")
 
 
 def strength_checks(
-    found: LinkageStrength,
+    strength: LinkageStrength,
     *,
     name: str = "strength",
     stronger: str = "",
@@ -280,18 +280,18 @@ def strength_checks(
     name  of the parameters in the sources      stronger  what makes links stronger; default: wider or thicker links
     drive  whose frequency is `found.speed`      parts  ids of the parts of links and pins by name
     """
-    limits = found.limits
+    limits = strength.limits
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
             at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress").with_cure(
                 cure, *_ids(parts, link)
             )
-            for link, one in found.links.items()
+            for link, one in strength.links.items()
         ),
-        *_link_checks(found, name, cure, drive, parts),
-        *_hole_check(found, parts),
-        *pin_checks(found.pins, limits, name=name, parts=parts),
+        *_link_checks(strength, name, cure, drive, parts),
+        *_hole_check(strength, parts),
+        *pin_checks(strength.pins, limits, name=name, parts=parts),
     )
 
 
@@ -305,22 +305,22 @@ def _stress_of(link: str) -> str:
 
 
 def _link_checks(
-    found: LinkageStrength, name: str, cure: str, drive: str, parts: Mapping[str, str]
+    strength: LinkageStrength, name: str, cure: str, drive: str, parts: Mapping[str, str]
 ) -> tuple[Check, ...]:
-    limits = found.limits
+    limits = strength.limits
     rows = (
         ("safety of the links against fatigue", "fatigue", 1.0, "Goodman, notch of the holes"),
         ("safety of the links in buckling", "buckling", 1.0, "Euler, hinged; assumed by this project"),
         (
             f"lowest natural frequency of the links, over {drive}",
             "frequency",
-            abs(found.speed),
+            abs(strength.speed),
             "bending in the plane; assumed by this project",
         ),
     )
     checks = []
     for title, quantity, unit, source in rows:
-        values = found.of_links(quantity)
+        values = strength.of_links(quantity)
         if values and unit > 0:
             link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
             given = f"{link}: {source}: parameter {name}.{limit}"

@@ -87,10 +87,10 @@ class MotionFourBar(FourBarDesign):
         return extent_of_points(self.poses.points) or (self.best.candidate.size if self.best else 0.0) or 1.0
 
 
-def _link(one: Guide) -> Json:
+def _link(guide: Guide) -> Json:
     """A link; None for a pivot, pin or length that is infinite or free."""
-    sizes: dict[str, Any] = {"pivot": one.pivot, "pin": one.pin, "length": one.length}
-    return {"kind": str(one.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
+    sizes: dict[str, Any] = {"pivot": guide.pivot, "pin": guide.pin, "length": guide.length}
+    return {"kind": str(guide.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
 
 
 def _branches(branches: Sequence[CurveBranch]) -> Json:

@@ -55,10 +55,10 @@ def _guide_table(design: MotionFourBar) -> Table:
     return Table("motion-four-bar-links", title, heads, rows, brief=True)
 
 
-def _joints(one: Guide) -> tuple[float, float, float, float]:
+def _joints(guide: Guide) -> tuple[float, float, float, float]:
     """Pivot and pin [m]; NaN where they are infinitely far."""
-    pivot = one.pivot if one.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
-    pin = one.pin if one.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
+    pivot = guide.pivot if guide.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
+    pin = guide.pin if guide.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
     return pivot.real, pivot.imag, pin.real, pin.imag
 
 

@@ -143,15 +143,15 @@ def errors(candidate: Candidate) -> dict[str, Json]:
     return {"error_max": float(np.max(gaps)), "error_rms": math.sqrt(squares / len(gaps)), "error_squares": squares}
 
 
-def _error(one: FourBarOption) -> float:
+def _error(option: FourBarOption) -> float:
     """Root mean square error [m]."""
-    error = one.details["error_rms"]
+    error = option.details["error_rms"]
     return error if isinstance(error, float) else math.inf
 
 
-def _ratios(one: FourBarOption) -> FloatArray:
+def _ratios(option: FourBarOption) -> FloatArray:
     """Crank, and the shorter and the longer of coupler and rocker, over the ground link: equal for alike four-bars."""
-    ground, crank, coupler, rocker = one.candidate.four_bar.lengths
+    ground, crank, coupler, rocker = option.candidate.four_bar.lengths
     return np.array([crank, min(coupler, rocker), max(coupler, rocker)]) / ground
 
 

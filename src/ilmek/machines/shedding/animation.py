@@ -51,6 +51,6 @@ def _through(first: complex | ComplexArray, tip: ComplexArray, last: complex | C
     return np.stack(np.broadcast_arrays(first, tip, last), axis=1)
 
 
-def _bore(one: CamShaft) -> ComplexArray:
+def _bore(shaft: CamShaft) -> ComplexArray:
     """The square bore."""
-    return one.shaft.bar / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    return shaft.shaft.bar / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])

@@ -74,13 +74,13 @@ class Fence:
         """Upper edge over the fell [m]."""
         return self.floor + self.height
 
-    def distance(self, one: Hazard) -> float:
+    def distance(self, hazard: Hazard) -> float:
         """Horizontal distance of a hazard from the nearest side of the fence [m]."""
-        return min(_distances(self.left, self.right, self.rear, self.front, one))
+        return min(_distances(self.left, self.right, self.rear, self.front, hazard))
 
-    def needed(self, one: Hazard) -> float:
+    def needed(self, hazard: Hazard) -> float:
         """Distance at which a hazard is not reached over the fence [m]."""
-        return over_span(*_heights(self.floor, one), self.height)
+        return over_span(*_heights(self.floor, hazard), self.height)
 
 
 @lru_cache(maxsize=4)
@@ -102,15 +102,15 @@ def fence_of(loom: LoomDesign) -> Fence:
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
 
 
-def _heights(floor: float, one: Hazard) -> tuple[float, float]:
-    return max(float(one.low[1]) - floor, 0.0), float(one.high[1]) - floor
+def _heights(floor: float, hazard: Hazard) -> tuple[float, float]:
+    return max(float(hazard.low[1]) - floor, 0.0), float(hazard.high[1]) - floor
 
 
-def _distances(left: float, right: float, rear: float, front: float, one: Hazard) -> Iterator[float]:
-    yield float(one.low[0]) - left
-    yield right - float(one.high[0])
-    yield float(one.low[2]) - rear
-    yield front - float(one.high[2])
+def _distances(left: float, right: float, rear: float, front: float, hazard: Hazard) -> Iterator[float]:
+    yield float(hazard.low[0]) - left
+    yield right - float(hazard.high[0])
+    yield float(hazard.low[2]) - rear
+    yield front - float(hazard.high[2])
 
 
 def side_posts(fence: Fence) -> tuple[float, ...]:
@@ -162,8 +162,8 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
     )
 
 
-def _named(one: Hazard) -> str:
-    return one.body.rpartition("/")[2]
+def _named(hazard: Hazard) -> str:
+    return hazard.body.rpartition("/")[2]
 
 
 def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[float, ...]:

@@ -93,7 +93,7 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     return Surroundings(tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards))
 
 
-def _widened(one: Hazard, half: float) -> Hazard:
-    low, high = one.low.copy(), one.high.copy()
+def _widened(hazard: Hazard, half: float) -> Hazard:
+    low, high = hazard.low.copy(), hazard.high.copy()
     low[0], high[0] = min(low[0], -half), max(high[0], half)
-    return Hazard(one.body, low, high)
+    return Hazard(hazard.body, low, high)
