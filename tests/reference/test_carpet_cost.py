@@ -97,6 +97,11 @@ def test_the_chosen_loom_is_the_best_of_all_in_the_table(aim: str, cycle: float)
         if offer.key in whole:
             assert offer.value <= value_of(whole[offer.key], aim) * (1 + 1e-9), offer
             assert offer.price <= whole[offer.key].listed.price
+    limit = sorted(found.listed.price for key, found in whole.items() if key in good)[len(good) // 2]
+    cheaper = design(replace(chosen.params, price_limit=limit, knotting="auto", weft="auto", beat="auto", heads=None))
+    least = min(value for key, value in good.items() if whole[key].listed.price <= limit)
+    assert cheaper.search is not None
+    assert cheaper.search.value == pytest.approx(least, rel=1e-12)
 
 
 def failing(found: LoomAnalysis) -> list[str]:
