@@ -25,8 +25,9 @@ from ilmek.errors import LoomError, ParameterError
 from ilmek.loom.programme import least_time
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.machines import WEFT_CARRIERS
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, with_control
 from ilmek.machines.automated_loom.choice import BeatOption
-from ilmek.machines.automated_loom.cost import CarpetCost, MachineCost, machine_cost, with_control
+from ilmek.machines.automated_loom.cost import machine_cost
 from ilmek.machines.automated_loom.design import (
     LoomDesign,
     ReadyLoom,
@@ -179,7 +180,7 @@ class LoomRest:
     equipment: MachineCost
     creel: MachineCost
     share: MachineCost
-    floor: float
+    cost: CarpetCost
 
     def equipment_for(self, heads: int) -> MachineCost:
         """The least cost of the equipment of a loom with another number of heads."""
@@ -193,19 +194,18 @@ def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
     others = [line for line in listed.parts if line.part not in before]
     shared, of_a_head = [line for line in others if line.part in more], [p for p in listed.parts if p.part in OF_A_HEAD]
     creel, share = (machine_cost(lines, listed.prices).times(1 / loom.heads) for lines in (of_a_head, shared))
-    return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, share, found.cost.floor)
+    return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, share, found.cost)
 
 
 @record
 class Bounds:
     """The least time, price and cost of looms, from those that were designed.
 
-    carpet  its cost on the first of them      rests  of all, by their choices; each is added, so that bounds rise
+    rests  of them, by their choices; each designed loom is added, so that bounds rise
     """
 
     params: AutomatedLoomParams
     prices: Mapping[str, PriceRates]
-    carpet: CarpetCost
     rests: dict[tuple[object, ...], LoomRest]
 
     def offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
@@ -255,7 +255,7 @@ class Bounds:
         rest = max(alike or [self.simplest], key=lambda rest: rest.equipment_for(heads).parts)
         cost = frame.plus(rest.equipment_for(heads).times(share)).plus(machines_cost(loom))
         cost = with_control(cost.plus(head.plus(rest.creel).times(heads)), self.prices)
-        return cost.times(1 - ROUNDING), share * rest.floor
+        return cost.times(1 - ROUNDING), share * rest.cost.floor
 
     @property
     def simplest(self) -> LoomRest:
@@ -267,9 +267,8 @@ class Bounds:
             return time
         if self.params.aim == PRICE:
             return cost.parts
-        made, sold = cost.sold(self.params.cost)
         energy = self.params.standby_power * cost.axes * time
-        least = replace(self.carpet, time=time, energy=energy, floor=floor, made=made, sold=sold)
+        least = replace(self.simplest.cost, time=time, energy=energy, floor=floor, machine=cost)
         carpet: float = least.cost_per_carpet
         return (1 - ROUNDING) * carpet
 

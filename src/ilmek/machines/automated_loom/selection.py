@@ -17,7 +17,7 @@ from types import MappingProxyType
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
-from ilmek.machines.automated_loom.cost import MachineCost
+from ilmek.machines.automated_loom.carpet_cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
@@ -94,7 +94,7 @@ def _simplest(branch: HeadBranch, params: AutomatedLoomParams) -> Bounds | None:
         except ParameterError:
             continue
         offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.heads, 0.0, 0.0, 0.0)
-        return Bounds(params, found.listed.prices, found.cost, {offer.key: rest_of(offer, found)})
+        return Bounds(params, found.listed.prices, {offer.key: rest_of(offer, found)})
     return None
 
 
@@ -265,9 +265,8 @@ class _Search:
     def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
         """The loom, with the record of the search in its journal."""
         lost = sorted((one for one in self.lost if one[0].value <= value), key=lambda one: one[0].value)
-        search = LoomSearch(
-            self.params, (*self.offers, *self.closed), len(self.bounds.rests), tuple(lost), offer, value
-        )
+        costs = tuple((rest.offer, rest.cost) for rest in self.bounds.rests.values())
+        search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value)
         if self.heap:
             least, _, _, entry = self.heap[0]
             search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.loom is not None)
