@@ -1,5 +1,6 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -8,9 +9,10 @@ import numpy as np
 from ilmek.carpet.pile import pile_check
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
-from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_heads
+from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
@@ -20,8 +22,11 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, t
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.off_loom import off_loom
+from ilmek.machines.automated_loom.params import COST
 from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
+from ilmek.machines.automated_loom.search import LoomSearch
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -245,16 +250,29 @@ def _least_room(loom: LoomDesign) -> float:
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
-    costs = _heads_table(found), _cost_table(found)
+    costs = _heads_table(found), _cost_table(found), *_rates_table(found)
     listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
     return (*listed, cloth_table(found.loom), *yarn_tables(found.loom))
+
+
+@lru_cache(maxsize=4)
+def beat_costs(found: LoomAnalysis) -> Mapping[str, tuple[CarpetCost, ...]]:
+    """Costs over the heads with each kind of beat whose drive keeps its limits, estimated."""
+    return costs_by_beats(found.loom, found.listed, found.energy.total)
 
 
 def _heads_table(found: LoomAnalysis) -> Table:
     loom = found.loom
     rows = tuple(
-        (heads, cost.time, cost.time / loom.rows, 60 * found.knots / cost.time, cost.parts, cost.cost_per_carpet)
-        for heads, cost in enumerate(costs_by_heads(loom, found.listed, found.energy.total), 1)
+        (
+            heads,
+            cost.time,
+            cost.time / loom.rows,
+            60 * found.knots / cost.time,
+            cost.machine.parts,
+            cost.cost_per_carpet,
+        )
+        for heads, cost in enumerate(beat_costs(found)[loom.params.beat], 1)
     )
     heads_of = columns(
         "heads | weaving time [h] | a row [s] | knots a minute | price of the parts | cost of a carpet without yarn"
@@ -263,13 +281,35 @@ def _heads_table(found: LoomAnalysis) -> Table:
 
 
 def _cost_table(found: LoomAnalysis) -> Table:
-    costs = costs_by_beats(found.loom, found.listed, found.energy.total)
+    costs = beat_costs(found)
     rows = tuple(
         (heads, *(cost.cost_per_carpet for cost in row))
         for heads, row in enumerate(zip(*costs.values(), strict=True), 1)
     )
     title = "Cost of a carpet without yarn by beat and number of heads, estimated: knot and frame as they are"
     return Table("loom-cost", title, columns("heads", *costs), rows)
+
+
+def _rates_table(found: LoomAnalysis) -> tuple[Table, ...]:
+    """How far each rate can move, for a loom that was chosen by its cost."""
+    search = found.loom.search
+    if search is None or search.params.aim != COST or not search.others:
+        return ()
+    rows = tuple(
+        (limits.rate.name, limits.rate.doc, *_moved(limits, search))
+        for limits in rate_limits(found.cost, [cost for _, cost in search.others])
+    )
+    title = f"Rates: how far each can move before another of {len(search.costs)} designed looms is the cheapest"
+    return (Table("loom-rates", title, columns("rate | what it is | now | down to | then | up to | then"), rows),)
+
+
+def _moved(limits: RateLimits, search: LoomSearch) -> Iterator[str]:
+    """A rate's value, and its limits with what is chosen then."""
+    unit = limits.rate.unit
+    yield format_quantity(limits.now, unit)
+    for limit in (limits.below, limits.above):
+        yield "any" if limit is None else format_quantity(limit[0], unit)
+        yield "" if limit is None else search.unlike(search.others[limit[1]][0])
 
 
 def _parts_table(listed: PartsList) -> Table:

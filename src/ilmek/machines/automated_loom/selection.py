@@ -9,15 +9,15 @@ Where the parts of the chosen loom have no room in space, the kind of beat is re
 """
 
 import heapq
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import count
 from types import MappingProxyType
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
-from ilmek.machines.automated_loom.cost import MachineCost
+from ilmek.machines.automated_loom.carpet_cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
@@ -72,30 +72,29 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The loom of the best offer; refused: failed checks in space by kinds of beat."""
     kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
-    first = branches(params, kinds[0])
     journal = SearchJournal()
+    first = branches(params, kinds[0], journal)
     one = len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1 and params.heads
-    bounds = None if one else _simplest(first[0], journal, params)
+    bounds = None if one else _simplest(first[0], params)
     if bounds is None:
         return with_beat(first[0].ready, first[0].ready.options[0])
     search = _Search(bounds, refused, journal)
     for branch in first:
         search.add(branch)
     if len(kinds) > 1:
-        search.postpone(first)
+        search.postpone(first, designed=params.aim != PRICE)
     return search.run() or _nearest(params, refused)
 
 
-def _simplest(branch: HeadBranch, journal: SearchJournal, params: AutomatedLoomParams) -> Bounds | None:
+def _simplest(branch: HeadBranch, params: AutomatedLoomParams) -> Bounds | None:
     """Bounds by the simplest loom of a branch: its cheapest beat that holds; None where none has its parts."""
-    options = sorted(branch.ready.options, key=lambda option: any(not check.ok for check in option.checks))
-    for option in options:
+    for loom in branch.looms.values():
         try:
-            found = analyse(with_beat(branch.ready, option, journal))
+            found = analyse(loom)
         except ParameterError:
             continue
-        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, option.kind, found.loom.heads, 0.0, 0.0, 0.0)
-        return Bounds(params, found, [rest_of(offer, found)])
+        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.heads, 0.0, 0.0, 0.0)
+        return Bounds(params, found.listed.prices, {offer.key: rest_of(offer, found)})
     return None
 
 
@@ -115,15 +114,17 @@ def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...
 
 @record
 class _Entry:
-    """An offer in the search: with its loom, once it is designed; `closed`: it stands for looms with arms.
+    """An offer in the search: with its loom, once it is designed.
 
-    bounded  number of designed looms by which it was bounded, with its own head; 0: with the slowest one
+    bounded  number of designed looms by which it was bounded; 0: with another frame      own  by its own head
+    opens    what makes the offers of looms by arms, where the offer stands for these
     """
 
     offer: LoomOffer
     loom: LoomDesign | None = None
-    closed: bool = False
     bounded: int = 0
+    own: bool = False
+    opens: Callable[[], None] | None = None
 
 
 class _Search:
@@ -156,18 +157,24 @@ class _Search:
             if failed[offer.beat]:
                 self.lost.append((offer, max(failed[offer.beat], key=weight)))
             else:
-                self._push(offer.value, _Entry(offer, self._simplest(offer)))
+                self._push(offer.value, _Entry(offer))
 
-    def _simplest(self, offer: LoomOffer) -> LoomDesign | None:
-        """The simplest loom, where it is that of the offer."""
-        return self.bounds.simplest.loom if offer.key == self.bounds.rests[0].offer.key else None
-
-    def postpone(self, cams: Iterable[HeadBranch]) -> None:
-        """The looms with arms, which are designed only where one with a head on cams is not better than their bound."""
-        self.closed = [offer for branch in cams for offer in self.bounds.offers(undesigned_arms(branch))]
+    def postpone(self, cams: Sequence[HeadBranch], *, designed: bool) -> None:
+        """The looms by arms, which are designed only where none with a head on cams is better than their bound: first
+        the arms alone, then their heads.
+        """
+        arms = [undesigned_arms(branch, designed=designed) for branch in cams]
+        self.closed = [offer for branch in arms if branch for offer in self.bounds.offers(branch)]
         if self.closed:
             best = min(self.closed, key=lambda offer: offer.value)
-            self._push(best.value, _Entry(best, closed=True))
+            opens = self._open if designed else partial(self.postpone, cams, designed=True)
+            self._push(best.value, _Entry(best, opens=opens))
+
+    def _open(self) -> None:
+        """The looms by arms in place of the offers that stand for them."""
+        self.closed = []
+        for branch in branches(self.params, ARMS, self.journal):
+            self.add(branch)
 
     def _push(self, value: float, entry: _Entry) -> None:
         tie = entry.offer.price if self.params.aim == TIME else 0.0
@@ -177,15 +184,13 @@ class _Search:
         """The best loom that keeps every limit; else that which misses them least, or None where there is no offer."""
         while self.heap and len(self.tried) < MOST_REFUSED:
             value, _, _, entry = heapq.heappop(self.heap)
-            if entry.closed:
-                self.closed = []
-                for branch in branches(self.params, ARMS):
-                    self.add(branch)
+            if entry.opens is not None:
+                entry.opens()
             elif (check := self._shaking(entry.offer)) is not None:
                 self.lost.append((entry.offer, check))
-            elif entry.loom is None and entry.bounded < len(self.bounds.rests):
-                self._bound(entry.offer)
-            elif entry.loom is None or value < value_of(analyse(entry.loom), self.params.aim):
+            elif entry.loom is None and not (entry.own and entry.bounded == len(self.bounds.rests)):
+                self._bound(entry)
+            elif entry.loom is None:
                 self._design(entry)
             elif self._holds(entry.offer, entry.loom):
                 return self._ended(entry.offer, entry.loom, value)
@@ -197,28 +202,38 @@ class _Search:
         offer, _ = min(self.lost, key=lambda one: (weight(one[1]), one[0].value))
         return self._ended(offer, self._loom(offer), offer.value)
 
-    def _bound(self, offer: LoomOffer) -> None:
-        """The offer again, with the bound by its own head and by all looms designed until now."""
-        own = offer.knotting, offer.cycle, offer.weft
-        if own not in self.heads:
-            self.heads[own] = head_cost(head_for(offer.of(self.params)), self.bounds.simplest.listed.prices)
-        bounded = self.bounds.bounded(offer, self.branches[offer.knotting, offer.weft], self.heads[own])
-        self._push(bounded.value, _Entry(bounded, bounded=len(self.bounds.rests)))
+    def _bound(self, entry: _Entry) -> None:
+        """The offer again, with its bounds by its own frame, then by its own head, and by all looms until now."""
+        offer = entry.offer
+        key = offer.knotting, offer.cycle, offer.weft
+        branch = self.branches[offer.knotting, offer.weft]
+        if entry.bounded and key not in self.heads:
+            self.heads[key] = head_cost(head_for(offer.of(self.params)), self.bounds.prices)
+        head = self.heads.get(key)
+        nearer = self.bounds.nearer(offer, branch.looms[offer.beat], head or branch.head)
+        if self.bounds.wished(nearer.time, nearer.price):
+            self._push(nearer.value, _Entry(nearer, bounded=len(self.bounds.rests), own=head is not None))
 
     def _loom(self, offer: LoomOffer) -> LoomDesign:
+        branch = self.branches[offer.knotting, offer.weft]
+        first = branch.looms.get(offer.beat)
+        if first and (first.heads, branch.cycles[0]) == (offer.heads, offer.cycle):
+            return first
         ready = ready_loom(offer.of(self.params))
         return with_beat(ready, ready.options[0], self.journal)
 
     def _design(self, entry: _Entry) -> None:
-        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer."""
+        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer, nor what
+        costs more than is wished.
+        """
         try:
-            loom = entry.loom or self._loom(entry.offer)
+            loom = self._loom(entry.offer)
             found = analyse(loom)
         except (LoomError, ParameterError):
             return
-        if entry.loom is None:
-            self.bounds.rests.append(rest_of(entry.offer, found))
-        self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
+        self.bounds.rests[entry.offer.key] = rest_of(entry.offer, found)
+        if self.bounds.wished(found.time, found.listed.price):
+            self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
 
     def _holds(self, offer: LoomOffer, loom: LoomDesign) -> bool:
         failed = [check for check in all_checks(loom) if not check.ok]
@@ -250,9 +265,8 @@ class _Search:
     def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
         """The loom, with the record of the search in its journal."""
         lost = sorted((one for one in self.lost if one[0].value <= value), key=lambda one: one[0].value)
-        search = LoomSearch(
-            self.params, (*self.offers, *self.closed), len(self.bounds.rests), tuple(lost), offer, value
-        )
+        costs = tuple((rest.offer, rest.cost) for rest in self.bounds.rests.values())
+        search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value)
         if self.heap:
             least, _, _, entry = self.heap[0]
             search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.loom is not None)

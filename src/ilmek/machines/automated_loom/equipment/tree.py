@@ -38,6 +38,12 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
     )
 
 
+def more_for_heads(loom: LoomDesign) -> frozenset[str]:
+    """Parts of creel and chains: a loom with more heads has more of them, or longer ones."""
+    trees = (*creel_trees(loom), *chain_trees(loom))
+    return frozenset(part.id for branch in trees for part, _ in branch.tree.occurrences())
+
+
 def equipment_trees(loom: LoomDesign) -> tuple[Tree, ...]:
     """The trees alone."""
     return tuple(branch.tree for branch in equipment(loom))
