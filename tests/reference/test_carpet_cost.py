@@ -155,7 +155,7 @@ def test_a_rate_moves_as_far_as_two_looms_cost_the_same() -> None:
         key=lambda cost: float(cost.cost_per_carpet),
     )
     found = {limits.rate.name: limits for limits in rate_limits(chosen, others)}
-    assert {"wage", "life", "hours"} <= set(found)
+    assert {"wage", "rent", "changeover"} <= set(found)
 
     def margin(name: str, value: float) -> tuple[float, int]:
         """By how much the cheapest other loom is dearer than the chosen one, and its number."""

@@ -66,6 +66,11 @@ RAIL = 80 * mm
 """Side of the room for the linear axis of the heads on their rail [m]."""
 
 
+RAIL_CARGO, SUNK = 12.0, 1.7
+"""Mass of a length of what lies along the rail beside the heads [kg/m], and how much more all of it counts on several
+spans, whose supports sink: assumed by this project.
+"""
+
 RETREAT = cmath.exp(-55j * deg)
 """Direction in which the heads retreat, in the side view: down and to the front; assumed by this project."""
 
@@ -250,11 +255,14 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
 def _rail_side(task: "LoomTask") -> float:
     """Side of the lightest section that bears the heads in the middle of a span of the rail [m], the largest of all.
 
-    Not smaller than that of the frame, where they stand side by side. One head where their number is open.
+    Not smaller than that of the frame, where they stand side by side. One head where their number is open. What lies
+    along the rail counts as in the middle too.
     """
     params, head = task.params, task.weaver
-    span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
-    weight = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
+    spans = math.ceil(task.rail_length / params.rail_span - 1e-9)
+    span = task.rail_length / spans
+    heads = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head)
+    weight = (heads + RAIL_CARGO * span) * (SUNK if spans > 1 else 1) * GRAVITY
     sections = ascending()
     least = least_rail(head, params.clearance)
     bearing = (one for one in sections if one.side >= least and mid_loaded(one, span, weight)[0] <= params.rail_sag)

@@ -2,14 +2,15 @@
 
 Branch and bound: of all offers [`offers`] the one with the least bound is designed, its value takes the place of its
 bound, and when a designed loom is the least of all, its checks decide: it is chosen, or refused. So no other loom can
-be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all; a frame that
-its heads shake refuses all looms of its kinds with more heads that tie more knots in a time. These checks are formulas.
+be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all, and what more
+heads or quicker knots make worse, all looms of a kind with more or quicker ones. These checks are formulas.
 Where the parts of the chosen loom have no room in space, the kind of beat is refused, and the next best loom is chosen
 [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
 import heapq
-from collections.abc import Callable, Mapping, Sequence
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import count
@@ -19,6 +20,7 @@ from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.carpet_cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.automated_loom.offers import (
@@ -103,6 +105,11 @@ def _slack(loom: LoomDesign) -> list[Check]:
     return [check for check in frame_modes(loom, parts_of_loom(loom).frame).checks if not check.ok]
 
 
+def _tight(loom: LoomDesign) -> list[Check]:
+    """The limits that a yarn's pull on its path to the head does not keep."""
+    return [check for check in yarn_checks(loom) if not check.ok]
+
+
 def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The loom that comes nearest to a deadline or a limit of the price that no loom keeps: its check fails."""
     aim = PRICE if params.deadline is None else TIME
@@ -127,6 +134,26 @@ class _Entry:
     opens: Callable[[], None] | None = None
 
 
+@record
+class _Limit:
+    """The least offer of its kinds that fails a check: with the least heads, or with the slowest knot."""
+
+    offer: LoomOffer
+    check: Check
+    by_heads: bool
+
+    def shuts_out(self, other: LoomOffer) -> bool:
+        """Whether another offer fails the same check: a frame is shaken no less by as many heads that tie as quickly
+        together, a yarn is pulled no less by a quicker knot.
+        """
+        own = self.offer
+        if (own.knotting, own.weft, own.beat) != (other.knotting, other.weft, other.beat):
+            return False
+        if self.by_heads:
+            return own.heads <= other.heads and own.heads / own.cycle <= other.heads / other.cycle
+        return other.cycle <= own.cycle
+
+
 class _Search:
     """The search of one loom: offers by their bounds, and designed looms by their values."""
 
@@ -140,7 +167,7 @@ class _Search:
         self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
         self.branches: dict[tuple[str, str], HeadBranch] = {}
         self.heads: dict[tuple[str, float, str], MachineCost] = {}
-        self.shaken: list[tuple[LoomOffer, Check]] = []
+        self.limits: list[_Limit] = []
         self.order = count()
 
     def add(self, branch: HeadBranch) -> None:
@@ -186,7 +213,7 @@ class _Search:
             value, _, _, entry = heapq.heappop(self.heap)
             if entry.opens is not None:
                 entry.opens()
-            elif (check := self._shaking(entry.offer)) is not None:
+            elif (check := self._limit(entry.offer)) is not None:
                 self.lost.append((entry.offer, check))
             elif entry.loom is None and not (entry.own and entry.bounded == len(self.bounds.rests)):
                 self._bound(entry)
@@ -241,26 +268,23 @@ class _Search:
             heaviest = max(failed, key=weight)
             self.lost.append((offer, heaviest))
             self.tried.append((offer, loom, weight(heaviest)))
-            if slack := _slack(loom):
-                self.shaken.append((self._first_shaking(offer), slack[0]))
+            self.limits += self._shut_out(offer, loom)
         return not failed
 
-    def _first_shaking(self, offer: LoomOffer) -> LoomOffer:
-        """An offer that shakes its frame, with the least number of heads for which it does."""
-        steady, heads = 0, offer.heads
-        while heads - steady > 1:
-            middle = (steady + heads) // 2
-            shakes = _slack(self._loom(replace(offer, heads=middle)))
-            steady, heads = (steady, middle) if shakes else (middle, heads)
-        return replace(offer, heads=heads)
+    def _shut_out(self, offer: LoomOffer, loom: LoomDesign) -> Iterator[_Limit]:
+        """What the refused loom of an offer shuts out: more heads, or quicker knots, from the least that fail on."""
+        cycles = [own for own in self.branches[offer.knotting, offer.weft].cycles if own >= offer.cycle]
+        for failed, offers in (
+            (_slack, [replace(offer, heads=number + 1) for number in range(offer.heads)]),
+            (_tight, [replace(offer, cycle=own) for own in cycles]),
+        ):
+            if checks := failed(loom):
+                fails = bisect_left(offers, True, hi=len(offers) - 1, key=lambda own: bool(failed(self._loom(own))))
+                yield _Limit(offers[fails], checks[0], by_heads=failed is _slack)
 
-    def _shaking(self, offer: LoomOffer) -> Check | None:
-        """The check of a loom of the same kinds that fails where no more heads shake its frame no quicker."""
-        for other, check in self.shaken:
-            alike = (other.knotting, other.weft, other.beat) == (offer.knotting, offer.weft, offer.beat)
-            if alike and other.heads <= offer.heads and other.heads / other.cycle <= offer.heads / offer.cycle:
-                return check
-        return None
+    def _limit(self, offer: LoomOffer) -> Check | None:
+        """The check that fails for an offer because it fails for a lesser one of its kinds."""
+        return next((limit.check for limit in self.limits if limit.shuts_out(offer)), None)
 
     def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
         """The loom, with the record of the search in its journal."""
