@@ -38,7 +38,7 @@ CLOSE = (
 
 @cache
 def loom(number: int) -> LoomDesign:
-    return design(AutomatedLoomParams.read(LOOMS[number]))
+    return design(AutomatedLoomParams.read({"aim": "price", **LOOMS[number]}))
 
 
 def standing_parts(made: LoomDesign) -> Tree:

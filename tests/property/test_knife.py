@@ -50,7 +50,7 @@ def test_the_blade_crosses_the_yarn_in_the_stated_share_of_half_a_turn(yarn: flo
 
 @pytest.mark.parametrize("number", range(len(LOOMS)))
 def test_the_blade_leaves_the_eye_open_and_shuts_it_while_the_yarn_is_drawn_and_not_yet_shown(number: int) -> None:
-    loom = LOOM.design(LOOM.params.read(LOOMS[number]))
+    loom = LOOM.design(LOOM.params.read({"aim": "price", **LOOMS[number]}))
     weaver, tree = loom.weaver, head_alone(loom)
     handler, eye = loom.knot_cyclogram.track(HANDLER), eye_at(weaver)
     chain = next(chain for chain in chains(tree) if chain[-1].name == BLADE_BODY)

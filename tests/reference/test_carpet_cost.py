@@ -6,17 +6,22 @@ import math
 from dataclasses import replace
 from functools import lru_cache
 
+import numpy as np
 import pytest
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
-from ilmek.machines.automated_loom.cost import CarpetCost, annuity_factor, costs_by_beats
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, annuity_factor
+from ilmek.machines.automated_loom.cost import costs_by_beats
+from ilmek.machines.automated_loom.cost_figures import cost_over_carpets, cost_over_heads
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.estimate import weavers_needed
 from ilmek.machines.automated_loom.offers import CYCLES, value_of
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.rate_limits import rate_limits
 from ilmek.machines.automated_loom.report import LoomAnalysis, all_checks, analyse
+from ilmek.params import declared
 
 NARROW = AutomatedLoomParams(aim="price", width=0.45, length=0.6)
 RATES = CostRates(wage=14 / 3600, persons=0.5, life=9.0, interest=0.08, margin=0.2, changeover=5 * 3600.0)
@@ -111,13 +116,18 @@ def test_the_chosen_loom_is_the_best_of_all_in_the_table(aim: str, cycle: float)
     good = {key: value_of(found, aim) for key, found in whole.items() if not failing(found)}
     assert len(good) >= 8
     assert search.value == pytest.approx(min(good.values()), rel=1e-12)
-    assert search.designed < len(good)
+    assert len(search.costs) < len(good)
     assert search.rival_value >= search.value
     # No bound is above what its loom has.
     for offer in search.offers:
         if offer.key in whole:
             assert offer.value <= value_of(whole[offer.key], aim) * (1 + 1e-9), offer
             assert offer.price <= whole[offer.key].listed.price
+    limit = sorted(found.listed.price for key, found in whole.items() if key in good)[len(good) // 2]
+    cheaper = design(replace(chosen.params, price_limit=limit, knotting="auto", weft="auto", beat="auto", heads=None))
+    least = min(value for key, value in good.items() if whole[key].listed.price <= limit)
+    assert cheaper.search is not None
+    assert cheaper.search.value == pytest.approx(least, rel=1e-12)
 
 
 def failing(found: LoomAnalysis) -> list[str]:
@@ -148,6 +158,57 @@ def test_estimate_over_heads_and_beats_is_near_these_looms() -> None:
         assert estimated[beat][number - 1].time == pytest.approx(exact.time, rel=1e-3)
 
 
+def test_fewer_carpets_pay_for_the_loom_and_for_as_many_hours_as_they_take() -> None:
+    cost = loom("comb", 2).cost
+    shares, most = cost.cost_shares, float(cost.carpets_per_year)
+    assert cost.of_fewer(most) == pytest.approx(cost.cost_per_carpet)
+    yearly = most * (shares["capital"] + shares["upkeep"] + shares["floor"])
+    each = 14 * 0.5 * (cost.time / 3600 + 5) / 0.85 + shares["energy"] + shares["finishing"]
+    assert cost.of_fewer(most / 3) == pytest.approx(yearly / (most / 3) + each)
+    assert cost.of_fewer(cost.even_with_hand) == pytest.approx(cost.hand_cost)
+    assert replace(cost, knots=1).even_with_hand == math.inf
+
+
+def test_a_rate_moves_as_far_as_two_looms_cost_the_same() -> None:
+    chosen, *others = sorted(
+        (loom(beat, heads).cost for beat in ("travelling", "comb", "linkage") for heads in (1, 2)),
+        key=lambda cost: float(cost.cost_per_carpet),
+    )
+    found = {limits.rate.name: limits for limits in rate_limits(chosen, others)}
+    assert {"wage", "rent", "changeover"} <= set(found)
+
+    def margin(name: str, value: float) -> tuple[float, int]:
+        """By how much the cheapest other loom is dearer than the chosen one, and its number."""
+        rates = replace(RATES, **{name: value})
+        costs = [float(replace(cost, rates=rates).cost_per_carpet) for cost in others]
+        return min(costs) - float(replace(chosen, rates=rates).cost_per_carpet), costs.index(min(costs))
+
+    for rate in declared(CostRates):
+        now, limits = float(getattr(RATES, rate.name)), found.get(rate.name)
+        least = now / 1000 if rate.at_least is None else rate.at_least
+        for end, limit in ((least, limits and limits.below), (rate.at_most or now, limits and limits.above)):
+            until = limit[0] if limit else end
+            assert all(
+                margin(rate.name, now + share * (until - now))[0] >= -1e-6 for share in (0, 0.01, 0.1, 0.5, 0.999)
+            )
+            if limit:
+                assert margin(rate.name, until)[0] == pytest.approx(0.0, abs=1e-6)
+                assert margin(rate.name, until + 1e-3 * (end - until))[0] < 0
+
+
+def test_curves_of_the_cost_are_those_of_the_looms() -> None:
+    found = loom("comb", 2)
+    heads, carpets = cost_over_heads(found.loom), cost_over_carpets(found.loom)
+    own = next(series for series in heads.series if series.label == "comb")
+    assert [mark.x for mark in heads.marks] == [2]
+    assert own.y[own.x == 2] == pytest.approx(found.cost.cost_per_carpet)
+    assert {series.label for series in heads.series} >= {"travelling", "linkage", "comb"}
+    assert carpets.series[0].y[-1] == pytest.approx(found.cost.cost_per_carpet)
+    assert carpets.series[-1].y == pytest.approx(found.cost.hand_cost)
+    even = carpets.marks[0].x
+    assert np.interp(even, carpets.series[0].x, carpets.series[0].y) == pytest.approx(found.cost.hand_cost, rel=0.01)
+
+
 def test_payment_pays_off_the_loan() -> None:
     for interest, years in ((0.05, 7), (0.12, 3), (0.0, 4)):
         loan = 1.0
@@ -157,7 +218,7 @@ def test_payment_pays_off_the_loan() -> None:
 
 
 def test_carpets_tied_by_hand_for_less_have_no_payback() -> None:
-    cheap = CarpetCost(CostRates(weaver_knots=1e6), 10_000, 1.0, 3600.0, 0.0, 10.0, 1e4, 1e4, 2e4)
+    cheap = CarpetCost(CostRates(weaver_knots=1e6), 10_000, 1.0, 3600.0, 0.0, 10.0, MachineCost(1e4, 0, 0))
     assert cheap.payback_time is None
 
 

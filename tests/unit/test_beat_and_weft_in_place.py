@@ -16,7 +16,7 @@ LOOMS = ((), (("beat", "linkage"),), (("beat", "comb"), ("width", "0.6m")))
 
 @cache
 def _scene(*settings: tuple[str, str]) -> Scene:
-    loom = LOOM.design(LOOM.params.read(dict(settings)))
+    loom = LOOM.design(LOOM.params.read({"aim": "price", **dict(settings)}))
     return scene(loom, loom_report(loom))
 
 

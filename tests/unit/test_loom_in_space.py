@@ -31,7 +31,7 @@ from ilmek.timing.track import sample
 
 @cache
 def _made(*settings: tuple[str, str]) -> tuple[LoomDesign, Scene]:
-    loom = MACHINE.designed(MACHINE.params.read(dict(settings)))
+    loom = MACHINE.designed(MACHINE.params.read({"aim": "price", **dict(settings)}))
     return loom, scene(loom, loom_report(loom))
 
 

@@ -6,7 +6,7 @@ import click
 
 from ilmek.cli.terminal import note
 from ilmek.errors import printable
-from ilmek.report import Check, Reason, in_words, reasons
+from ilmek.report import Check, in_words, reasons
 
 CHECK_FAILS = 3
 """Exit code of a command that is done and has a check that fails."""
@@ -43,10 +43,10 @@ def note_verdict(checks: Sequence[Check], headline: str = CHECKS) -> None:
         note(f"{headline}: {_words(checks, failed, headline)}: {names}")
 
 
-def line(reason: Reason) -> str:
+def line(reason: Check) -> str:
     """A reason in one line.
 
-    >>> line(Reason("sag", 0.003, 0.002, "mm", "set a stiffer rail", "rail_sag", "<="))
+    >>> line(Check("sag", 0.003, 0.002, "mm", False, "rail_sag").with_cure("set a stiffer rail"))
     'sag: 3 mm, must be at most 2 mm; set a stiffer rail'
     """
     value, limit = in_words(reason)
@@ -55,7 +55,7 @@ def line(reason: Reason) -> str:
     return f"{reason.name}: {must}{'; ' if reason.cure else ''}{reason.cure}"
 
 
-def _words(checks: Sequence[Check], failed: Sequence[Reason], headline: str) -> str:
+def _words(checks: Sequence[Check], failed: Sequence[Check], headline: str) -> str:
     if headline == WEAVES:
         return f"NO, {len(failed)} {'reason' if len(failed) == 1 else 'reasons'}" if failed else "yes"
     return f"{len(checks) - len(failed)} passed, {len(failed)} failed"

@@ -19,7 +19,7 @@ from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, days_in_words, order_in_words, time_in_words, wage, weave, weave_json
-from ilmek.machines.automated_loom.cost import YEAR, CarpetCost
+from ilmek.machines.automated_loom.carpet_cost import YEAR, CarpetCost
 from ilmek.machines.automated_loom.params import AIMS
 from ilmek.machines.automated_loom.report import analyse
 from ilmek.machines.automated_loom.search import LoomSearch

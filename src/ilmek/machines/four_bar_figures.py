@@ -53,11 +53,11 @@ def pins(four_bar: FourBar) -> tuple[Dot, ...]:
     return (*pivots, Dot(four_bar.a, "A"), Dot(four_bar.b, "B"), *tracer)
 
 
-def curve(one: Candidate) -> tuple[Stroke, ...]:
+def curve(candidate: Candidate) -> tuple[Stroke, ...]:
     """The coupler curve: the whole circuit of the first position."""
-    if one.four_bar.tracer is None:
+    if candidate.four_bar.tracer is None:
         return ()
-    loop = circuit_loops(one.four_bar)[max(one.positions[0].circuit - 1, 0)]
+    loop = circuit_loops(candidate.four_bar)[max(candidate.positions[0].circuit - 1, 0)]
     return (Stroke(loop.at(np.linspace(0, turn, FINE)).tracer, "path", f"path of {TRACER}", closed=True),)
 
 
@@ -66,25 +66,25 @@ def numbered(points: ComplexArray) -> tuple[Dot, ...]:
     return tuple(Dot(complex(point), str(at), "point") for at, point in enumerate(points, 1))
 
 
-def drawn_and_moving(one: Candidate, still: Drawing, moving: str) -> tuple[Figure, ...]:
+def drawn_and_moving(candidate: Candidate, still: Drawing, moving: str) -> tuple[Figure, ...]:
     """The four-bar at its first position with its coupler curve, and in motion.
 
     still   name, title and note, and what the task shows        moving  title of the animation
     """
     background = Drawing(f"{still.name}-moving", moving, still.strokes, still.dots)
-    animation = _moving(one, background)
-    return (drawn(one, still), *((animation,) if animation else ()))
+    animation = _moving(candidate, background)
+    return (drawn(candidate, still), *((animation,) if animation else ()))
 
 
-def drawn(one: Candidate, still: Drawing) -> Drawing:
+def drawn(candidate: Candidate, still: Drawing) -> Drawing:
     """The four-bar at its first position with its coupler curve, on what the drawing shows already."""
-    strokes = (*still.strokes, *curve(one), *links(one.four_bar))
-    return replace(still, strokes=strokes, dots=(*still.dots, *pins(one.four_bar)))
+    strokes = (*still.strokes, *curve(candidate), *links(candidate.four_bar))
+    return replace(still, strokes=strokes, dots=(*still.dots, *pins(candidate.four_bar)))
 
 
-def crank_range(one: Candidate) -> tuple[float, float] | None:
+def crank_range(candidate: Candidate) -> tuple[float, float] | None:
     """Least and greatest crank angle of the positions on the drawn branch [rad]; None where it does not move."""
-    home = _at_home(one)
+    home = _at_home(candidate)
     return (min(home), max(home)) if home and max(home) - min(home) >= STILL else None
 
 

@@ -31,15 +31,15 @@ LEVELS = ((GROUND,), ("crank", "rocker"), ("coupler",))
 
 
 @lru_cache(maxsize=8)
-def four_bar_tree(machine: str, made: FourBarDesign) -> Tree:
+def four_bar_tree(machine: str, design: FourBarDesign) -> Tree:
     """The bodies of the solution that is drawn, at its first position; none without one.
 
     machine  first part of the ids
     """
-    if made.best is None:
+    if design.best is None:
         return Tree()
-    found = made.best.candidate
-    mechanism, size = found.four_bar.mechanism(), _size(made.params, found.four_bar.lengths)
+    found = design.best.candidate
+    mechanism, size = found.four_bar.mechanism(), _size(design.params, found.four_bar.lengths)
     levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
     return linkage_tree(linkage_parts(machine, mechanism, levels), solve(plan(mechanism), _angles(found)))
 
@@ -51,12 +51,12 @@ def _size(params: FourBarTaskParams, lengths: LinkLengths) -> LinkSize:
     return LinkSize(width, thickness, PIN_SHARE * width, STEEL)
 
 
-def _angles(found: Candidate) -> FloatArray:
+def _angles(candidate: Candidate) -> FloatArray:
     """Crank angles from the first position on, over a turn, or over its way to and fro."""
-    start = found.four_bar.crank_angle
-    if found.crank_turns:
+    start = candidate.four_bar.crank_angle
+    if candidate.crank_turns:
         return np.append(frames(start), start + 2 * np.pi)
-    ends = crank_range(found)
+    ends = crank_range(candidate)
     if ends is None:
         return np.array([start])
     low, high = ends

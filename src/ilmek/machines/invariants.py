@@ -30,10 +30,10 @@ def broken(report: Report, work: Iterable[Work] = ()) -> tuple[Check, ...]:
     The reports of the machines in it have their own.
     """
     return (
-        *(check for one in report.results for check in _of_result(one)),
+        *(check for result in report.results for check in _of_result(result)),
         *(check for one in report.checks for check in _of_check(one)),
-        *(check for one in report.parts for check in _of_part(one)),
-        *(check for one in report.plates for check in _of_plate(one)),
+        *(check for part in report.parts for check in _of_part(part)),
+        *(check for plate in report.plates for check in _of_plate(plate)),
         *(check for one in report.cam_tables for check in _of_cam_table(one)),
         *(check for one in work for check in _of_work(one)),
     )

@@ -56,8 +56,8 @@ class LinkageLoads:
         """The loads with masses and speed of the crank multiplied, without gravity: forces go with m w²."""
         force = mass * speed**2
         return LinkageLoads(
-            tuple(_scaled(one, force, mass) for one in self.links),
-            tuple(replace(one, force=one.force * force, omega=one.omega * speed) for one in self.pins),
+            tuple(_scaled(link, force, mass) for link in self.links),
+            tuple(replace(pin, force=pin.force * force, omega=pin.omega * speed) for pin in self.pins),
             self.speed * speed,
             share,
         )
@@ -123,7 +123,7 @@ class LinkageStrength:
         "mm", "diameter of the pins: as given, or chosen; the largest", lambda it: it.worst_pin("diameter"), least=0.0
     )
     link_stress = computed(
-        "MPa", "greatest nominal stress of each link", lambda it: {name: one.stress for name, one in it.links.items()}
+        "MPa", "greatest nominal stress of each link", lambda it: {name: link.stress for name, link in it.links.items()}
     )
 
     @computed("1", "least safety of each loaded link against fatigue, with the notch of its holes")
@@ -174,12 +174,12 @@ def linkage_strength(
         pins |= chosen
         choices += choice
     holes = {
-        body: max((pins[one.name].diameter for one in loads.pins if body in one.bodies), default=0.0)
+        body: max((pins[pin.name].diameter for pin in loads.pins if body in pin.bodies), default=0.0)
         for body in sections
     }
     made = {body: FlatSection(*size, bore_for(holes[body], size[0])) for body, size in sections.items()}
-    links = {one.body: link_strength(one, made[one.body], limits.of_links) for one in loads.links}
-    balance = max((one.equilibrium_error for one in loads.links), default=0.0)
+    links = {link.body: link_strength(link, made[link.body], limits.of_links) for link in loads.links}
+    balance = max((link.equilibrium_error for link in loads.links), default=0.0)
     return LinkageStrength(limits, links, pins, made, loads.speed, balance, tuple(choices))
 
 
@@ -225,7 +225,7 @@ def _pins_tried(
     """The pins with each diameter of stock, ascending, up to the first that is enough."""
     tried: list[dict[str, PinStrength]] = []
     for size in _sizes(limits, width):
-        tried.append({one.name: pin_strength(one, size, thickness, share=share) for one in duties})
+        tried.append({duty.name: pin_strength(duty, size, thickness, share=share) for duty in duties})
         if all(check.ok for check in pin_checks(tried[-1], limits)):
             break
     return tried
@@ -262,13 +262,13 @@ def largest_bar(mass: float, length: float, density: float) -> tuple[float, floa
     return light[-1] if light else FLAT_BARS[0]
 
 
-def equilibrium_test(found: LinkageStrength) -> Check:
+def equilibrium_test(strength: LinkageStrength) -> Check:
     """The test that all that acts on each link is in equilibrium."""
-    return at_most("equilibrium of the links' loads", found.equilibrium, EQUILIBRIUM, "1", "d'Alembert")
+    return at_most("equilibrium of the links' loads", strength.equilibrium, EQUILIBRIUM, "1", "d'Alembert")
 
 
 def strength_checks(
-    found: LinkageStrength,
+    strength: LinkageStrength,
     *,
     name: str = "strength",
     stronger: str = "",
@@ -280,18 +280,18 @@ def strength_checks(
     name  of the parameters in the sources      stronger  what makes links stronger; default: wider or thicker links
     drive  whose frequency is `found.speed`      parts  ids of the parts of links and pins by name
     """
-    limits = found.limits
+    limits = strength.limits
     cure = stronger or "set wider or thicker links, or a lower speed"
     return (
         *(
             at_most(_stress_of(link), one.stress, limits.allowed_stress, "MPa", f"parameter {name}.stress").with_cure(
                 cure, *_ids(parts, link)
             )
-            for link, one in found.links.items()
+            for link, one in strength.links.items()
         ),
-        *_link_checks(found, name, cure, drive, parts),
-        *_hole_check(found, parts),
-        *pin_checks(found.pins, limits, name=name, parts=parts),
+        *_link_checks(strength, name, cure, drive, parts),
+        *_hole_check(strength, parts),
+        *pin_checks(strength.pins, limits, name=name, parts=parts),
     )
 
 
@@ -305,22 +305,22 @@ def _stress_of(link: str) -> str:
 
 
 def _link_checks(
-    found: LinkageStrength, name: str, cure: str, drive: str, parts: Mapping[str, str]
+    strength: LinkageStrength, name: str, cure: str, drive: str, parts: Mapping[str, str]
 ) -> tuple[Check, ...]:
-    limits = found.limits
+    limits = strength.limits
     rows = (
         ("safety of the links against fatigue", "fatigue", 1.0, "Goodman, notch of the holes"),
         ("safety of the links in buckling", "buckling", 1.0, "Euler, hinged; assumed by this project"),
         (
             f"lowest natural frequency of the links, over {drive}",
             "frequency",
-            abs(found.speed),
+            abs(strength.speed),
             "bending in the plane; assumed by this project",
         ),
     )
     checks = []
     for title, quantity, unit, source in rows:
-        values = found.of_links(quantity)
+        values = strength.of_links(quantity)
         if values and unit > 0:
             link, limit = min(values, key=values.__getitem__), "resonance" if quantity == "frequency" else quantity
             given = f"{link}: {source}: parameter {name}.{limit}"
@@ -333,7 +333,7 @@ def _hole_check(found: LinkageStrength, parts: Mapping[str, str]) -> tuple[Check
     """Whether the pins leave enough of their links."""
     if not found.sections:
         return ()
-    value = max(one.hole / one.width for one in found.sections.values())
+    value = max(section.hole / section.width for section in found.sections.values())
     return (
         at_most(
             "diameter of the pins, over the width of their links", value, WIDEST_PIN, "1", "assumed by this project"

@@ -9,21 +9,21 @@ from ilmek.report import Table, columns
 from ilmek.units import MPa, format_quantity, mm, turn
 
 
-def strength_table(found: LinkageStrength, name: str) -> tuple[Table, ...]:
+def strength_table(strength: LinkageStrength, name: str) -> tuple[Table, ...]:
     """Links with stress, safeties and natural frequency; pins with force, stresses and wear."""
     links = tuple(
         (
             body,
-            _size(found.sections[body]),
-            one.stress,
-            _where(one),
-            *(_finite(v) for v in (one.fatigue, one.buckling, one.frequency / turn)),
+            _size(strength.sections[body]),
+            link.stress,
+            _where(link),
+            *(_finite(v) for v in (link.fatigue, link.buckling, link.frequency / turn)),
         )
-        for body, one in found.links.items()
+        for body, link in strength.links.items()
     )
     pins = tuple(
         (pin, one.diameter, one.force, one.shear, one.bending, one.pressure, one.wear / MPa)
-        for pin, one in found.pins.items()
+        for pin, one in strength.pins.items()
     )
     heads = columns("link | section | stress [MPa] | at | safety, fatigue | safety, buckling | natural frequency [Hz]")
     of_pins = columns("pin | diameter [mm] | force [N] | shear [MPa] | bending [MPa] | pressure [MPa] | p v in MPa m/s")

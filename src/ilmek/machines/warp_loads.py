@@ -25,7 +25,7 @@ class WarpLoads:
     others: float = result("N", "tension of the other warps then", name="tension_not_lifted")
     beat: float = result("N", "tension of a warp that is beaten", name="tension_beat")
 
-    pulls = computed("kN", "pull of all warps, by case", lambda it: {one: it.pull(one) for one in it.cases})
+    pulls = computed("kN", "pull of all warps, by case", lambda it: {case: it.pull(case) for case in it.cases})
     worst_case = computed("", "case of the greatest pull", lambda it: max(it.cases, key=it.pull))
     worst_pull = computed("kN", "greatest pull of all warps", lambda it: it.worst)
     worst_tension = computed("N", "greatest tension of a warp", lambda it: max(it.rest, it.lifted, it.beat))

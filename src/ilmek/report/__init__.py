@@ -36,7 +36,7 @@ from ilmek.report.json import Json, plain
 from ilmek.report.results import Result, result_text, results_of
 from ilmek.report.rounding import rounded
 from ilmek.report.table import Column, Table, columns
-from ilmek.report.verdict import Reason, reasons, verdict_json
+from ilmek.report.verdict import reason_json, reasons, verdict_json
 from ilmek.report.workshop import CamTable, Contour, Hole, Plate, RoundSolid, WorkPiece
 
 __all__ = [
@@ -70,7 +70,6 @@ __all__ = [
     "Plate",
     "Plot",
     "Reading",
-    "Reason",
     "Report",
     "Result",
     "RoundSolid",
@@ -93,6 +92,7 @@ __all__ = [
     "in_words",
     "must",
     "plain",
+    "reason_json",
     "reasons",
     "record",
     "result",

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import fields, replace
-from typing import Protocol, runtime_checkable
 
 from ilmek.records import value_record
 from ilmek.report.json import Json, plain
@@ -39,21 +38,7 @@ class Check:
         return {field.name: plain(getattr(self, field.name)) for field in fields(self)} | in_si(self)
 
 
-@runtime_checkable
-class Judged(Protocol):
-    """A check, or a reason: a value against a limit."""
-
-    @property
-    def value(self) -> float: ...  # noqa: D102
-    @property
-    def limit(self) -> float: ...  # noqa: D102
-    @property
-    def unit(self) -> str: ...  # noqa: D102
-    @property
-    def relation(self) -> str: ...  # noqa: D102
-
-
-def in_si(check: Judged) -> dict[str, str]:
+def in_si(check: Check) -> dict[str, str]:
     """The unit of value and limit as they are, and both in words in the unit for people.
 
     >>> in_si(at_most("sag", 0.003, 0.002, "mm", "given")), in_si(must("knot tied", False, "its path"))
@@ -87,7 +72,7 @@ def must(name: str, holds: bool, source: str) -> Check:
     return Check(name, float(holds), 1.0, "", holds, source, ">=")
 
 
-def in_words(check: Judged) -> tuple[str, str]:
+def in_words(check: Check) -> tuple[str, str]:
     """Value and limit in the check's unit; of a plain yes or no, these words.
 
     >>> in_words(at_most("sag", 0.003, 0.002, "mm", "given")), in_words(must("knot tied", False, "its path"))
@@ -101,10 +86,10 @@ def in_words(check: Judged) -> tuple[str, str]:
     return format_quantity(value, check.unit, digits), format_quantity(check.limit, check.unit, digits)
 
 
-def shown_value(check: Judged) -> tuple[float, int]:
+def shown_value(check: Check) -> tuple[float, int]:
     """The value of a check as it is shown [SI], without rounding noise, and the digits of value and limit."""
     value = without_noise(check.value, check.limit, check.unit)
-    return value, 4 if getattr(check, "ok", False) else digits_apart(value, check.limit, check.unit)
+    return value, 4 if check.ok else digits_apart(value, check.limit, check.unit)
 
 
 def digits_apart(value: float, limit: float, unit: str) -> int:

@@ -13,7 +13,7 @@ from ilmek.report.figure import Figure
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result
 from ilmek.report.table import Table
-from ilmek.report.verdict import Reason, reasons, verdict_json
+from ilmek.report.verdict import reasons, verdict_json
 from ilmek.report.workshop import CamTable, Plate, WorkPiece
 
 BUILDABLE = "buildable"
@@ -115,7 +115,7 @@ class Report:
         return tuple(check for check in self.all_checks if not check.ok)
 
     @property
-    def reasons(self) -> tuple[Reason, ...]:
+    def reasons(self) -> tuple[Check, ...]:
         """Why the machine does not do its work, the heaviest reason first; empty where every check holds."""
         return reasons(self.all_checks)
 

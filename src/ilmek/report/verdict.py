@@ -6,44 +6,21 @@ the value misses its limit, |ln(value / limit)|; a value that is no number, or h
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import replace
 
 from ilmek.report.check import Check, in_si
 from ilmek.report.json import Json, plain
 
 
-@dataclass(frozen=True, slots=True)
-class Reason:
-    """A failed check: value against limit [SI, shown in `unit`], and what would cure it."""
-
-    name: str
-    value: float
-    limit: float
-    unit: str
-    cure: str
-    source: str
-    relation: str
-
-    def as_json(self) -> dict[str, Json]:
-        """The reason as plain data: name, value and limit [SI], their unit, cure, shown."""
-        return {name: plain(getattr(self, name)) for name in ("name", "value", "limit", "unit", "cure")} | in_si(self)
-
-
-def reasons(checks: Iterable[Check]) -> tuple[Reason, ...]:
+def reasons(checks: Iterable[Check]) -> tuple[Check, ...]:
     """The failed checks, the heaviest first; equal ones in their order. A check without a cure refers to its limit."""
     failed = sorted((check for check in checks if not check.ok), key=weight, reverse=True)
-    return tuple(
-        Reason(
-            check.name,
-            check.value,
-            check.limit,
-            check.unit,
-            check.cure or _usual_cure(check),
-            check.source,
-            check.relation,
-        )
-        for check in failed
-    )
+    return tuple(check if check.cure else replace(check, cure=_usual_cure(check)) for check in failed)
+
+
+def reason_json(reason: Check) -> dict[str, Json]:
+    """A reason as plain data: name, value and limit [SI], their unit, cure, shown."""
+    return {name: plain(getattr(reason, name)) for name in ("name", "value", "limit", "unit", "cure")} | in_si(reason)
 
 
 def _usual_cure(check: Check) -> str:
@@ -53,7 +30,7 @@ def _usual_cure(check: Check) -> str:
 def verdict_json(checks: Iterable[Check]) -> dict[str, Json]:
     """The verdict as plain data: whether all checks hold, and the reasons where they do not."""
     failed = reasons(checks)
-    return {"holds": not failed, "reasons": [reason.as_json() for reason in failed]}
+    return {"holds": not failed, "reasons": [reason_json(reason) for reason in failed]}
 
 
 def weight(check: Check) -> float:

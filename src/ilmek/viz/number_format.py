@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import TypeGuard
 
-from ilmek.report import Check, Json, Reason, Table, in_words, rounded, shown_value
+from ilmek.report import Check, Json, Table, in_words, rounded, shown_value
 from ilmek.units import POWERS, format_number, parse_unit
 from ilmek.viz.style import shown_unit
 
@@ -88,7 +88,7 @@ def _measured(value: float | int | str) -> TypeGuard[float]:
     return isinstance(value, float) and math.isfinite(value)
 
 
-def compared(check: Check | Reason) -> tuple[str, str]:
+def compared(check: Check) -> tuple[str, str]:
     """Value and limit of a check in its unit, the limit with its relation; of a plain yes or no, these words.
 
     >>> from ilmek.report import at_most
@@ -106,7 +106,7 @@ def compared(check: Check | Reason) -> tuple[str, str]:
     return printed[0], f"{sign(check.relation)} {printed[1]}"
 
 
-def beside(check: Check | Reason) -> str:
+def beside(check: Check) -> str:
     r"""The unit of a check as it follows its value; nothing after a yes or no.
 
     >>> from ilmek.report import at_most

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from markupsafe import Markup
 
-from ilmek.report import Animation, Check, Figure, Gantt, Plot, Reason, Report, StackedBars, Timing
+from ilmek.report import Animation, Check, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.left_out import made_or_left_out
 from ilmek.viz.cursor import has_cursor
 from ilmek.viz.looks import looks_of, numbered
@@ -24,7 +24,7 @@ class PageVerdict:
     good: str
     bad: str
     checks: int
-    reasons: tuple[Reason, ...]
+    reasons: tuple[Check, ...]
     first: int = 1000
     nearest: str = ""
 

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.jobs.studio.words import in_page
-from ilmek.report import Check, Reason
+from ilmek.report import Check
 from ilmek.viz.number_format import beside, compared
 
 
@@ -30,7 +30,7 @@ class ShownCheck:
     cure: str
 
 
-def printed(check: Check | Reason) -> tuple[str, str]:
+def printed(check: Check) -> tuple[str, str]:
     """Value and limit with their unit, the limit with its relation; of a plain yes or no, the limit is left out.
 
     >>> from ilmek.report import at_most, must

@@ -68,6 +68,11 @@ RAIL = 80 * mm
 """Side of the room for the linear axis of the heads on their rail [m]."""
 
 
+RAIL_CARGO, SUNK = 12.0, 1.7
+"""Mass of a length of what lies along the rail beside the heads [kg/m], and how much more all of it counts on several
+spans, whose supports sink: assumed by this project.
+"""
+
 RETREAT = cmath.exp(-55j * deg)
 """Direction in which the heads retreat, in the side view: down and to the front; assumed by this project."""
 
@@ -252,7 +257,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     prime, guide = shedding.cam.prime_radius, shedding.stack.guide_radius
     assert shedding.params.spans_of_warp is not None  # the loom sets the spans of its cams
     front, back = shedding.params.spans_of_warp
-    along, last = [one.beyond for one in shedding.shafts], shedding.shafts[-1].beyond
+    along, last = [shaft.beyond for shaft in shedding.shafts], shedding.shafts[-1].beyond
     spans = spans_at(room, prime, guide, tuple(front + one for one in along), tuple(back + last - one for one in along))
     radius = cylinder.outer_radius if cylinder else room.tube
     comb = _comb(room, spans, path)
@@ -264,12 +269,12 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         spans=spans,
         cams=tuple(
             CamPosition(
-                complex(-one.cam.prime_radius, height),
-                one.stack.guide_radius,
+                complex(-shaft.cam.prime_radius, height),
+                shaft.stack.guide_radius,
                 front_of(shedding, index),
-                one.params.lift,
+                shaft.params.lift,
             )
-            for index, (one, height) in enumerate(zip(shedding.shafts, spans.front, strict=True))
+            for index, (shaft, height) in enumerate(zip(shedding.shafts, spans.front, strict=True))
         ),
         carrier=_carrier(room, spans),
         comb=comb,
@@ -308,11 +313,14 @@ def _heads(task: "LoomTask", head: Weaver, room: float) -> HeadsView:
 def _rail_side(task: "LoomTask", head: Weaver) -> float:
     """Side of the lightest section that bears the heads in the middle of a span of the rail [m], the largest of all.
 
-    Not smaller than that of the frame, where they stand side by side. One head where their number is open.
+    Not smaller than that of the frame, where they stand side by side. One head where their number is open. What lies
+    along the rail counts as in the middle too.
     """
     params = task.params
-    span = task.width / math.ceil(task.width / params.rail_span - 1e-9)
-    weight = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head) * GRAVITY
+    spans = math.ceil(task.rail_length / params.rail_span - 1e-9)
+    span = task.rail_length / spans
+    heads = min(params.heads or 1, math.ceil(span / head.width)) * head_mass(head)
+    weight = (heads + RAIL_CARGO * span) * (SUNK if spans > 1 else 1) * GRAVITY
     sections = ascending()
     least = least_rail(head, params.clearance)
     bearing = (one for one in sections if one.side >= least and mid_loaded(one, span, weight)[0] <= params.rail_sag)

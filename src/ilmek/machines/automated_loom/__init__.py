@@ -11,7 +11,7 @@ from dataclasses import replace
 from ilmek.loom.production import Production, production_time
 from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
-from ilmek.machines.automated_loom.cost import CarpetCost
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.cyclogram import BEATER, EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy

@@ -1,7 +1,7 @@
 """The automated loom for one carpet: its machines, sized by the carpet and timed together."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field, replace
 from functools import lru_cache
 
@@ -22,7 +22,7 @@ from ilmek.machines.automated_loom.cyclogram import (
     timed,
     weavers_row,
 )
-from ilmek.machines.automated_loom.knotting import KnottingHead, knotting_head
+from ilmek.machines.automated_loom.knotting import KnottingHead, arms_alone, knotting_head
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.search import LoomSearch, SearchJournal
 from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
@@ -32,10 +32,11 @@ from ilmek.machines.loom_task import LoomTask, MachineDesign
 from ilmek.machines.shedding import SheddingDesign
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.weaver import Weaver
+from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.machines.weft import Weft
 from ilmek.params import Params
 from ilmek.records import record
-from ilmek.report import Choice
+from ilmek.report import BillLine, Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
@@ -187,7 +188,17 @@ class ReadyLoom:
 
 def head_for(params: AutomatedLoomParams) -> KnottingHead:
     """The head of a loom alone."""
-    return knotting_head(_made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))[1])
+    return knotting_head(_laid(params)[1])
+
+
+def arms_for(params: AutomatedLoomParams) -> tuple[ArmsInHead, Sequence[BillLine]]:
+    """The arms of a head alone: what the head has to know of them, and their parts. Raises as `head_for` does."""
+    return arms_alone(_laid(params)[1])
+
+
+def _laid(params: AutomatedLoomParams) -> tuple[Child, LoomTask]:
+    """What lays the wefts, and the task with it: with it the design of a loom begins."""
+    return _made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))
 
 
 def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
@@ -196,7 +207,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     Raises LoomError where the shed leaves no time for the weft; CarpetError for a carpet without knots; the errors of
     the machines where their parameters contradict each other.
     """
-    laid, task = _made("weft", LoomTask(params, *params.knot_grid, params.cloth, {}))
+    laid, task = _laid(params)
     knotting = knotting_head(task)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})

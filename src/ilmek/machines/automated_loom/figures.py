@@ -8,6 +8,7 @@ import numpy as np
 
 from ilmek.carpet.design import MOST_KNOTS
 from ilmek.carpet.quality import COARSEST, FINEST
+from ilmek.machines.automated_loom.cost_figures import cost_over_carpets, cost_over_heads
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_times_at
 from ilmek.machines.automated_loom.motion.actuators import knot_forces, knot_speeds, row_forces, row_speeds
@@ -42,6 +43,8 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
         one_knot,
         *(by_heads if loom.heads else ()),
         scaling,
+        cost_over_heads,
+        cost_over_carpets,
     )
     return tuple(partial(make, loom) for make in made)
 

@@ -52,14 +52,14 @@ class Seam:
 def seams(loom: LoomDesign, frame: LoomFrame) -> tuple[Seam, ...]:
     """The welds of brackets and posts."""
     made = brackets_of(loom)
-    return (*(_of_bracket(frame, made.face, one) for one in made.plates), *_of_posts(loom, frame))
+    return (*(_of_bracket(frame, made.face, plate) for plate in made.plates), *_of_posts(loom, frame))
 
 
-def _of_bracket(frame: LoomFrame, face: float, one: Bracket) -> Seam:
-    section = welded_to(frame, one.depth) if face > one.outer else frame.column
-    weld = TwoSeams(one.depth, section.side)
-    force = weld.force(one.load, *one.moment)
-    return Seam(one.title, one.name, throat_for(force, min(section.wall, BRACKET)), force)
+def _of_bracket(frame: LoomFrame, face: float, bracket: Bracket) -> Seam:
+    section = welded_to(frame, bracket.depth) if face > bracket.outer else frame.column
+    weld = TwoSeams(bracket.depth, section.side)
+    force = weld.force(bracket.load, *bracket.moment)
+    return Seam(bracket.title, bracket.name, throat_for(force, min(section.wall, BRACKET)), force)
 
 
 def _of_posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Seam]:

@@ -57,7 +57,7 @@ from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.records import record
-from ilmek.report import Check
+from ilmek.report import BillLine, Check
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment
 
 WEAVER, DYAD = "weaver", "knotting-dyad"
@@ -126,16 +126,21 @@ def knotting_head(task: LoomTask) -> KnottingHead:
             raise LoomError("weaver.arms.time, and knotting=cams", do="set knotting=arms, or leave weaver.arms out")
         return _on_cams(params)
     arms = _arms(task)
-    if arms.head is None:
-        raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
     weaver = _weaver(_sized(task, replace(params, arms=_in_head(task, arms))))
     placed = replace(arms, params=task.parameters(DYAD, replace(arms.params, room=_room(weaver, arms))))
     return _by_arms(_sized(task, replace(params, arms=_in_head(task, placed))), placed)
 
 
+def arms_alone(task: LoomTask) -> tuple[ArmsInHead, Sequence[BillLine]]:
+    """The arms for a loom's warps, pile and knot without the head that carries them, and their parts."""
+    arms = _arms(task)
+    return _in_head(task, arms), MACHINES[DYAD].parts(arms)
+
+
 def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
     """What a head has to know of its arms."""
-    assert arms.head is not None
+    if arms.head is None:
+        raise LoomError("points for the arms of a loom", do="leave knotting-dyad.points and angles out")
     head, params, inside = arms.head, arms.params, arms.head.section
     motion = head_motion(params, head)
     rest = head.arm.tip(np.array([0.0]))[0]
@@ -192,7 +197,7 @@ def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
     return params
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def _weaver(params: WeaverParams) -> Weaver:
     """A head, designed once for each set of parameters: a loom's choices ask for the same one."""
     design: Weaver = MACHINES[WEAVER].design(params)

@@ -2,29 +2,46 @@
 
     choices   kind of knotting x time of a knot x carrier of the weft x beat x heads
     time      rows * (wefts and beats + knots of the widest parts * time of a knot) + stops, of `estimate`
-    price     heads * parts of a head + parts of weft and beat + all other parts of the simplest loom
+    price     heads * parts of a head + parts of all other machines + frame and equipment of a designed loom
     cost      that of this time on a loom of this price, with the standby power of its axes  [`cost`]
 
-The simplest loom has the first of each kind, the slowest knot and the fewest heads. So the bounds hold where no frame,
-cylinder, guard or cabinet is cheaper for more heads, for a quicker knot or for another kind. Sizes are steps of tables:
-`SLACK` is left for a step down. A head by arms is taken as dearer than one on cams by half of its servos, until it is
-designed. A test holds the bounds against all looms of a table.
+All other machines are designed for each carrier and beat: heads and their knots do not change them. The head is that
+of the slowest knot, and frame and equipment are those of the simplest loom, with the fewest heads, less `OTHER_SLACK`.
+Nearer bounds have the head of the time of the knot, the frame of the carrier and the beat with the fewest heads, and
+the equipment of designed looms with the carrier and with no more heads. So they hold where neither is cheaper for more
+heads or a quicker knot; `SLACK` is left for sizes, which are steps of tables. A head by arms has the parts of the arms,
+and `ARMS_REST` of one on cams, until it is designed. A test holds the bounds against all looms of a table.
 """
 
+import contextlib
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
+from itertools import chain
 
 from ilmek.elements.prices import PriceRates, read_prices
+from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import WEFT_CARRIERS
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, with_control
 from ilmek.machines.automated_loom.choice import BeatOption
-from ilmek.machines.automated_loom.cost import MachineCost, machine_cost, with_control
-from ilmek.machines.automated_loom.design import ReadyLoom, knotters, ready_loom, times_at, with_changes
-from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
+from ilmek.machines.automated_loom.cost import machine_cost
+from ilmek.machines.automated_loom.design import (
+    LoomDesign,
+    ReadyLoom,
+    arms_for,
+    knotters,
+    ready_loom,
+    times_at,
+    with_beat,
+    with_changes,
+)
+from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
 from ilmek.machines.automated_loom.params import AUTO, COST, HAND, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
-from ilmek.machines.automated_loom.search import LoomOffer
+from ilmek.machines.automated_loom.search import LoomOffer, SearchJournal
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.weaver.design import ties_in_time
@@ -37,14 +54,20 @@ _FROM_1 = (1.0, 0.95, 0.9, 0.85, 0.8, 0.75, 0.71, 0.67, 0.63, 0.6, 0.56, 0.53, 0
 CYCLES = (*_FROM_2, *_FROM_1)
 """Times of a knot [s] that are offered: preferred numbers, R 40 in the rounding R' 40. [ISO 3]"""
 
-SLACK = 0.003
-"""Share by which a bound of price or cost is lowered for the steps of tables, by a loom of the same kinds."""
+SLACK = 0.03
+"""Share by which frame, equipment and the head of the slowest knot are lowered, for the steps of tables."""
 
-OTHER_SLACK = 0.015
-"""The same, by a loom of other kinds: another beat, another frame."""
+OTHER_SLACK = 0.25
+"""The same, of a loom with another carrier or another beat: another frame, a wider fence."""
 
-ARM_SERVOS = 4
-"""Servos of the arms of a head; two of them are counted for the price: it lacks the cams of the grippers."""
+ROUNDING = 0.001
+"""Share by which a bound is lowered for what differs between heads and beats of other carriers and times of a knot."""
+
+ARM_SERVOS = 5
+"""Servos of the arms of a head, the least of their parts."""
+
+ARMS_REST = 0.7
+"""Share of a head on cams that one by arms has at least: it lacks the grippers with their cams."""
 
 
 @record
@@ -52,7 +75,7 @@ class HeadBranch:
     """A kind of knotting with a carrier of the weft: the loom of the slowest knot up to its beat, and its times.
 
     kind    of knotting     cycles  that can be chosen [s], the slowest first     most  heads that fit
-    head    the cost of one                       beats  that of the weft side with each kind of beat
+    head    the least cost of one                 looms  with the fewest heads and each kind of beat
     """
 
     kind: str
@@ -60,16 +83,26 @@ class HeadBranch:
     cycles: tuple[float, ...]
     most: int
     head: MachineCost
-    beats: Mapping[str, MachineCost]
+    looms: Mapping[str, LoomDesign]
 
     @property
     def weft(self) -> str:
         """The carrier of the weft; auto where the weft side chooses it."""
         return self.ready.params.weft
 
-    def others(self, beat: str) -> MachineCost:
-        """The cost of the weft side and of a kind of beat."""
-        return self.beats[beat]
+
+@lru_cache(maxsize=32)
+def machines_cost(loom: LoomDesign) -> MachineCost:
+    """The cost of all machines of a loom but its heads."""
+    others = (child.parts for name, child in loom.machines.items() if name not in loom.head.children)
+    return machine_cost((*chain.from_iterable(others), *loom.beat.parts), read_prices(loom.params.prices))
+
+
+@lru_cache(maxsize=32)
+def frame_cost(loom: LoomDesign) -> MachineCost:
+    """The cost of the frame of a loom with all that it carries beside the machines, without the control of the axes."""
+    listed = parts_of_loom(loom)
+    return machine_cost((line for line in own_lines(loom, listed) if line.part != AMPLIFIER), listed.prices)
 
 
 def head_cost(head: KnottingHead, prices: Mapping[str, PriceRates]) -> MachineCost:
@@ -77,7 +110,7 @@ def head_cost(head: KnottingHead, prices: Mapping[str, PriceRates]) -> MachineCo
     return machine_cost((line for child in head.children.values() for line in child.parts), prices)
 
 
-def branches(params: AutomatedLoomParams, kind: str) -> tuple[HeadBranch, ...]:
+def branches(params: AutomatedLoomParams, kind: str, journal: SearchJournal) -> tuple[HeadBranch, ...]:
     """The branches of a kind of knotting, one for each carrier of the weft that is open.
 
     For the least price the weft side chooses its carrier, the cheaper one, itself.
@@ -94,23 +127,39 @@ def branches(params: AutomatedLoomParams, kind: str) -> tuple[HeadBranch, ...]:
     else:
         cycles = _cycles(knotting.weaver.params) if quicker else (slowest,)
     fit = knotting.most(looms[0].task.columns, looms[0].task.cloth.knot_pitch)
-    return tuple(_branch(kind, ready, cycles, fit) for ready in looms)
+    least = [head_cost(ready.head, read_prices(params.prices)).times(1 - SLACK) for ready in looms]
+    return tuple(
+        HeadBranch(kind, ready, cycles, fit, cost, _looms(ready, journal))
+        for ready, cost in zip(looms, least, strict=True)
+    )
 
 
-def _branch(kind: str, ready: ReadyLoom, cycles: tuple[float, ...], most: int) -> HeadBranch:
-    prices, weft = read_prices(ready.params.prices), ready.machines["weft"].parts
-    beats = {option.kind: machine_cost((*weft, *option.drive.parts), prices) for option in ready.options}
-    return HeadBranch(kind, ready, cycles, most, head_cost(ready.head, prices), beats)
+def _looms(ready: ReadyLoom, journal: SearchJournal) -> Mapping[str, LoomDesign]:
+    """The loom with each kind of beat, those whose drive holds first; what cannot be designed is left out."""
+    looms: dict[str, LoomDesign] = {}
+    for option in sorted(ready.options, key=lambda option: any(not check.ok for check in option.checks)):
+        with contextlib.suppress(LoomError, ParameterError):
+            looms[option.kind] = with_beat(ready, option, journal)
+    return looms
 
 
-def undesigned_arms(branch: HeadBranch) -> HeadBranch:
-    """The branch of looms with arms, before these are designed, from that with cams: arms that take no time to tie."""
-    servo = read_prices(branch.ready.params.prices)["servo"].each
+def undesigned_arms(branch: HeadBranch, *, designed: bool) -> HeadBranch | None:
+    """The branch of looms by arms, before their heads are designed, from that with cams; None where no arms tie so.
+
+    designed  whether the arms themselves are: else they tie in no time, and have their servos alone
+    """
     assert branch.ready.head.weaver is not None
-    head, own = branch.ready.head.weaver.params, branch.cycles
-    no_time = replace(head, arms=replace(head.arms, time=1e-3, yarn=0.0))
-    extra = MachineCost(ARM_SERVOS / 2 * servo, 0, ARM_SERVOS)
-    return replace(branch, kind=ARMS, cycles=_cycles(no_time) if len(own) > 1 else own, head=branch.head.plus(extra))
+    head, own, prices = branch.ready.head.weaver.params, branch.cycles, read_prices(branch.ready.params.prices)
+    inside = replace(head.arms, time=1e-3, yarn=0.0)
+    arms = MachineCost(ARM_SERVOS * prices["servo"].each, 0, ARM_SERVOS)
+    if designed:
+        try:
+            inside, parts = arms_for(branch.ready.params)
+        except (LoomError, ParameterError):
+            return None
+        arms = machine_cost(parts, prices)
+    cycles = _cycles(replace(head, arms=inside)) if len(own) > 1 else own
+    return replace(branch, kind=ARMS, cycles=cycles, head=arms.plus(branch.head.times(ARMS_REST)))
 
 
 def _cycles(head: WeaverParams) -> tuple[float, ...]:
@@ -124,91 +173,109 @@ def _cycles(head: WeaverParams) -> tuple[float, ...]:
 
 @record
 class LoomRest:
-    """What a designed loom costs without its heads, its weft side, its beat and the control of its axes.
+    """What a designed loom costs without its machines and the control of its axes.
 
-    creel  the cost of what of the creel, and of the sensors, is for one head
+    frame      with all that it carries           creel      and sensors that each head has, for one of them
+    equipment  all other                          share      of a head in what of it is more for more heads
     """
 
     offer: LoomOffer
-    rest: MachineCost
+    frame: MachineCost
+    equipment: MachineCost
     creel: MachineCost
-    floor: float
+    share: MachineCost
+    cost: CarpetCost
 
-    def bounds(self, offer: LoomOffer) -> bool:
-        """Whether the rest of an offer costs no less: of the same kinds, with as many heads and as quick a knot."""
-        own = self.offer
-        alike = (own.knotting, own.weft, own.beat) == (offer.knotting, offer.weft, offer.beat)
-        return alike and own.heads <= offer.heads and own.cycle >= offer.cycle
+    def equipment_for(self, heads: int) -> MachineCost:
+        """The least cost of the equipment of a loom with another number of heads."""
+        return self.equipment.plus(self.share.times(-max(0, self.offer.heads - heads)))
 
 
 def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
     """The rest of the designed loom of an offer."""
-    loom, listed = found.loom, found.listed
-    own = {line.part for name in loom.head.children for line in loom.machines[name].parts}
-    exchanged = own | {AMPLIFIER} | {line.part for line in (*loom.machines["weft"].parts, *loom.beat.parts)}
-    rest = [line for line in listed.parts if line.part not in exchanged | OF_A_HEAD]
-    creel = machine_cost((line for line in listed.parts if line.part in OF_A_HEAD), listed.prices)
-    return LoomRest(offer, machine_cost(rest, listed.prices), creel.times(1 / loom.knotters), found.cost.floor)
+    loom, listed, more = found.loom, found.listed, more_for_heads(found.loom)
+    before = {line.part for line in parts_of_loom(loom).parts} | OF_A_HEAD
+    others = [line for line in listed.parts if line.part not in before]
+    shared, of_a_head = [line for line in others if line.part in more], [p for p in listed.parts if p.part in OF_A_HEAD]
+    creel, share = (machine_cost(lines, listed.prices).times(1 / loom.knotters) for lines in (of_a_head, shared))
+    return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, share, found.cost)
 
 
 @record
 class Bounds:
     """The least time, price and cost of looms, from those that were designed.
 
-    simplest  the first of them      rests  of all of them; each designed loom is added, so that bounds rise
+    rests  of them, by their choices; each designed loom is added, so that bounds rise
     """
 
     params: AutomatedLoomParams
-    simplest: LoomAnalysis
-    rests: list[LoomRest]
+    prices: Mapping[str, PriceRates]
+    rests: dict[tuple[object, ...], LoomRest]
 
     def offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
         """The offers of a branch that can keep the deadline and the limit of the price, with their bounds."""
-        params = self.params
-        latest, most = params.deadline or math.inf, params.price_limit or math.inf
-        kept = [offer for offer in self._offers(branch) if offer.time <= latest and offer.price <= most]
-        if params.aim != PRICE:
+        kept = [offer for offer in self._offers(branch) if self.wished(offer.time, offer.price)]
+        if self.params.aim != PRICE:
             return iter(kept)
         # A quicker knot is not cheaper: of each beat and number of heads the slowest that keeps the deadline.
         return iter({(offer.beat, offer.heads): offer for offer in reversed(kept)}.values())
+
+    def wished(self, time: float, price: float) -> bool:
+        """Whether a time [s] and a price keep the deadline and the limit of the price."""
+        limit = self.params.price_limit
+        return time <= (self.params.deadline or math.inf) and price <= (math.inf if limit is None else limit)
 
     def _offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
         ready, params, weft = branch.ready, self.params, branch.weft
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
                 continue
+            if option.kind not in branch.looms:
+                continue
+            loom, frame = branch.looms[option.kind], self.simplest.frame.times(1 - OTHER_SLACK)
+            if (weft, option.kind) == (self.simplest.offer.weft, self.simplest.offer.beat):
+                frame = frame_cost(loom).times(1 - SLACK)
             number = params.heads or (knotters(params, branch.most, ready.head) if ready.head.weaver is None else 0)
             for heads in (number,) if number else range(1, branch.most + 1):
+                cost, floor = self._least(weft, heads, loom, branch.head, frame)
                 for cycle in branch.cycles:
                     time = _least_time(ready, option, cycle, heads)
-                    offer = LoomOffer(branch.kind, cycle, weft, option.kind, heads, time, 0.0, 0.0)
-                    yield self.bounded(offer, branch, branch.head)
+                    value = self._value(cost, floor, time)
+                    yield LoomOffer(branch.kind, cycle, weft, option.kind, heads, time, cost.parts, value)
 
-    def bounded(self, offer: LoomOffer, branch: HeadBranch, head: MachineCost) -> LoomOffer:
-        """The offer with the greatest of its bounds by the designed looms that are not above it; head: its cost."""
-        alike = [one for one in self.rests if one.bounds(offer)]
-        slack = SLACK if alike else OTHER_SLACK
-        costs = [
-            (self._cost(one, branch.others(offer.beat), head, offer.heads), one.floor)
-            for one in alike or self.rests[:1]
-        ]
-        cost, floor = max(costs, key=lambda one: one[0].parts)
-        return replace(offer, price=(1 - slack) * cost.parts, value=self._value(cost, floor, offer.time, slack))
+    def nearer(self, offer: LoomOffer, loom: LoomDesign, head: MachineCost) -> LoomOffer:
+        """The offer with its bounds by a head, by the frame of a loom, and by the equipment of the designed ones.
 
-    def _cost(self, one: LoomRest, others: MachineCost, head: MachineCost, heads: int) -> MachineCost:
-        cost = one.rest.plus(others).plus(head.plus(one.creel).times(heads))
-        return with_control(cost, self.simplest.listed.prices)
+        loom  with its carrier of the weft and its beat, the slowest knot and the fewest heads
+        """
+        cost, floor = self._least(offer.weft, offer.heads, loom, head, frame_cost(loom).times(1 - SLACK))
+        return replace(offer, price=cost.parts, value=self._value(cost, floor, offer.time))
 
-    def _value(self, cost: MachineCost, floor: float, time: float, slack: float) -> float:
+    def _least(
+        self, weft: str, heads: int, loom: LoomDesign, head: MachineCost, frame: MachineCost
+    ) -> tuple[MachineCost, float]:
+        """The least cost of a loom, and its floor [m²], with a number of heads, and a frame."""
+        alike = [rest for rest in self.rests.values() if rest.offer.weft == weft]
+        share = 1 - (SLACK if alike else OTHER_SLACK)
+        rest = max(alike or [self.simplest], key=lambda rest: rest.equipment_for(heads).parts)
+        cost = frame.plus(rest.equipment_for(heads).times(share)).plus(machines_cost(loom))
+        cost = with_control(cost.plus(head.plus(rest.creel).times(heads)), self.prices)
+        return cost.times(1 - ROUNDING), share * rest.cost.floor
+
+    @property
+    def simplest(self) -> LoomRest:
+        """The rest of the first loom that was designed."""
+        return next(iter(self.rests.values()))
+
+    def _value(self, cost: MachineCost, floor: float, time: float) -> float:
         if self.params.aim == TIME:
             return time
         if self.params.aim == PRICE:
-            return (1 - slack) * cost.parts
-        made, sold = cost.sold(self.params.cost)
+            return cost.parts
         energy = self.params.standby_power * cost.axes * time
-        least = replace(self.simplest.cost, time=time, energy=energy, floor=floor, made=made, sold=sold)
+        least = replace(self.simplest.cost, time=time, energy=energy, floor=floor, machine=cost)
         carpet: float = least.cost_per_carpet
-        return (1 - slack) * carpet
+        return (1 - ROUNDING) * carpet
 
 
 def value_of(found: LoomAnalysis, aim: str) -> float:

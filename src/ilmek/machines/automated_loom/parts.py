@@ -101,6 +101,12 @@ def _rail_holds(loom: LoomDesign, frame: LoomFrame) -> bool:
     return all(check.ok for support in rail_supports(loom, frame) for check in support.checks)
 
 
+def own_lines(loom: LoomDesign, listed: PartsList) -> tuple[BillLine, ...]:
+    """The lines of the loom's own parts, of those with the parts of its machines."""
+    machines = {line.part for line in _of_machines(loom)}
+    return tuple(line for line in listed.parts if line.part not in machines)
+
+
 def own_tree(loom: LoomDesign) -> Tree:
     """The loom's own bodies that are in none of its machines."""
     listed = parts_of_loom(loom)

@@ -1,5 +1,6 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -8,9 +9,10 @@ import numpy as np
 from ilmek.carpet.pile import pile_check
 from ilmek.elements.prices import price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
-from ilmek.machines.automated_loom.cost import CarpetCost, carpet_cost, costs_by_beats, costs_by_number
+from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
@@ -21,8 +23,11 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, t
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.off_loom import off_loom
+from ilmek.machines.automated_loom.params import COST
 from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
+from ilmek.machines.automated_loom.search import LoomSearch
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -30,7 +35,7 @@ from ilmek.machines.weaver.carriage_drive import tension_check
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.records import computed, record
-from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns
+from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -53,7 +58,7 @@ class LoomVerdict:
 
     @computed("", "checks that do not hold, the heaviest first, with what would cure them", shown=False)
     def reasons(self) -> list[Json]:
-        return [reason.as_json() for reason in self.report.reasons]
+        return [reason_json(reason) for reason in self.report.reasons]
 
 
 @record
@@ -179,15 +184,15 @@ def checks(found: LoomAnalysis) -> tuple[Check, ...]:
         ).with_cure("set a larger lift, or a smaller open_share"),
         *(replace(check, name=f"row: {check.name}", cure=SLOWER_CAMS) for check in check_all(row, row.relations)),
         *(
-            replace(check_apart(knot, one), name=f"knot: {one.label(knot.units)}", cure=SLOWER_KNOT)
-            for one in knot.exclusions
+            replace(check_apart(knot, exclusion), name=f"knot: {exclusion.label(knot.units)}", cure=SLOWER_KNOT)
+            for exclusion in knot.exclusions
         ),
         *cloth_checks(loom),
         *_retreat_checks(loom),
         *found.listed.frame.checks,
         *bracket_checks(loom, brackets_of(loom), found.listed.frame.column),
         *supports(loom, found.listed.frame).checks,
-        *(check for one in rail_supports(loom, found.listed.frame) for check in one.checks),
+        *(check for rail_support in rail_supports(loom, found.listed.frame) for check in rail_support.checks),
         *steady_checks(loom, found.listed.frame, brackets_of(loom)),
         *joint_checks(loom, found.listed.frame),
         *frame_modes(loom, found.listed.frame).checks,
@@ -266,16 +271,29 @@ def _least_room(loom: LoomDesign) -> float:
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
-    costs = _heads_table(found), _cost_table(found)
+    costs = _heads_table(found), _cost_table(found), *_rates_table(found)
     listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
     return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
+
+
+@lru_cache(maxsize=4)
+def beat_costs(found: LoomAnalysis) -> Mapping[str, tuple[CarpetCost, ...]]:
+    """Costs over the heads with each kind of beat whose drive keeps its limits, estimated."""
+    return costs_by_beats(found.loom, found.listed, found.energy.total)
 
 
 def _heads_table(found: LoomAnalysis) -> Table:
     loom = found.loom
     rows = tuple(
-        (number, cost.time, cost.time / loom.rows, 60 * found.knots / cost.time, cost.parts, cost.cost_per_carpet)
-        for number, cost in enumerate(costs_by_number(loom, found.listed, found.energy.total), 1)
+        (
+            number,
+            cost.time,
+            cost.time / loom.rows,
+            60 * found.knots / cost.time,
+            cost.machine.parts,
+            cost.cost_per_carpet,
+        )
+        for number, cost in enumerate(beat_costs(found)[loom.params.beat], 1)
     )
     of = "heads" if loom.heads else "weavers"
     heads_of = columns(
@@ -285,7 +303,7 @@ def _heads_table(found: LoomAnalysis) -> Table:
 
 
 def _cost_table(found: LoomAnalysis) -> Table:
-    costs = costs_by_beats(found.loom, found.listed, found.energy.total)
+    costs = beat_costs(found)
     rows = tuple(
         (number, *(cost.cost_per_carpet for cost in row))
         for number, row in enumerate(zip(*costs.values(), strict=True), 1)
@@ -293,6 +311,28 @@ def _cost_table(found: LoomAnalysis) -> Table:
     of = "heads" if found.loom.heads else "weavers"
     title = f"Cost of a carpet without yarn by beat and number of {of}, estimated: knot and frame as they are"
     return Table("loom-cost", title, columns(of, *costs), rows)
+
+
+def _rates_table(found: LoomAnalysis) -> tuple[Table, ...]:
+    """How far each rate can move, for a loom that was chosen by its cost."""
+    search = found.loom.search
+    if search is None or search.params.aim != COST or not search.others:
+        return ()
+    rows = tuple(
+        (limits.rate.name, limits.rate.doc, *_moved(limits, search))
+        for limits in rate_limits(found.cost, [cost for _, cost in search.others])
+    )
+    title = f"Rates: how far each can move before another of {len(search.costs)} designed looms is the cheapest"
+    return (Table("loom-rates", title, columns("rate | what it is | now | down to | then | up to | then"), rows),)
+
+
+def _moved(limits: RateLimits, search: LoomSearch) -> Iterator[str]:
+    """A rate's value, and its limits with what is chosen then."""
+    unit = limits.rate.unit
+    yield format_quantity(limits.now, unit)
+    for limit in (limits.below, limits.above):
+        yield "any" if limit is None else format_quantity(limit[0], unit)
+        yield "" if limit is None else search.unlike(search.others[limit[1]][0])
 
 
 def _parts_table(listed: PartsList) -> Table:

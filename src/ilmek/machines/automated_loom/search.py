@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.params import AUTO, HAND, TIME, AutomatedLoomParams
 from ilmek.records import record
 from ilmek.report import Check, Choice, Json
@@ -54,7 +55,7 @@ class LoomOffer:
 class LoomSearch:
     """The search of a loom.
 
-    params  as given        offers  all that can be chosen        designed  number of whole looms that were designed
+    params  as given        offers  all that can be chosen        costs  of a carpet on each loom that was designed
     lost    offers that were refused, each with its heaviest check, the better ones first
     chosen  the offer of the loom      value  that its loom has
     rival   the best of all others: its loom has the value, or no loom of it can have less where `rival_designed` is not
@@ -62,13 +63,20 @@ class LoomSearch:
 
     params: AutomatedLoomParams
     offers: tuple[LoomOffer, ...]
-    designed: int
+    costs: tuple[tuple[LoomOffer, CarpetCost], ...]
     lost: tuple[tuple[LoomOffer, Check], ...]
     chosen: LoomOffer
     value: float
     rival: LoomOffer | None = None
     rival_value: float = field(default=float("nan"))
     rival_designed: bool = False
+
+    @property
+    def others(self) -> tuple[tuple[LoomOffer, CarpetCost], ...]:
+        """The other looms that were designed and not refused, with the cost of a carpet, the least first."""
+        refused = {self.chosen.key, *(offer.key for offer, _ in self.lost)}
+        good = (one for one in self.costs if one[0].key not in refused)
+        return tuple(sorted(good, key=lambda one: float(one[1].cost_per_carpet)))
 
     @property
     def open(self) -> tuple[str, ...]:
@@ -78,6 +86,11 @@ class LoomSearch:
     def label(self, offer: LoomOffer) -> str:
         """An offer as a text: what was open."""
         return ", ".join(f"{name}={offer.names[name]}" for name in self.open)
+
+    def unlike(self, offer: LoomOffer) -> str:
+        """An offer as a text: what it has that the chosen one has not."""
+        own = self.chosen.names
+        return ", ".join(f"{name}={value}" for name, value in offer.names.items() if value != own[name])
 
     @property
     def choices(self) -> tuple[Choice, ...]:
@@ -97,7 +110,7 @@ class LoomSearch:
 
     def as_json(self) -> Json:
         """Bound of all looms that were not designed, the chosen one, the runner-up and why it lost."""
-        found: dict[str, Json] = {"aim": self.params.aim, "looms": len(self.offers), "designed": self.designed}
+        found: dict[str, Json] = {"aim": self.params.aim, "looms": len(self.offers), "designed": len(self.costs)}
         found |= {"chosen": self.label(self.chosen), "value": self.value}
         if self.rival is None:
             return found

@@ -2,23 +2,25 @@
 
 Branch and bound: of all offers [`offers`] the one with the least bound is designed, its value takes the place of its
 bound, and when a designed loom is the least of all, its checks decide: it is chosen, or refused. So no other loom can
-be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all; a frame that
-its heads shake refuses all looms of its kinds with more heads that tie more knots in a time. These checks are formulas.
+be better, by their bounds, and few are designed. What fails in a part that looms share refuses them all, and what more
+heads or quicker knots make worse, all looms of a kind with more or quicker ones. These checks are formulas.
 Where the parts of the chosen loom have no room in space, the kind of beat is refused, and the next best loom is chosen
 [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
 import heapq
-from collections.abc import Iterable, Mapping
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from itertools import count
 from types import MappingProxyType
 
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
-from ilmek.machines.automated_loom.cost import MachineCost
+from ilmek.machines.automated_loom.carpet_cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
+from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.automated_loom.offers import (
@@ -72,37 +74,41 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
 def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
     """The loom of the best offer; refused: failed checks in space by kinds of beat."""
     kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
-    first = branches(params, kinds[0])
     journal = SearchJournal()
+    first = branches(params, kinds[0], journal)
     given = params.heads is not None or params.knotting == HAND
     one = given and len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1
-    bounds = None if one else _simplest(first[0], journal, params)
+    bounds = None if one else _simplest(first[0], params)
     if bounds is None:
         return with_beat(first[0].ready, first[0].ready.options[0])
     search = _Search(bounds, refused, journal)
     for branch in first:
         search.add(branch)
     if len(kinds) > 1:
-        search.postpone(first)
+        search.postpone(first, designed=params.aim != PRICE)
     return search.run() or _nearest(params, refused)
 
 
-def _simplest(branch: HeadBranch, journal: SearchJournal, params: AutomatedLoomParams) -> Bounds | None:
+def _simplest(branch: HeadBranch, params: AutomatedLoomParams) -> Bounds | None:
     """Bounds by the simplest loom of a branch: its cheapest beat that holds; None where none has its parts."""
-    options = sorted(branch.ready.options, key=lambda option: any(not check.ok for check in option.checks))
-    for option in options:
+    for loom in branch.looms.values():
         try:
-            found = analyse(with_beat(branch.ready, option, journal))
+            found = analyse(loom)
         except ParameterError:
             continue
-        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, option.kind, found.loom.knotters, 0.0, 0.0, 0.0)
-        return Bounds(params, found, [rest_of(offer, found)])
+        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.knotters, 0.0, 0.0, 0.0)
+        return Bounds(params, found.listed.prices, {offer.key: rest_of(offer, found)})
     return None
 
 
 def _slack(loom: LoomDesign) -> list[Check]:
     """The natural frequencies of a loom's frame that its drives come too near to."""
     return [check for check in frame_modes(loom, parts_of_loom(loom).frame).checks if not check.ok]
+
+
+def _tight(loom: LoomDesign) -> list[Check]:
+    """The limits that a yarn's pull on its path to the head does not keep; none without heads."""
+    return [check for check in yarn_checks(loom) if not check.ok] if loom.heads else []
 
 
 def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
@@ -116,15 +122,37 @@ def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...
 
 @record
 class _Entry:
-    """An offer in the search: with its loom, once it is designed; `closed`: it stands for looms with arms.
+    """An offer in the search: with its loom, once it is designed.
 
-    bounded  number of designed looms by which it was bounded, with its own head; 0: with the slowest one
+    bounded  number of designed looms by which it was bounded; 0: with another frame      own  by its own head
+    opens    what makes the offers of looms by arms, where the offer stands for these
     """
 
     offer: LoomOffer
     loom: LoomDesign | None = None
-    closed: bool = False
     bounded: int = 0
+    own: bool = False
+    opens: Callable[[], None] | None = None
+
+
+@record
+class _Limit:
+    """The least offer of its kinds that fails a check: with the least heads, or with the slowest knot."""
+
+    offer: LoomOffer
+    check: Check
+    by_heads: bool
+
+    def shuts_out(self, other: LoomOffer) -> bool:
+        """Whether another offer fails the same check: a frame is shaken no less by as many heads that tie as quickly
+        together, a yarn is pulled no less by a quicker knot.
+        """
+        own = self.offer
+        if (own.knotting, own.weft, own.beat) != (other.knotting, other.weft, other.beat):
+            return False
+        if self.by_heads:
+            return own.heads <= other.heads and own.heads / own.cycle <= other.heads / other.cycle
+        return other.cycle <= own.cycle
 
 
 class _Search:
@@ -140,7 +168,7 @@ class _Search:
         self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
         self.branches: dict[tuple[str, str], HeadBranch] = {}
         self.heads: dict[tuple[str, float, str], MachineCost] = {}
-        self.shaken: list[tuple[LoomOffer, Check]] = []
+        self.limits: list[_Limit] = []
         self.order = count()
 
     def add(self, branch: HeadBranch) -> None:
@@ -157,18 +185,24 @@ class _Search:
             if failed[offer.beat]:
                 self.lost.append((offer, max(failed[offer.beat], key=weight)))
             else:
-                self._push(offer.value, _Entry(offer, self._simplest(offer)))
+                self._push(offer.value, _Entry(offer))
 
-    def _simplest(self, offer: LoomOffer) -> LoomDesign | None:
-        """The simplest loom, where it is that of the offer."""
-        return self.bounds.simplest.loom if offer.key == self.bounds.rests[0].offer.key else None
-
-    def postpone(self, cams: Iterable[HeadBranch]) -> None:
-        """The looms with arms, which are designed only where one with a head on cams is not better than their bound."""
-        self.closed = [offer for branch in cams for offer in self.bounds.offers(undesigned_arms(branch))]
+    def postpone(self, cams: Sequence[HeadBranch], *, designed: bool) -> None:
+        """The looms by arms, which are designed only where none with a head on cams is better than their bound: first
+        the arms alone, then their heads.
+        """
+        arms = [undesigned_arms(branch, designed=designed) for branch in cams]
+        self.closed = [offer for branch in arms if branch for offer in self.bounds.offers(branch)]
         if self.closed:
             best = min(self.closed, key=lambda offer: offer.value)
-            self._push(best.value, _Entry(best, closed=True))
+            opens = self._open if designed else partial(self.postpone, cams, designed=True)
+            self._push(best.value, _Entry(best, opens=opens))
+
+    def _open(self) -> None:
+        """The looms by arms in place of the offers that stand for them."""
+        self.closed = []
+        for branch in branches(self.params, ARMS, self.journal):
+            self.add(branch)
 
     def _push(self, value: float, entry: _Entry) -> None:
         tie = entry.offer.price if self.params.aim == TIME else 0.0
@@ -178,15 +212,13 @@ class _Search:
         """The best loom that keeps every limit; else that which misses them least, or None where there is no offer."""
         while self.heap and len(self.tried) < MOST_REFUSED:
             value, _, _, entry = heapq.heappop(self.heap)
-            if entry.closed:
-                self.closed = []
-                for branch in branches(self.params, ARMS):
-                    self.add(branch)
-            elif (check := self._shaking(entry.offer)) is not None:
+            if entry.opens is not None:
+                entry.opens()
+            elif (check := self._limit(entry.offer)) is not None:
                 self.lost.append((entry.offer, check))
-            elif entry.loom is None and entry.bounded < len(self.bounds.rests):
-                self._bound(entry.offer)
-            elif entry.loom is None or value < value_of(analyse(entry.loom), self.params.aim):
+            elif entry.loom is None and not (entry.own and entry.bounded == len(self.bounds.rests)):
+                self._bound(entry)
+            elif entry.loom is None:
                 self._design(entry)
             elif self._holds(entry.offer, entry.loom):
                 return self._ended(entry.offer, entry.loom, value)
@@ -198,28 +230,38 @@ class _Search:
         offer, _ = min(self.lost, key=lambda one: (weight(one[1]), one[0].value))
         return self._ended(offer, self._loom(offer), offer.value)
 
-    def _bound(self, offer: LoomOffer) -> None:
-        """The offer again, with the bound by its own head and by all looms designed until now."""
-        own = offer.knotting, offer.cycle, offer.weft
-        if own not in self.heads:
-            self.heads[own] = head_cost(head_for(offer.of(self.params)), self.bounds.simplest.listed.prices)
-        bounded = self.bounds.bounded(offer, self.branches[offer.knotting, offer.weft], self.heads[own])
-        self._push(bounded.value, _Entry(bounded, bounded=len(self.bounds.rests)))
+    def _bound(self, entry: _Entry) -> None:
+        """The offer again, with its bounds by its own frame, then by its own head, and by all looms until now."""
+        offer = entry.offer
+        key = offer.knotting, offer.cycle, offer.weft
+        branch = self.branches[offer.knotting, offer.weft]
+        if entry.bounded and key not in self.heads:
+            self.heads[key] = head_cost(head_for(offer.of(self.params)), self.bounds.prices)
+        head = self.heads.get(key)
+        nearer = self.bounds.nearer(offer, branch.looms[offer.beat], head or branch.head)
+        if self.bounds.wished(nearer.time, nearer.price):
+            self._push(nearer.value, _Entry(nearer, bounded=len(self.bounds.rests), own=head is not None))
 
     def _loom(self, offer: LoomOffer) -> LoomDesign:
+        branch = self.branches[offer.knotting, offer.weft]
+        first = branch.looms.get(offer.beat)
+        if first and (first.knotters, branch.cycles[0]) == (offer.heads, offer.cycle):
+            return first
         ready = ready_loom(offer.of(self.params))
         return with_beat(ready, ready.options[0], self.journal)
 
     def _design(self, entry: _Entry) -> None:
-        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer."""
+        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer, nor what
+        costs more than is wished.
+        """
         try:
-            loom = entry.loom or self._loom(entry.offer)
+            loom = self._loom(entry.offer)
             found = analyse(loom)
         except (LoomError, ParameterError):
             return
-        if entry.loom is None:
-            self.bounds.rests.append(rest_of(entry.offer, found))
-        self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
+        self.bounds.rests[entry.offer.key] = rest_of(entry.offer, found)
+        if self.bounds.wished(found.time, found.listed.price):
+            self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
 
     def _holds(self, offer: LoomOffer, loom: LoomDesign) -> bool:
         failed = [check for check in all_checks(loom) if not check.ok]
@@ -227,33 +269,29 @@ class _Search:
             heaviest = max(failed, key=weight)
             self.lost.append((offer, heaviest))
             self.tried.append((offer, loom, weight(heaviest)))
-            if slack := _slack(loom):
-                self.shaken.append((self._first_shaking(offer), slack[0]))
+            self.limits += self._shut_out(offer, loom)
         return not failed
 
-    def _first_shaking(self, offer: LoomOffer) -> LoomOffer:
-        """An offer that shakes its frame, with the least number of heads for which it does."""
-        steady, heads = 0, offer.heads
-        while heads - steady > 1:
-            middle = (steady + heads) // 2
-            shakes = _slack(self._loom(replace(offer, heads=middle)))
-            steady, heads = (steady, middle) if shakes else (middle, heads)
-        return replace(offer, heads=heads)
+    def _shut_out(self, offer: LoomOffer, loom: LoomDesign) -> Iterator[_Limit]:
+        """What the refused loom of an offer shuts out: more heads, or quicker knots, from the least that fail on."""
+        cycles = [own for own in self.branches[offer.knotting, offer.weft].cycles if own >= offer.cycle]
+        for failed, offers in (
+            (_slack, [replace(offer, heads=number + 1) for number in range(offer.heads)]),
+            (_tight, [replace(offer, cycle=own) for own in cycles]),
+        ):
+            if checks := failed(loom):
+                fails = bisect_left(offers, True, hi=len(offers) - 1, key=lambda own: bool(failed(self._loom(own))))
+                yield _Limit(offers[fails], checks[0], by_heads=failed is _slack)
 
-    def _shaking(self, offer: LoomOffer) -> Check | None:
-        """The check of a loom of the same kinds that fails where no more heads shake its frame no quicker."""
-        for other, check in self.shaken:
-            alike = (other.knotting, other.weft, other.beat) == (offer.knotting, offer.weft, offer.beat)
-            if alike and other.heads <= offer.heads and other.heads / other.cycle <= offer.heads / offer.cycle:
-                return check
-        return None
+    def _limit(self, offer: LoomOffer) -> Check | None:
+        """The check that fails for an offer because it fails for a lesser one of its kinds."""
+        return next((limit.check for limit in self.limits if limit.shuts_out(offer)), None)
 
     def _ended(self, offer: LoomOffer, loom: LoomDesign, value: float) -> LoomDesign:
         """The loom, with the record of the search in its journal."""
         lost = sorted((one for one in self.lost if one[0].value <= value), key=lambda one: one[0].value)
-        search = LoomSearch(
-            self.params, (*self.offers, *self.closed), len(self.bounds.rests), tuple(lost), offer, value
-        )
+        costs = tuple((rest.offer, rest.cost) for rest in self.bounds.rests.values())
+        search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value)
         if self.heap:
             least, _, _, entry = self.heap[0]
             search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.loom is not None)

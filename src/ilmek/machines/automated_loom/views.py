@@ -75,7 +75,7 @@ def room(loom: LoomDesign) -> Drawing:
     low, high = -0.25 * loom.side.cams[0].at.imag, loom.side.cams[0].at.imag
     moving = {body.id for body in tree.bodies if body.joint.motion is not None}
     at_fell = _angle_at_fell(loom, windows[0])
-    still = [one for one in outlines(tree, View.SIDE) if _inside(one, low, high)]
+    still = [outline for outline in outlines(tree, View.SIDE) if _inside(outline, low, high)]
     beaten = [one for one in outlines(tree, View.SIDE, ROW, at_fell) if one.body in moving and _inside(one, low, high)]
     strokes = (
         *_sheets(loom.side),

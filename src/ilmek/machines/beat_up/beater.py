@@ -145,37 +145,37 @@ def _depth(section: float, reach: float, inertia: float, line_density: float) ->
     return slender if excess(slender) <= 0 else float(brentq(excess, slender, square, xtol=1e-12))
 
 
-def plate_check(found: Beater, acceleration: float) -> tuple[Check, ...]:
+def plate_check(beater: Beater, acceleration: float) -> tuple[Check, ...]:
     """Whether the plate bears the bar at an acceleration of the striking edge [m/s²]; none without a bar."""
-    if found.plate is None:
+    if beater.plate is None:
         return ()
-    title, value = "stress of the beater's plate", found.plate_stress * acceleration
+    title, value = "stress of the beater's plate", beater.plate_stress * acceleration
     return (
         at_most(
             title, value, STEEL.strength / PLATE_SAFETY, "MPa", "yield of S235 over 3, assumed by this project"
-        ).with_cure("set wider or thicker links, or a lighter beater_mass", found.plate.id),
+        ).with_cure("set wider or thicker links, or a lighter beater_mass", beater.plate.id),
     )
 
 
-def beater_checks(found: Beater) -> tuple[Check, ...]:
+def beater_checks(beater: Beater) -> tuple[Check, ...]:
     """Whether there is a beater as light as its mass states, and as hard to turn as its mass at the striking edge."""
     lighter = "set a heavier beater_mass, shorter or thinner teeth, or fewer travel.stroke_warps"
     point = "the forces have its mass at the striking edge; assumed by this project"
     return (
         at_least(
             "mass of the beater, that of its teeth at least",
-            found.mass,
-            found.teeth * found.tooth.mass,
+            beater.mass,
+            beater.teeth * beater.tooth.mass,
             "kg",
             "teeth of the parts list",
-        ).with_cure(lighter, *found.ids),
+        ).with_cure(lighter, *beater.ids),
         at_most(
             "inertia of the beater about its pivot, off that of its mass at the striking edge",
-            abs(found.inertia_share - 1) if found.mass else 0.0,
+            abs(beater.inertia_share - 1) if beater.mass else 0.0,
             INERTIA_TOLERANCE,
             "1",
             point,
-        ).with_cure("set another beater_mass, or more travel.stroke_warps", *found.ids),
+        ).with_cure("set another beater_mass, or more travel.stroke_warps", *beater.ids),
     )
 
 

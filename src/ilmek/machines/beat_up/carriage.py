@@ -198,7 +198,7 @@ def driving(drive: Sequence[Part], z: float, axis: complex = 0j) -> tuple[Occurr
     """A drive behind one another from z [m] on, in line with an axis [m]."""
     behind = placement(axis.real, axis.imag, z, about=(1.0, 0.0, 0.0), angle=math.pi)
     parts = in_line(drive, 0.0)
-    return tuple(Occurrence(one.part, tuple(behind.after(at) for at in one.positions)) for one in parts)
+    return tuple(Occurrence(own.part, tuple(behind.after(at) for at in own.positions)) for own in parts)
 
 
 def on_slide(linkage: BeatUp, high: float, drive: Sequence[Part]) -> tuple[Occurrence, ...]:

@@ -148,41 +148,41 @@ def crank_start(duty: CrankDuty, params: CrankStartParams) -> CrankStart:
     return replace(made[index], choices=(choice,) if len(made) > 1 else ())
 
 
-def start_checks(found: CrankStart) -> tuple[Check, ...]:
+def start_checks(start: CrankStart) -> tuple[Check, ...]:
     """Whether a motor, and a clutch where there is one, start and stop the crank, in the time between two beats."""
     slower = "set a lower speed of the crank, more beaters, or a longer run-up"
     source, driven = "motor table, margin 1.25", (MOTOR,)
-    motor = must("a motor starts and stops the crank", found.pair is not None, source).with_cure(slower, *driven)
-    every, source = found.duty.every, "time from beat to beat"
-    in_time = every and at_most("time of a beat", found.beat_time, every, "s", source).with_cure(slower, *driven)
+    motor = must("a motor starts and stops the crank", start.pair is not None, source).with_cure(slower, *driven)
+    every, source = start.duty.every, "time from beat to beat"
+    in_time = every and at_most("time of a beat", start.beat_time, every, "s", source).with_cure(slower, *driven)
     made = (motor, in_time) if in_time else (motor,)
-    if found.drive == "servo":
+    if start.drive == "servo":
         return made
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
     clutch = (CLUTCH,)
-    torque = at_most("torque of the clutch", found.clutch_torque, CLUTCHES[-1], "Nm", largest).with_cure(
+    torque = at_most("torque of the clutch", start.clutch_torque, CLUTCHES[-1], "Nm", largest).with_cure(
         slower, *clutch
     )
     return *made, torque
 
 
-def start_parts(found: CrankStart) -> tuple[Part, ...]:
+def start_parts(start: CrankStart) -> tuple[Part, ...]:
     """What starts and turns the crank shaft, from the shaft on: clutch and brake, flywheel, reducer, motor."""
-    return (*_coupled(found), *_geared(found))
+    return (*_coupled(start), *_geared(start))
 
 
-def _coupled(found: CrankStart) -> Iterator[Part]:
+def _coupled(start: CrankStart) -> Iterator[Part]:
     """Clutch and brake as a cylinder of steel, half as long as it is wide, and the flywheel's rim."""
-    if found.drive != "clutch":
+    if start.drive != "clutch":
         return
-    size = found.clutch or found.clutch_torque
+    size = start.clutch or start.clutch_torque
     mass = CLUTCH_MASS * size
     wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
     bought = Bought(format_quantity(size, "Nm"), mass)
     name = "clutch and brake"
     yield Part(CLUTCH, f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True)
-    if found.start_flywheel > 0:
-        wheel = _wheel(found.start_flywheel)
+    if start.start_flywheel > 0:
+        wheel = _wheel(start.start_flywheel)
         size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"
         yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
 
@@ -218,12 +218,12 @@ def _rim(inertia: float) -> Turned:
     return tube(2 * radius + wide, wide, area / (wide * (radius**2 + wide**2 / 4)))
 
 
-def _geared(found: CrankStart) -> Iterator[Part]:
-    row, reducer = found.pair or (None, DIRECT)
+def _geared(start: CrankStart) -> Iterator[Part]:
+    row, reducer = start.pair or (None, DIRECT)
     if reducer.ratio != 1:
         yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer.ratio, row)
-    speed = found.duty.linkage.params.speed
-    yield catalogue.motor(MOTOR, "motor of the beat-up", row, found.start_torque, speed)
+    speed = start.duty.linkage.params.speed
+    yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed)
 
 
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:

@@ -118,7 +118,7 @@ class FamilyResult:
         members = np.flatnonzero(self.front)
         if members.size > number:
             members = members[np.linspace(0, members.size - 1, number).round().astype(np.intp)]
-        return tuple({name: float(values[one]) for name, values in self.table.items()} for one in members)
+        return tuple({name: float(values[member]) for name, values in self.table.items()} for member in members)
 
 
 def _ends(interval: OpenInterval) -> list[float]:
@@ -133,7 +133,7 @@ def family_of(params: BeatUpParams, links: LinkRatios, dead: DeadCentres, hole: 
     table = tabulate(params, members.links, members.beta, hole)
     single = LinkRatios(*(np.array([float(link)]) for link in links))
     own = tabulate(params, single, np.array([float(dead.beta)]), hole)
-    costs = np.stack([one.cost(table) for one in objectives.values()], axis=1)
+    costs = np.stack([objective.cost(table) for objective in objectives.values()], axis=1)
     return FamilyResult(
         swing=swing,
         rotation=rotation,

@@ -26,40 +26,40 @@ WORTH = 4.0
 """A member is drawn while no value exceeds so many times the quantity's median: near a toggle all tend to infinity."""
 
 
-def family_figures(found: FamilyResult) -> tuple[Plot, ...]:
+def family_figures(result: FamilyResult) -> tuple[Plot, ...]:
     """Curves over the ratio, then the Pareto front: the first objective against each other one."""
-    first, *others = found.objectives
+    first, *others = result.objectives
     return (
-        *(_curves(found, name, title, quantities) for name, title, quantities in CURVES),
-        *(_front(found, first, other) for other in others),
+        *(_curves(result, name, title, quantities) for name, title, quantities in CURVES),
+        *(_front(result, first, other) for other in others),
     )
 
 
-def _curves(found: FamilyResult, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
-    ratio = found.table["crank_coupler_ratio"]
+def _curves(result: FamilyResult, name: str, title: str, quantities: tuple[str, ...]) -> Plot:
+    ratio = result.table["crank_coupler_ratio"]
     labels, units = zip(*(QUANTITIES[quantity] for quantity in quantities), strict=True)
-    ceiling = max(WORTH * float(np.nanmedian(found.table[quantity])) for quantity in quantities)
+    ceiling = max(WORTH * float(np.nanmedian(result.table[quantity])) for quantity in quantities)
     series = tuple(
-        Series(label, ratio, _below(found.table[quantity], ceiling), dashed=number > 0 and len(quantities) == 2)
+        Series(label, ratio, _below(result.table[quantity], ceiling), dashed=number > 0 and len(quantities) == 2)
         for number, (quantity, label) in enumerate(zip(quantities, labels, strict=True))
     )
     axis = Axis(labels[0] if len(labels) == 1 else AXES[units[0]], units[0])
-    marks = (Mark(found.own["crank_coupler_ratio"], "this beat-up"),)
+    marks = (Mark(result.own["crank_coupler_ratio"], "this beat-up"),)
     return Plot(name, title, Axis("crank/coupler ratio r/l", "1"), axis, series, marks)
 
 
-def _front(found: FamilyResult, first: str, second: str) -> Plot:
+def _front(result: FamilyResult, first: str, second: str) -> Plot:
     """The family with its front, and a ring about the beat-up itself."""
     (x, _), (y, _) = OBJECTIVES[first], OBJECTIVES[second]
     (x_label, x_unit), (y_label, y_unit) = QUANTITIES[x], QUANTITIES[y]
-    kept = np.ones(len(found), dtype=bool)
+    kept = np.ones(len(result), dtype=bool)
     for quantity in (x, y):
-        kept &= np.isfinite(_below(found.table[quantity], WORTH * float(np.nanmedian(found.table[quantity]))))
-    across, up = (np.where(kept, found.table[quantity], np.nan) for quantity in (x, y))
-    ring = _ring(found.own[x], found.own[y], _width(across), _width(up))
-    series = [Series("Pareto front", *_where(found.front, across, up)), Series("this beat-up", *ring)]
-    if not found.front.all():
-        series.append(Series("other members", *_where(~_inner(found.front), across, up), dashed=True))
+        kept &= np.isfinite(_below(result.table[quantity], WORTH * float(np.nanmedian(result.table[quantity]))))
+    across, up = (np.where(kept, result.table[quantity], np.nan) for quantity in (x, y))
+    ring = _ring(result.own[x], result.own[y], _width(across), _width(up))
+    series = [Series("Pareto front", *_where(result.front, across, up)), Series("this beat-up", *ring)]
+    if not result.front.all():
+        series.append(Series("other members", *_where(~_inner(result.front), across, up), dashed=True))
     names = f"{x_label} and {y_label}"
     return Plot(
         f"family-front-{second}".replace("_", "-"),
@@ -67,7 +67,7 @@ def _front(found: FamilyResult, first: str, second: str) -> Plot:
         Axis(x_label, x_unit),
         Axis(y_label, y_unit),
         tuple(series),
-        note=f"Objectives of the front: {', '.join(found.objectives)}.".replace("_", " "),
+        note=f"Objectives of the front: {', '.join(result.objectives)}.".replace("_", " "),
     )
 
 

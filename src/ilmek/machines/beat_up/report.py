@@ -60,45 +60,45 @@ def analyse(design: BeatUp) -> BeatUpAnalysis:
     return BeatUpAnalysis(design, design.balance, running, running.last_turn, design.family(), in_use(design))
 
 
-def checks(found: BeatUpAnalysis) -> tuple[Check, ...]:
+def checks(analysis: BeatUpAnalysis) -> tuple[Check, ...]:
     """The paper's criteria, the run by the motor, and the limits by which the member was chosen."""
-    design = found.design
+    design = analysis.design
     given = tuple(
         (at_least if limit.sign > 0 else at_most)(
             f"{QUANTITIES[limit.quantity][0]}, {limit.name}",
-            found.family.own[limit.quantity],
+            analysis.family.own[limit.quantity],
             limit.bound,
             limit.unit,
             "given",
         ).with_cure("relax this limit, or leave others out")
         for limit in limits(design.params)
     )
-    return (*criteria(design), *_running_checks(design.params, found.running), *use_checks(found.use), *given)
+    return (*criteria(design), *_running_checks(design.params, analysis.running), *use_checks(analysis.use), *given)
 
 
-def self_tests(found: BeatUpAnalysis) -> tuple[Check, ...]:
+def self_tests(analysis: BeatUpAnalysis) -> tuple[Check, ...]:
     """The power balance of the forces, and the energy balance of the runs, the equilibrium of the links."""
-    forces, runs = found.design.state.forces, found.running.runs if found.running.start else ()
+    forces, runs = analysis.design.state.forces, analysis.running.runs if analysis.running.start else ()
     energy = max((run.energy_error for run in runs), default=0.0)
     return (
         at_most("power balance of the forces", forces.power_error, POWER_LIMIT, "1", "virtual power").with_cure(_LINKS),
         at_most("energy balance of the runs", energy, ENERGY_LIMIT, "1", "work of motor and weight").with_cure(_LINKS),
-        equilibrium_test(found.use.strength.found),
+        equilibrium_test(analysis.use.strength.found),
     )
 
 
-def tables(found: BeatUpAnalysis) -> tuple[Table, ...]:
+def tables(analysis: BeatUpAnalysis) -> tuple[Table, ...]:
     """Links, dead centres, greatest values, Pareto front."""
-    design = found.design
-    strength = strength_table(found.use.strength.found, "beat-up")
+    design = analysis.design
+    strength = strength_table(analysis.use.strength.found, "beat-up")
     of_turn = (_link_table(design), _dead_centre_table(design), _peak_table(design))
-    return (*of_turn, *strength, _front_table(found.family))
+    return (*of_turn, *strength, _front_table(analysis.family))
 
 
-def figures(found: BeatUpAnalysis) -> tuple[Figure, ...]:
+def figures(analysis: BeatUpAnalysis) -> tuple[Figure, ...]:
     """The mechanism, its curves over a turn, its run, its use, and its family."""
-    used = (*start_plots(found.use.start), stroke_plot(found.use.travel, found.use.start))
-    return (*figures_of(found.design, found.running), *used, *family_figures(found.family))
+    used = (*start_plots(analysis.use.start), stroke_plot(analysis.use.travel, analysis.use.start))
+    return (*figures_of(analysis.design, analysis.running), *used, *family_figures(analysis.family))
 
 
 def criteria(design: BeatUp) -> tuple[Check, ...]:
@@ -148,9 +148,9 @@ def _running_checks(params: BeatUpParams, running: MotorRun) -> tuple[Check, ...
     return (speed, at_most("fluctuation of the speed", last.fluctuation, limit, "1", source).with_cure(_FLYWHEEL))
 
 
-def warnings(found: BeatUpAnalysis) -> tuple[str, ...]:
+def warnings(analysis: BeatUpAnalysis) -> tuple[str, ...]:
     """The speed that would give the force required, and why there is no run or no start."""
-    return (*_force_warnings(found.design), *_running_warnings(found.running))
+    return (*_force_warnings(analysis.design), *_running_warnings(analysis.running))
 
 
 def _force_warnings(design: BeatUp) -> tuple[str, ...]:

@@ -76,12 +76,12 @@ def beat_up_strength(
     return BeatUpStrength(duty, min(lengths[name] for name in LINKS) / found.pin_diameter, found)
 
 
-def beat_up_strength_checks(found: BeatUpStrength) -> tuple[Check, ...]:
+def beat_up_strength_checks(strength: BeatUpStrength) -> tuple[Check, ...]:
     """Whether links and pins bear a beat, and the holes of each link are apart."""
     title = "distance of the pins of a link, over their diameter"
     return (
-        *strength_checks(found.found, name=found.duty.limits, stronger=WIDER, parts=PART_IDS),
-        at_least(title, found.bridge, BRIDGE, "1", "bridge between the holes, assumed by this project").with_cure(
+        *strength_checks(strength.found, name=strength.duty.limits, stronger=WIDER, parts=PART_IDS),
+        at_least(title, strength.bridge, BRIDGE, "1", "bridge between the holes, assumed by this project").with_cure(
             "set a longer ground, thinner pins, or other links", *tuple(PART_IDS[name] for name in LINKS)
         ),
     )

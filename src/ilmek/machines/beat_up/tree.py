@@ -115,11 +115,11 @@ def beam_occurrences(design: BeatUp, beam: BeatBeam) -> tuple[Occurrence, ...]:
     return (_in_loom(design, part, beam_corner(design) + complex(side, side) / 2, 0.0),)
 
 
-def _in_loom(design: BeatUp, one: Occurrence, middle: complex, z: float) -> Occurrence:
+def _in_loom(design: BeatUp, occurrence: Occurrence, middle: complex, z: float) -> Occurrence:
     """A part along z with its section upright, its middle at a point of the side view [m]; z: where it lies."""
     upright = in_side_view(design).inverse.after(placement(0.0, middle.imag, middle.real)).after(_ACROSS)
     along = placement(z=z).after(upright)
-    return replace(one, positions=tuple(along.after(position) for position in one.positions))
+    return replace(occurrence, positions=tuple(along.after(position) for position in occurrence.positions))
 
 
 _ACROSS = Placement(np.zeros(3), IN_SIDE_VIEW.rotation @ np.diag([-1.0, 1.0, -1.0]))
@@ -214,12 +214,12 @@ def _turned(x: float, z: float, angle: float) -> Placement:
 def _struck(design: BeatUp, beater: Beater) -> Iterator[Occurrence]:
     """The parts of a beater on its rocker, beside it."""
     shift = placement(z=beater_shift(design, beater))
-    for one in beater.occurrences:
-        placed = on_rocker(one, design.lengths["beater"])
+    for occurrence in beater.occurrences:
+        placed = on_rocker(occurrence, design.lengths["beater"])
         yield replace(placed, positions=tuple(shift.after(position) for position in placed.positions))
 
 
-def on_rocker(one: Occurrence, arm: float) -> Occurrence:
+def on_rocker(occurrence: Occurrence, arm: float) -> Occurrence:
     """A part of the beater, in the axes of the side view, on the rocker, which points from its pivot to the back."""
     mirrored = placement(arm, about=(0.0, 1.0, 0.0), angle=math.pi)
-    return replace(one, positions=tuple(mirrored.after(position) for position in one.positions))
+    return replace(occurrence, positions=tuple(mirrored.after(position) for position in occurrence.positions))

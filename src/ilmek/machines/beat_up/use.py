@@ -73,10 +73,10 @@ def on_its_beam(design: BeatUp, across: BeaterTravel, start: CrankStart) -> Beat
     return BeatUpUse(design.strength, with_slide_mass(across, mass), start, beam)
 
 
-def use_checks(found: BeatUpUse) -> tuple[Check, ...]:
+def use_checks(use: BeatUpUse) -> tuple[Check, ...]:
     """Whether links, pins, motor and slide do their work."""
-    own = (*travel_checks(found.travel), *start_checks(found.start), *found.beam.checks)
-    return (*beat_up_strength_checks(found.strength), *own)
+    own = (*travel_checks(use.travel), *start_checks(use.start), *use.beam.checks)
+    return (*beat_up_strength_checks(use.strength), *own)
 
 
 def use_choices(design: BeatUp) -> tuple[Choice, ...]:

@@ -121,9 +121,9 @@ def analyse(design: CamDesign) -> CamAnalysis:
     return CamAnalysis(design, rise, _motion(design), least, compliant_follower(design))
 
 
-def results(found: CamAnalysis) -> tuple[object, ...]:
+def results(analysis: CamAnalysis) -> tuple[object, ...]:
     """The records whose results are reported: size and parts, motion, forces, vibration."""
-    return found.design, found, found.design.extremes, found.compliant
+    return analysis.design, analysis, analysis.design.extremes, analysis.compliant
 
 
 def pressure_angle_on(design: CamDesign, knots: FloatArray) -> Extremum:

@@ -88,41 +88,41 @@ def compliant_follower(design: CamDesign) -> CompliantFollower | None:
     return CompliantFollower(params, follower, steady_response(follower, design.programme, params.speed), arc)
 
 
-def vibration_checks(made: CompliantFollower) -> tuple[Check, ...]:
+def vibration_checks(follower: CompliantFollower) -> tuple[Check, ...]:
     """Contact of the follower on its linkage; none of a cam that leads it both ways."""
-    if made.params.led:
+    if follower.params.led:
         return ()
-    return (at_least("force of the compliant follower on the cam", made.contact_springy_min, 0.0, "N", SOURCE),)
+    return (at_least("force of the compliant follower on the cam", follower.contact_springy_min, 0.0, "N", SOURCE),)
 
 
-def vibration_table(made: CompliantFollower) -> Table:
+def vibration_table(follower: CompliantFollower) -> Table:
     """Residual vibration by each law at this lift, time and follower, and the speed up to which it is small."""
     heads = columns("law", "residual vibration [mm]", "time ratio for 1 % of lift", "speed for 1 % of lift [rpm]")
-    own, damping = made.params.laws()[0], made.params.linkage_damping
+    own, damping = follower.params.laws()[0], follower.params.linkage_damping
     rows = []
     for name in SMOOTH_LAWS:
         law = own if name == own.name else LAWS[name]
-        left = made.params.lift * float(residual_of(made.follower, law, made.times[0])[0])
+        left = follower.params.lift * float(residual_of(follower.follower, law, follower.times[0])[0])
         ratio = least_ratio(law, SHARE, damping) if damping < 1 and math.isfinite(law.acceleration_peak) else math.nan
-        rows.append((name, left, ratio, made.params.rise * made.natural_frequency / ratio))
+        rows.append((name, left, ratio, follower.params.rise * follower.natural_frequency / ratio))
     return Table("cam-vibration", "Residual vibration after the rise, by law", heads, tuple(rows))
 
 
-def vibration_figures(made: CompliantFollower) -> tuple[Figure, ...]:
+def vibration_figures(follower: CompliantFollower) -> tuple[Figure, ...]:
     """Lag over the turn, and residual vibration over the speed."""
-    response = made.response
-    lag = Series("mass", response.at, made.arc * response.lag[0])
+    response = follower.response
+    lag = Series("mass", response.at, follower.arc * response.lag[0])
     title = "Lag of the mass: below 0 behind the cam, above 0 ahead of it"
-    note = f"natural frequency {made.natural_frequency:.4g} Hz, damping {100 * made.params.linkage_damping:g} %"
+    note = f"natural frequency {follower.natural_frequency:.4g} Hz, damping {100 * follower.params.linkage_damping:g} %"
     over_turn = Plot("cam-lag", title, Axis("cam angle", "deg"), Axis("mass less cam", "mm"), (lag,), note=note)
-    return (over_turn,) if made.params.linkage_damping >= 1 else (over_turn, _over_speed(made))
+    return (over_turn,) if follower.params.linkage_damping >= 1 else (over_turn, _over_speed(follower))
 
 
-def _over_speed(made: CompliantFollower) -> Plot:
-    params = made.params
+def _over_speed(follower: CompliantFollower) -> Plot:
+    params = follower.params
     own = params.laws()[0]
     speeds = params.speed * np.linspace(0.2, 1.5, 240)
-    ratios = made.natural_frequency * params.rise / speeds
+    ratios = follower.natural_frequency * params.rise / speeds
     laws: dict[str, Law] = {own.name: own, **{name: LAWS[name] for name in BESIDE if name != own.name}}
     series = tuple(
         Series(name, speeds, params.lift * residual(law, ratios, params.linkage_damping), dashed=law is not own)

@@ -25,9 +25,9 @@ CHORD = 0.02 * mm
 """Largest distance of the drawn edge of a bore from its arc [m]."""
 
 
-def figures(found: CamAnalysis) -> tuple[Figure, ...]:
+def figures(analysis: CamAnalysis) -> tuple[Figure, ...]:
     """The cam to scale, in motion, and the plots in the order of the report."""
-    design = found.design
+    design = analysis.design
     cam, params, unit = design.cam, design.params, _unit(design)
     widest = supremum(lambda angle: np.abs(cam.trace(angle).pressure_angle), cam.knots)
     motion = {"follower": design.programme}
@@ -39,7 +39,7 @@ def figures(found: CamAnalysis) -> tuple[Figure, ...]:
         *_force_plots(design),
     )
     named = (replace(plot, name=f"cam-{plot.name}") for plot in plots)
-    vibration = vibration_figures(found.compliant) if found.compliant else ()
+    vibration = vibration_figures(analysis.compliant) if analysis.compliant else ()
     return (drawing(design), moving(design), *named, *vibration)
 
 

@@ -23,23 +23,23 @@ from ilmek.units import deg, format_quantity
 NORTON = "Norton, Cam Design and Manufacturing"
 
 
-def checks(found: CamAnalysis) -> tuple[Check, ...]:
+def checks(analysis: CamAnalysis) -> tuple[Check, ...]:
     """Pressure angle, curvature, lift-off, jumps, wall, Hertz pressure, roller, and the follower on its linkage."""
     return (
-        *_pressure_angle_checks(found),
-        *_shape_checks(found.design),
-        *_load_checks(found.design),
-        *(vibration_checks(found.compliant) if found.compliant else ()),
+        *_pressure_angle_checks(analysis),
+        *_shape_checks(analysis.design),
+        *_load_checks(analysis.design),
+        *(vibration_checks(analysis.compliant) if analysis.compliant else ()),
     )
 
 
-def _pressure_angle_checks(found: CamAnalysis) -> tuple[Check, ...]:
+def _pressure_angle_checks(analysis: CamAnalysis) -> tuple[Check, ...]:
     """Both flanks; the stem of a flat face on a slide has no pressure angle."""
-    params, fall = found.design.params, found.pressure_angle_fall_max
+    params, fall = analysis.design.params, analysis.pressure_angle_fall_max
     if params.follower == "flat" and params.motion == "translating":
         return ()
     longer, norton = "set a larger prime_radius, or a longer", f"{NORTON}, 7.2"
-    greatest = found.pressure_angle_max
+    greatest = analysis.pressure_angle_max
     rise = at_most("pressure angle on the rise", greatest, params.limit, "deg", norton).with_cure(f"{longer} rise")
     if fall is None:
         return (rise,)
@@ -116,9 +116,9 @@ def least_surface_radius(design: CamDesign) -> float:
     return infimum(lambda angle: np.abs(design.cam.trace(angle).surface), design.cam.knots).value
 
 
-def warnings(found: CamAnalysis) -> tuple[str, ...]:
+def warnings(analysis: CamAnalysis) -> tuple[str, ...]:
     """Reasons why the cam cannot be made or run as it is, and remedies."""
-    design = found.design
+    design = analysis.design
     params, cam, made = design.params, design.cam, []
     smallest, limit = design.size.smallest.value, params.limit
     if params.follower != "flat" and params.pressure_angle_limit and cam.prime_radius < smallest * (1 - 1e-9):
@@ -156,11 +156,11 @@ def _undercut_warning(design: CamDesign) -> str:
     return f"undercut: the pitch curve's radius is {convex}, not more than the roller's: {remedy}"
 
 
-def tables(found: CamAnalysis) -> tuple[Table, ...]:
+def tables(analysis: CamAnalysis) -> tuple[Table, ...]:
     """Laws, rollers where there is one, points of the cam, vibration where the follower is compliant."""
-    design = found.design
+    design = analysis.design
     rollers = (_roller_table(design, design.duty),) if design.duty and design.roller else ()
-    vibration = (vibration_table(found.compliant),) if found.compliant else ()
+    vibration = (vibration_table(analysis.compliant),) if analysis.compliant else ()
     return (_law_table(design), *rollers, _point_table(design), *vibration)
 
 

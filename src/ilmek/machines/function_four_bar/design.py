@@ -78,43 +78,43 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
     tolerated = params.error_max is not None
     ranked = ranked_by_error(options, lambda one: finite(one.details[error]), tolerated=tolerated)
     choice = choose(ranked, answers.left_out, params, rank=ranked.index)
-    candidates = [one.candidate for one in options]
+    candidates = [option.candidate for option in options]
     kept = tuple(answers.found[candidates.index(one.candidate)] for one in choice.kept)
     return FunctionFourBar(choice=choice, params=params, function=function, approximations=kept)
 
 
-def _judged(params: FunctionFourBarParams, function: Function, found: FunctionApproximation) -> Candidate:
+def _judged(params: FunctionFourBarParams, function: Function, approximation: FunctionApproximation) -> Candidate:
     """The four-bar judged where it is exact, or at the extremes of its error, within the greatest.
 
     Transmission angle and size are those over the range, also where it goes beyond the first and last exact position.
     """
     exact = params.criterion == "interpolation" and params.error_max is None
-    nodes = function.nodes(params.free_points) if exact else found.at
-    apart = np.abs(nodes - found.drawn_at) > SAME * abs(function.stop - function.start)
-    x = np.concatenate([[found.drawn_at], nodes[apart]])
-    near = params.error_max or (TOLERANCE if exact else found.greatest * (1 + ROUNDING) + TOLERANCE)
+    nodes = function.nodes(params.free_points) if exact else approximation.at
+    apart = np.abs(nodes - approximation.drawn_at) > SAME * abs(function.stop - function.start)
+    x = np.concatenate([[approximation.drawn_at], nodes[apart]])
+    near = params.error_max or (TOLERANCE if exact else approximation.greatest * (1 + ROUNDING) + TOLERANCE)
     judged = judge(
-        found.four_bar, PrecisionTask(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near)
+        approximation.four_bar, PrecisionTask(crank=function.crank(x), rocker=function.rocker(x), angle_tolerance=near)
     )
-    ends = np.array([found.drawn_at, function.start, function.stop])
+    ends = np.array([approximation.drawn_at, function.start, function.stop])
     task = PrecisionTask(crank=function.crank(ends), rocker=function.rocker(ends), angle_tolerance=np.pi)
-    over = judge(found.four_bar, task)
+    over = judge(approximation.four_bar, task)
     return replace(judged, transmission=over.transmission, size=over.size)
 
 
-def _details(function: Function, found: FunctionApproximation) -> dict[str, Json]:
+def _details(function: Function, approximation: FunctionApproximation) -> dict[str, Json]:
     """The method's answer by the names of the JSON."""
-    four_bar, at = found.four_bar, np.array([found.drawn_at])
+    four_bar, at = approximation.four_bar, np.array([approximation.drawn_at])
     first, last = function.range
     return {
-        "x_drawn": found.drawn_at,
+        "x_drawn": approximation.drawn_at,
         "crank_start": four_bar.crank_angle - float(function.crank(at)[0]),
         "rocker_start": four_bar.rocker_angle - float(function.rocker(at)[0]),
-        "error_max": found.greatest,
-        "error_rms": found.rms,
-        "y_error_max": abs(found.greatest * (last - first) / function.rocker_swing),
-        "extremes": [{"x": x, "error": error} for x, error in zip(found.at, found.errors, strict=True)],
-        "bound": None if math.isnan(found.bound) else found.bound,
-        "gap": found.gap,
-        "proven": bool(found.proven),
+        "error_max": approximation.greatest,
+        "error_rms": approximation.rms,
+        "y_error_max": abs(approximation.greatest * (last - first) / function.rocker_swing),
+        "extremes": [{"x": x, "error": error} for x, error in zip(approximation.at, approximation.errors, strict=True)],
+        "bound": None if math.isnan(approximation.bound) else approximation.bound,
+        "gap": approximation.gap,
+        "proven": bool(approximation.proven),
     }

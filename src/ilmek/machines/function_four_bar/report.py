@@ -45,9 +45,9 @@ def _error_table(design: FunctionFourBar) -> Table:
     return Table("function-four-bar-errors", "Errors of the solutions", heads, rows, brief=True)
 
 
-def _errors(one: FourBarOption) -> tuple[float | str, ...]:
+def _errors(option: FourBarOption) -> tuple[float | str, ...]:
     names = ("error_max", "error_rms", "y_error_max", "crank_start", "rocker_start")
-    return *(finite(one.details[name]) for name in names), "yes" if one.details["proven"] else "no"
+    return *(finite(option.details[name]) for name in names), "yes" if option.details["proven"] else "no"
 
 
 def _extreme_table(found: FunctionApproximation) -> Table:
@@ -69,17 +69,17 @@ def figures(design: FunctionFourBar) -> tuple[Figure, ...]:
     return (drawn(best.candidate, still), _moving(design, found), _error(found), _generated(found))
 
 
-def _error(found: FunctionApproximation) -> Plot:
+def _error(approximation: FunctionApproximation) -> Plot:
     """Structural error over the range, its extremes marked."""
-    marks = tuple(Mark(float(x), "") for x in found.at)
-    series = (Series("error of the rocker", found.curve.x, found.curve.error),)
-    note = f"At most {format_quantity(found.greatest, 'deg')}; lines: its extremes, {len(found.at)} of them."
+    marks = tuple(Mark(float(x), "") for x in approximation.at)
+    series = (Series("error of the rocker", approximation.curve.x, approximation.curve.error),)
+    note = f"At most {format_quantity(approximation.greatest, 'deg')}; lines: its {len(approximation.at)} extremes."
     return Plot("function-four-bar-error", "Structural error", Axis("x"), Axis("error", "deg"), series, marks, note)
 
 
-def _generated(found: FunctionApproximation) -> Plot:
+def _generated(approximation: FunctionApproximation) -> Plot:
     """Rotation of the rocker, required and generated."""
-    x, curve = found.curve.x, found.curve
+    x, curve = approximation.curve.x, approximation.curve
     series = (Series("generated", x, curve.generated), Series("required", x, curve.required, dashed=True))
     axes = Axis("x"), Axis("rotation of the rocker", "deg")
     return Plot("function-four-bar-shown", "Generated function", *axes, series)
@@ -92,15 +92,15 @@ def _required(design: FunctionFourBar) -> Plot:
     return Plot("function-four-bar-wanted", "Required function", *axes, (Series("required", x, function.rocker(x)),))
 
 
-def _moving(design: FunctionFourBar, found: FunctionApproximation) -> Animation:
+def _moving(design: FunctionFourBar, approximation: FunctionApproximation) -> Animation:
     """The four-bar over the range, with the x and the y that it shows."""
-    function, four_bar = design.function, found.four_bar
-    start = four_bar.crank_angle - float(function.crank(np.array([found.drawn_at]))[0])
+    function, four_bar = design.function, approximation.four_bar
+    start = four_bar.crank_angle - float(function.crank(np.array([approximation.drawn_at]))[0])
     angles = frames(*sorted((start, start + function.crank_swing)))
     motion = solve(plan(four_bar.mechanism()), angles).require()
     x = function.start + (angles - start) / function.crank_swing * (function.stop - function.start)
-    rising = np.argsort(found.curve.x)
-    turned = np.interp(x, found.curve.x[rising], found.curve.generated[rising])
+    rising = np.argsort(approximation.curve.x)
+    turned = np.interp(x, approximation.curve.x[rising], approximation.curve.generated[rising])
     first, last = function.range
     y = first + turned / function.rocker_swing * (last - first)
     drawing = Drawing("function-four-bar-moving", "Over the range", ())

@@ -103,16 +103,16 @@ def stroke_programme(params: HammerParams) -> CamProgramme:
     return CamProgramme((*once, *once))
 
 
-def axis_checks(found: CombDrive) -> tuple[Check, ...]:
+def axis_checks(drive: CombDrive) -> tuple[Check, ...]:
     """Whether stroke, screws and servos are enough."""
-    reserve = found.drive.duty.reserve if found.drive else 0.0
-    stroke = float(np.max(found.travel))
+    reserve = drive.drive.duty.reserve if drive.drive else 0.0
+    stroke = float(np.max(drive.travel))
     cure = "set more axes, a smaller lead, or a lower comb_acceleration"
     return (
-        at_least("stroke of the comb's axis", stroke, found.stroke_needed, "mm", "fabric").with_cure(
+        at_least("stroke of the comb's axis", stroke, drive.stroke_needed, "mm", "fabric").with_cure(
             "set a larger stroke"
         ),
-        *(() if found.screw is None else screw_checks(found.screw)),
+        *(() if drive.screw is None else screw_checks(drive.screw)),
         at_least(
             "torque of the servo over the required torque", reserve, 1.0, "1", "motor table, margin 1.25"
         ).with_cure(cure),

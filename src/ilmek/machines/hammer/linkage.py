@@ -87,24 +87,24 @@ class CombLinkage:
         return self.number * frame_force(self.one.state)
 
 
-def linkage_checks(found: CombLinkage) -> tuple[Check, ...]:
+def linkage_checks(linkage: CombLinkage) -> tuple[Check, ...]:
     """Whether comb, links, pins and motor bear the beat."""
     cure = "set more beaters, or a deeper comb"
     return (
-        at_most("stress of the comb by its inertia", found.inertia_stress, found.limit, "MPa", "strength").with_cure(
-            cure, BAR_ID
-        ),
+        at_most(
+            "stress of the comb by its inertia", linkage.inertia_stress, linkage.limit, "MPa", "strength"
+        ).with_cure(cure, BAR_ID),
         at_least(
             "end of the rocker in front of the comb's bar",
-            found.one.lengths["beater"] - found.one.lengths["rocker"] - found.one.params.width / 2,
-            found.one.params.travel.bar_distance,
+            linkage.one.lengths["beater"] - linkage.one.lengths["rocker"] - linkage.one.params.width / 2,
+            linkage.one.params.travel.bar_distance,
             "mm",
             "from the warps: leaf_reach and comb_thickness",
         ).with_cure("set a smaller hammer.leaf_reach, or narrower links", PART_IDS["rocker"], BAR_ID),
-        *beat_up_strength_checks(found.strength),
-        *start_checks(found.start),
-        *shared_checks(found.one, found.start.start_torque, found.number),
-        *found.beam.checks,
+        *beat_up_strength_checks(linkage.strength),
+        *start_checks(linkage.start),
+        *shared_checks(linkage.one, linkage.start.start_torque, linkage.number),
+        *linkage.beam.checks,
     )
 
 

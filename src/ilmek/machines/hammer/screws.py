@@ -67,23 +67,23 @@ def screw_for(params: HammerParams, load: ScrewLoad) -> AxisScrew:
     return next((one for one in found if all(check.ok for check in screw_checks(one))), found[-1])
 
 
-def screw_checks(found: AxisScrew) -> tuple[Check, ...]:
+def screw_checks(screw: AxisScrew) -> tuple[Check, ...]:
     """Whether a screw and its nut bear their load."""
     more, slower = "set more axes, or a thicker screw_diameter", "set a larger lead, or a lower comb_acceleration"
     rated = "catalogue values, rounded down"
     return (
-        at_least("buckling of the screws", found.buckling, BUCKLING, "1", "Euler, one end clamped").with_cure(more),
-        at_least("static load of the screws", found.static, STATIC, "1", f"C0 over the load; {rated}").with_cure(more),
-        at_most("critical speed of the screws", found.critical, CRITICAL, "1", "80 % of the whirl").with_cure(slower),
+        at_least("buckling of the screws", screw.buckling, BUCKLING, "1", "Euler, one end clamped").with_cure(more),
+        at_least("static load of the screws", screw.static, STATIC, "1", f"C0 over the load; {rated}").with_cure(more),
+        at_most("critical speed of the screws", screw.critical, CRITICAL, "1", "80 % of the whirl").with_cure(slower),
         at_most(
             "speed value of the screws",
-            found.speed_value,
-            found.speed_limit,
+            screw.speed_value,
+            screw.speed_limit,
             "m/s",
             "assumed by this project: parameter axis_speed_value",
         ).with_cure(slower),
         at_least(
-            "life of the screws", found.life, found.required_life, "h", f"ISO 3408-5, axis_life; {rated}"
+            "life of the screws", screw.life, screw.required_life, "h", f"ISO 3408-5, axis_life; {rated}"
         ).with_cure(more),
     )
 

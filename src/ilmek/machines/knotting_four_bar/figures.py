@@ -68,22 +68,22 @@ def _path(design: KnottingFourBar) -> ComplexArray:
     return closed
 
 
-def _instead(made: PosedFourBar) -> Drawing:
+def _instead(bar: PosedFourBar) -> Drawing:
     """The four-bar of both arms at its first pose, the others dashed."""
     title = "Four-bar through the report's three poses, to scale"
     note = "Both arms of the three poses side by side; at the first pose, the others dashed."
-    return _at_poses(made, Drawing("knotting-four-bar-instead", title, (), note=note))
+    return _at_poses(bar, Drawing("knotting-four-bar-instead", title, (), note=note))
 
 
-def _at_poses(made: PosedFourBar, still: Drawing) -> Drawing:
+def _at_poses(bar: PosedFourBar, still: Drawing) -> Drawing:
     """A four-bar at its first pose, the two others dashed."""
-    first, *others = _poses(made.state.motion)
+    first, *others = _poses(bar.state.motion)
     dashed = (
         Stroke(np.array([pose[name] for name in ("O1", "O2", "H", "O2'", "O1'")]), "construction") for pose in others
     )
-    points = enumerate(made.synthesis.poses.points[1:], 2)
+    points = enumerate(bar.synthesis.poses.points[1:], 2)
     dots = (*_dots(first), *(Dot(complex(point), f"pose {at}", "point") for at, point in points))
-    strokes = (*still.strokes, *dashed, *_links(first, _names(made.params)))
+    strokes = (*still.strokes, *dashed, *_links(first, _names(bar.params)))
     return Drawing(still.name, still.title, strokes, dots, note=still.note)
 
 
@@ -102,14 +102,14 @@ def _moving(design: KnottingFourBar) -> Animation:
     return _animated(design.params, design.plan, design.inertias, at, still, reported)
 
 
-def _instead_moving(made: PosedFourBar) -> Animation:
+def _instead_moving(bar: PosedFourBar) -> Animation:
     """The four-bar of both arms from its first pose to its last, and the three positions of its hand."""
-    first, last = sorted(made.crank_angles[[0, -1]])
+    first, last = sorted(bar.crank_angles[[0, -1]])
     title = "Four-bar through the report's three poses, in motion"
     note = "1, 2, 3: the positions that the hand H passes."
-    dots = numbered(made.synthesis.poses.points)
+    dots = numbered(bar.synthesis.poses.points)
     still = Drawing("knotting-four-bar-instead-moving", title, (), dots, note=note)
-    return _animated(made.params, made.plan, made.bodies, frames(first, last), still, float(made.crank_angles[0]))
+    return _animated(bar.params, bar.plan, bar.bodies, frames(first, last), still, float(bar.crank_angles[0]))
 
 
 def _animated(  # noqa: PLR0917

@@ -166,12 +166,12 @@ class PosedParams(KnottingFourBarParams):
         """Nothing: the links follow from the poses."""
 
 
-def params_of(params: KnottingFourBarParams, found: ThreePoseSynthesis) -> KnottingFourBarParams:
+def params_of(params: KnottingFourBarParams, synthesis: ThreePoseSynthesis) -> KnottingFourBarParams:
     """Parameters without poses: the links, and the direction of the ground link from O1 to O1'.
 
     The crank angle to report is the given one with poses, by default that of the first.
     """
-    drawn = found.best.candidate.four_bar
+    drawn = synthesis.best.candidate.four_bar
     ground, crank, coupler, rocker = drawn.lengths
     given = params.crank_angle if params.poses is not None else None
     return dataclasses.replace(
@@ -183,8 +183,8 @@ def params_of(params: KnottingFourBarParams, found: ThreePoseSynthesis) -> Knott
         rocker=rocker,
         ground_angle=float(np.angle(drawn.b0 - drawn.a0)) % turn,
         branch=drawn.branch,
-        hand=found.hand,
-        crank_angle=float(found.crank_angles[0]) if given is None else given,
+        hand=synthesis.hand,
+        crank_angle=float(synthesis.crank_angles[0]) if given is None else given,
     )
 
 

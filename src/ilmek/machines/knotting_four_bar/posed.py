@@ -96,16 +96,16 @@ class PosedFourBar:
         }
 
 
-def through_poses(params: KnottingFourBarParams, found: ThreePoseSynthesis, hole: float) -> PosedFourBar:
+def through_poses(params: KnottingFourBarParams, synthesis: ThreePoseSynthesis, hole: float) -> PosedFourBar:
     """The best four-bar of a synthesis, driven at the arm that leaves the other the better transmission angle.
 
     hole  diameter of the pins' holes [m]
     """
-    made = params_of(params, found)
-    planned = plan(mechanism(made, made.ground_angle or 0.0, found.crank.pivot))
+    made = params_of(params, synthesis)
+    planned = plan(mechanism(made, made.ground_angle or 0.0, synthesis.crank.pivot))
     bodies = inertias(made, hole)
-    state = evaluate(made, planned, bodies, found.crank_angles, params.speed, params.acceleration)
-    return PosedFourBar(found, made, planned, state, bodies)
+    state = evaluate(made, planned, bodies, synthesis.crank_angles, params.speed, params.acceleration)
+    return PosedFourBar(synthesis, made, planned, state, bodies)
 
 
 def through_the_reports_poses(params: KnottingFourBarParams, hole: float) -> PosedFourBar:

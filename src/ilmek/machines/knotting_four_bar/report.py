@@ -38,27 +38,27 @@ def analyse(design: KnottingFourBar) -> KnottingFourBarAnalysis:
     return KnottingFourBarAnalysis(design, design.strength, sides)
 
 
-def checks(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
+def checks(analysis: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     """Dead point and transmission angle, servo; both sides, and the knot that they tie."""
-    design = found.design
+    design = analysis.design
     distance = design.dead_point_distance
     parts = made_parts(design.params, design.hole).ids
     dead_point = at_least("crank's distance from its dead point", distance, DISTANCE, "deg", "rule of thumb")
     return (
         *((dead_point,) if design.range else ()),
         at_least("transmission angle", design.transmission_angle, TRANSMISSION, "deg", RULE),
-        *strength_checks(found.strength, stronger=STRONGER, parts=parts),
+        *strength_checks(analysis.strength, stronger=STRONGER, parts=parts),
         _servo_check(design),
-        *(() if found.sides is None else _side_checks(design, found.sides)),
+        *(() if analysis.sides is None else _side_checks(design, analysis.sides)),
     )
 
 
-def self_tests(found: KnottingFourBarAnalysis) -> tuple[Check, ...]:
+def self_tests(analysis: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     """The power balances, the poses in a forward simulation, both sides against each alone."""
-    design, sides = found.design, found.sides
+    design, sides = analysis.design, analysis.sides
     one = at_most("power balance of the forces", design.at.forces.power_error, BALANCE, "1", "virtual power")
     posed = () if design.posed is None else _pose_tests(design.posed)
-    return (one, equilibrium_test(found.strength), *posed, *(() if sides is None else _side_tests(sides)))
+    return (one, equilibrium_test(analysis.strength), *posed, *(() if sides is None else _side_tests(sides)))
 
 
 def _pose_tests(posed: PosedFourBar) -> tuple[Check, ...]:
@@ -93,19 +93,19 @@ def _servo_check(design: KnottingFourBar) -> Check:
     )
 
 
-def _knot_check(params: KnottingFourBarParams, found: SidesAnalysis) -> Check:
+def _knot_check(params: KnottingFourBarParams, analysis: SidesAnalysis) -> Check:
     """The hands tie a knot on the two warps between the sides; the cure names the warps on which they tie one."""
     cure = "set other poses: on no distance of the warps is a knot tied"
-    if found.knot_pitches is not None:
-        least, most = (format_quantity(end, "mm") for end in found.knot_pitches)
-        cure = f"set warp_pitch to {least} to {most}: there the hands tie a {found.wider}; or set other poses"
+    if analysis.knot_pitches is not None:
+        least, most = (format_quantity(end, "mm") for end in analysis.knot_pitches)
+        cure = f"set warp_pitch to {least} to {most}: there the hands tie a {analysis.wider}; or set other poses"
     title = "knots tied on the two warps"
-    source = f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {found.proof.why}"
-    return at_least(title, float(found.proof.tied is not None), 1.0, "1", source).with_cure(cure)
+    source = f"{format_quantity(params.warp_pitch, 'mm')} apart; crossings of the yarn: {analysis.proof.why}"
+    return at_least(title, float(analysis.proof.tied is not None), 1.0, "1", source).with_cure(cure)
 
 
-def _side_tests(found: SidesAnalysis) -> tuple[Check, ...]:
-    sides = found.sides
+def _side_tests(analysis: SidesAnalysis) -> tuple[Check, ...]:
+    sides = analysis.sides
     error = max(one.torque_error for one in (sides.moving, sides.standing))
     return (
         at_most("torque of both sides coupled, against each alone", error, BALANCE, "1", "mirror image"),
@@ -113,9 +113,9 @@ def _side_tests(found: SidesAnalysis) -> tuple[Check, ...]:
     )
 
 
-def warnings(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
+def warnings(analysis: KnottingFourBarAnalysis) -> tuple[str, ...]:
     """What to do about a dead point that is near."""
-    design = found.design
+    design = analysis.design
     if design.dead_point_distance >= DISTANCE:
         return ()
     distance, angle = (format_quantity(value, "deg") for value in (design.dead_point_distance, design.crank_angle))
@@ -129,14 +129,14 @@ def warnings(found: KnottingFourBarAnalysis) -> tuple[str, ...]:
     return (f"{wrong}; use the four-bar of both arms instead: {lengths}, at most {greatest} at the report's poses",)
 
 
-def tables(found: KnottingFourBarAnalysis) -> tuple[Table, ...]:
+def tables(analysis: KnottingFourBarAnalysis) -> tuple[Table, ...]:
     """Arms, four-bars and poses; gears; forces, masses, and the four-bar to use instead."""
-    design = found.design
+    design = analysis.design
     return (
         *(() if design.posed is None else _pose_tables(design.posed)),
-        *(() if found.sides is None else (_gear_table(found.sides),)),
+        *(() if analysis.sides is None else (_gear_table(analysis.sides),)),
         _force_table(design),
-        *strength_table(found.strength, "knotting-four-bar"),
+        *strength_table(analysis.strength, "knotting-four-bar"),
         _part_table(design),
         *(() if design.instead is None else (_instead_table(design.instead),)),
     )
@@ -163,13 +163,13 @@ def _pose_tables(posed: PosedFourBar) -> tuple[Table, ...]:
     )
     four_bars = tuple(
         (
-            one.crank + 1,
-            *one.candidate.four_bar.lengths,
-            one.candidate.grashof.kind,
-            one.candidate.least_transmission,
-            "to build" if one is found.best else "; ".join(one.defects.values()) or "no defect",
+            choice.crank + 1,
+            *choice.candidate.four_bar.lengths,
+            choice.candidate.grashof.kind,
+            choice.candidate.least_transmission,
+            "to build" if choice is found.best else "; ".join(choice.defects.values()) or "no defect",
         )
-        for one in found.choices
+        for choice in found.choices
     )
     four_bar_table = Table("knotting-four-bars", "The arms joined as one four-bar", heads, four_bars, brief=True)
 
@@ -186,8 +186,8 @@ def _pose_tables(posed: PosedFourBar) -> tuple[Table, ...]:
     return arm_table, four_bar_table, pose_table
 
 
-def _gear_table(found: SidesAnalysis) -> Table:
-    gears, tooth = found.sides.gears, found.sides.tooth
+def _gear_table(analysis: SidesAnalysis) -> Table:
+    gears, tooth = analysis.sides.gears, analysis.sides.tooth
     heads = columns(
         *("distance of axes [mm] 7", "module [mm]", "teeth of each", "width [mm]", "pressure angle [deg]"),
         *("sum of profile shifts", "greatest tooth force [N]", "separating force [N]", "bending [MPa]"),

@@ -65,7 +65,7 @@ class MotionFourBar(FourBarDesign):
     links = computed(
         "",
         "links that guide the body: kind; pivot and pin at the first pose (of sliders and blocks a direction), length",
-        lambda it: [_link(one) for one in it.guides] or None,
+        lambda it: [_link(guide) for guide in it.guides] or None,
         shown=False,
         optional=True,
     )
@@ -87,10 +87,10 @@ class MotionFourBar(FourBarDesign):
         return extent_of_points(self.poses.points) or (self.best.candidate.size if self.best else 0.0) or 1.0
 
 
-def _link(one: Guide) -> Json:
+def _link(guide: Guide) -> Json:
     """A link; None for a pivot, pin or length that is infinite or free."""
-    sizes: dict[str, Any] = {"pivot": one.pivot, "pin": one.pin, "length": one.length}
-    return {"kind": str(one.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
+    sizes: dict[str, Any] = {"pivot": guide.pivot, "pin": guide.pin, "length": guide.length}
+    return {"kind": str(guide.kind), **{name: size if cmath.isfinite(size) else None for name, size in sizes.items()}}
 
 
 def _branches(branches: Sequence[CurveBranch]) -> Json:
@@ -107,7 +107,7 @@ def design(params: MotionFourBarParams, progress: Progress = SILENT) -> MotionFo
     guides = _guides(params, poses)
     if guides is None:
         return _searched(params, poses, limits, progress)
-    inside = [one for one in guides if _inside(one.pivot, limits.boxes[0])]
+    inside = [guide for guide in guides if _inside(guide.pivot, limits.boxes[0])]
     options, other = [], []
     for crank, rocker in _pairs(params, inside):
         joined = pair(crank, rocker, complex(poses.points[0]))
@@ -206,5 +206,5 @@ def _inside(pivot: complex, ranges: tuple[Bounds, Bounds]) -> bool:
 
 def _numbers(guides: Sequence[Guide], crank: Guide, rocker: Guide) -> str:
     """The links of a four-bar by their numbers."""
-    numbers = [next(at for at, one in enumerate(guides, 1) if one is link) for link in (crank, rocker)]
+    numbers = [next(at for at, guide in enumerate(guides, 1) if guide is link) for link in (crank, rocker)]
     return "links {} (crank) and {}".format(*numbers)

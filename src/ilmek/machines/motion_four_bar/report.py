@@ -33,7 +33,7 @@ def self_tests(design: MotionFourBar) -> tuple[Check, ...]:
 
 def warnings(design: MotionFourBar) -> tuple[str, ...]:
     """Those of all four-bars, and links that are no cranks: they may be built otherwise."""
-    odd = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is not GuideKind.CRANK]
+    odd = [(at, guide) for at, guide in enumerate(design.guides, 1) if guide.kind is not GuideKind.CRANK]
     return (*shared.warnings(design), *(f"link {at} is a {one.kind}: {one.kind.words}" for at, one in odd))
 
 
@@ -55,10 +55,10 @@ def _guide_table(design: MotionFourBar) -> Table:
     return Table("motion-four-bar-links", title, heads, rows, brief=True)
 
 
-def _joints(one: Guide) -> tuple[float, float, float, float]:
+def _joints(guide: Guide) -> tuple[float, float, float, float]:
     """Pivot and pin [m]; NaN where they are infinitely far."""
-    pivot = one.pivot if one.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
-    pin = one.pin if one.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
+    pivot = guide.pivot if guide.kind in (GuideKind.CRANK, GuideKind.BLOCK) else complex(math.nan, math.nan)
+    pin = guide.pin if guide.kind in (GuideKind.CRANK, GuideKind.SLIDER) else complex(math.nan, math.nan)
     return pivot.real, pivot.imag, pin.real, pin.imag
 
 
@@ -90,7 +90,7 @@ def _chosen_from(design: MotionFourBar) -> tuple[Drawing, ...]:
         dots = (*poses, *(() if best is None else pins(best.candidate.four_bar)[:4]))
         strokes = (*flags, *pivots, *ends, *solution)
         return (Drawing("motion-four-bar-curves", title, strokes, dots, note=note),)
-    guides = [(at, one) for at, one in enumerate(design.guides, 1) if one.kind is GuideKind.CRANK]
+    guides = [(at, guide) for at, guide in enumerate(design.guides, 1) if guide.kind is GuideKind.CRANK]
     if not guides:
         return ()
     arms = [Stroke(np.array([one.pivot, one.pin]), "link", f"link {at}") for at, one in guides]

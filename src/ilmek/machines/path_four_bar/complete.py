@@ -67,8 +67,8 @@ def search(task: PosesAndPoints, filters: Filters, progress: Progress) -> Comple
     return CompleteSearch(answer, tuple(judged), removed)
 
 
-def _checked(four_bar: FourBar, one: CompleteFourBar, task: PosesAndPoints) -> Candidate:
+def _checked(four_bar: FourBar, bar: CompleteFourBar, task: PosesAndPoints) -> Candidate:
     """The four-bar judged at its known configurations."""
-    seen = judge(four_bar, PrecisionTask(points=task.points, coupler=one.angles))
+    seen = judge(four_bar, PrecisionTask(points=task.points, coupler=bar.angles))
     # All angles are known, which singles the configurations out; at nine points none of them is required.
     return replace(seen, task=PrecisionTask(points=task.points)) if np.isnan(task.angles).all() else seen

@@ -144,7 +144,7 @@ def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourB
     task = PrecisionTask(points=points, crank=timing)
     candidates = [judge(one.four_bar, task) for one in found if one.four_bar is not None]
     other = dict.fromkeys(one.description for one in found if one.four_bar is None)
-    return tuple(FourBarOption(one, "exact", errors(one)) for one in candidates), tuple(other)
+    return tuple(FourBarOption(candidate, "exact", errors(candidate)) for candidate in candidates), tuple(other)
 
 
 def _siblings(original: Candidate) -> tuple[tuple[str, Candidate], ...]:

@@ -143,25 +143,25 @@ def errors(candidate: Candidate) -> dict[str, Json]:
     return {"error_max": float(np.max(gaps)), "error_rms": math.sqrt(squares / len(gaps)), "error_squares": squares}
 
 
-def _error(one: FourBarOption) -> float:
+def _error(option: FourBarOption) -> float:
     """Root mean square error [m]."""
-    error = one.details["error_rms"]
+    error = option.details["error_rms"]
     return error if isinstance(error, float) else math.inf
 
 
-def _ratios(one: FourBarOption) -> FloatArray:
+def _ratios(option: FourBarOption) -> FloatArray:
     """Crank, and the shorter and the longer of coupler and rocker, over the ground link: equal for alike four-bars."""
-    ground, crank, coupler, rocker = one.candidate.four_bar.lengths
+    ground, crank, coupler, rocker = option.candidate.four_bar.lengths
     return np.array([crank, min(coupler, rocker), max(coupler, rocker)]) / ground
 
 
 def _unlike(options: Sequence[FourBarOption]) -> list[FourBarOption]:
     """The options without those that are alike one before."""
     kept, seen = list[FourBarOption](), np.zeros((0, 3))
-    for one in options:
-        ratios = _ratios(one)
+    for option in options:
+        ratios = _ratios(option)
         if not (np.abs(np.log(seen / ratios)).max(axis=1, initial=0.0) < ALIKE).any():
-            kept.append(one)
+            kept.append(option)
             seen = np.vstack([seen, ratios])
     return kept
 
@@ -187,11 +187,11 @@ def _spaced(options: Sequence[FourBarOption], least: float) -> list[tuple[FourBa
     """The options whose pins are `least` from those of all before [m], and these distances."""
     chosen: list[tuple[FourBarOption, float]] = []
     taken = np.zeros((0, 4), dtype=complex)
-    for one in options:
-        pins = pins_of(one.candidate.four_bar)
+    for option in options:
+        pins = pins_of(option.candidate.four_bar)
         gap = float(np.min(np.abs(taken - pins).max(axis=1), initial=math.inf))
         if gap >= least:
-            chosen.append((one, gap))
+            chosen.append((option, gap))
             taken = np.vstack([taken, pins])
     return chosen
 

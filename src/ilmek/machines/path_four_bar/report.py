@@ -42,10 +42,10 @@ def _search_table(design: PathFourBar) -> Table:
     return Table("path-four-bar-search", "Errors of the solutions", heads, rows, brief=True)
 
 
-def _search_row(one: FourBarOption) -> tuple[float | int | str, ...]:
-    agreed, active = one.details["runs_agreed"], one.details["active"]
+def _search_row(option: FourBarOption) -> tuple[float | int | str, ...]:
+    agreed, active = option.details["runs_agreed"], option.details["active"]
     return (
-        *(finite(one.details[name]) for name in ("error_max", "error_rms", "error_squares")),
+        *(finite(option.details[name]) for name in ("error_max", "error_rms", "error_squares")),
         agreed if isinstance(agreed, int) else 0,
         "; ".join(str(limit) for limit in active) if isinstance(active, list) else "",
     )

@@ -96,7 +96,7 @@ def strain_of(params: SheddingParams, longer: float | None) -> float | None:
     return (1 - params.compensation) * longer / params.warp_length
 
 
-def results(found: SheddingAnalysis) -> tuple[object, ...]:
+def results(analysis: SheddingAnalysis) -> tuple[object, ...]:
     """The records whose results are reported: cams and shed, guideway, stack, shaft, drive, warps."""
-    design = found.design
-    return design, design.guideway, design.stack, design.shaft, design.drive, found
+    design = analysis.design
+    return design, design.guideway, design.stack, design.shaft, design.drive, analysis

@@ -21,17 +21,17 @@ def moving(design: SheddingDesign) -> Animation:
     front, back = spans or (0.0, 0.0)
     top = 1j * (front + design.shafts[-1].beyond + back)
     strokes, dots, still = [], [], []
-    for one in design.shafts:
-        axis = complex(-one.base_radius, front + one.beyond)
+    for shaft in design.shafts:
+        axis = complex(-shaft.base_radius, front + shaft.beyond)
         dots.append(Dot(axis, "", "pivot"))
-        still.append(Stroke(axis + one.stack.guide_radius * np.exp(1j * _OUTLINE), "construction", closed=True))
-        for label, programme, lag in (("even", one.even, 0.0), ("odd", one.odd, TURN / 2)):
+        still.append(Stroke(axis + shaft.stack.guide_radius * np.exp(1j * _OUTLINE), "construction", closed=True))
+        for label, programme, lag in (("even", shaft.even, 0.0), ("odd", shaft.odd, TURN / 2)):
             turned = np.exp(1j * (at - lag))[:, None]
-            strokes.append(MovingStroke(axis + one.cam.surface(_OUTLINE) * turned, "path", label, closed=True))
+            strokes.append(MovingStroke(axis + shaft.cam.surface(_OUTLINE) * turned, "path", label, closed=True))
             tip = programme.at(at).s + 1j * axis.imag
             ends = (0j, top) if spans else (tip - 1j * half, tip + 1j * half)
             strokes.append(MovingStroke(_through(ends[0], tip, ends[1]), "path", label))
-        strokes.append(MovingStroke(axis + _bore(one) * np.exp(1j * at)[:, None], "outline", closed=True))
+        strokes.append(MovingStroke(axis + _bore(shaft) * np.exp(1j * at)[:, None], "outline", closed=True))
     if spans:
         dots += [Dot(0j, "fell", "point"), Dot(top, "back hold", "point")]
     note = "two cams of each shaft; each lifts its warp in line with the axis, as a knife edge; dashed: guides"
@@ -51,6 +51,6 @@ def _through(first: complex | ComplexArray, tip: ComplexArray, last: complex | C
     return np.stack(np.broadcast_arrays(first, tip, last), axis=1)
 
 
-def _bore(one: CamShaft) -> ComplexArray:
+def _bore(shaft: CamShaft) -> ComplexArray:
     """The square bore."""
-    return one.shaft.bar / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    return shaft.shaft.bar / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])

@@ -23,15 +23,15 @@ THESIS = "thesis, 3.2"
 STRONGER = "set more spans, a lower tension, or more shafts"
 
 
-def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
+def checks(analysis: SheddingAnalysis) -> tuple[Check, ...]:
     """Cams, plates, shed, shafts, bearings, motors and warps."""
-    design = found.design
+    design = analysis.design
     params, shares = design.params, design.first.stack.shares
 
     def of(checks_of: Callable[[CamShaft], Iterator[Check]], *names: str) -> Iterator[Check]:
         """The worst of the shafts' checks, which concern these parts of every shaft."""
         parts = tuple(part_id(name, index) for name in names for index in range(len(design.shafts)))
-        return (replace(check, parts=parts) for check in worst([tuple(checks_of(one)) for one in design.shafts]))
+        return (replace(check, parts=parts) for check in worst([tuple(checks_of(shaft)) for shaft in design.shafts]))
 
     return (
         *of(_cam_checks, "shedding-cam"),
@@ -40,13 +40,13 @@ def checks(found: SheddingAnalysis) -> tuple[Check, ...]:
             for check in plate_checks(params, shares)
         ),
         *of(_nose_checks, "shedding-cam"),
-        *_shed_checks(found),
+        *_shed_checks(analysis),
         *of(_shaft_checks, "cam-shaft"),
         *of(_bearing_checks, "bearing"),
         *of(_key_checks, "key", "cam-shaft"),
         *of(_motor_checks, "motor", "reducer"),
         *_reed_checks(design),
-        *worst([tuple(_warp_checks(one)) for one in design.shafts]),
+        *worst([tuple(_warp_checks(shaft)) for shaft in design.shafts]),
     )
 
 
@@ -68,15 +68,15 @@ def _severity(check: Check) -> tuple[bool, float]:
     return False, -weight(check)
 
 
-def _cam_checks(one: CamShaft) -> Iterator[Check]:
-    params, cam = one.params, one.cam
+def _cam_checks(shaft: CamShaft) -> Iterator[Check]:
+    params, cam = shaft.params, shaft.cam
     buckling, norton = f"{THESIS}: a thin cam must not buckle", "Norton, Cam Design and Manufacturing, 7"
     larger = "set a larger prime_radius"
     mu = pressure_angle_max(cam).value
     yield at_most("pressure angle", mu, params.pressure_angle_limit, "deg", buckling).with_cure(larger)
     title, value = "convex radius of the pitch curve (no undercut)", convex_radius_min(cam).value
     yield at_least(title, value, cam.roller_radius, "mm", f"{norton}: rho > roller radius").with_cure(larger)
-    bore = one.prime_radius_for_bore
+    bore = shaft.prime_radius_for_bore
     yield at_least("prime radius round the bore", cam.prime_radius, bore, "mm", "bore_wall").with_cure(larger)
 
 
@@ -91,13 +91,13 @@ def _nose_checks(one: CamShaft) -> Iterator[Check]:
         yield at_most("stress at the nose", stress, one.params.strength, "MPa", source).with_cure("set a lower tension")
 
 
-def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
-    design, params = found.design, found.design.params
+def _shed_checks(analysis: SheddingAnalysis) -> Iterator[Check]:
+    design, params = analysis.design, analysis.design.params
     higher = "set a larger lift, or a lower shuttle_height"
     yield at_least(
         "shed for the shuttle", design.shed_opening, params.shuttle_height, "mm", "shuttle_height"
     ).with_cure(higher)
-    yield from _window_checks(found)
+    yield from _window_checks(analysis)
     yield at_most(
         "one parity down while the other is up", params.lifted_angle, TURN / 2, "deg", f"{THESIS}, Fig. 3.19"
     ).with_cure("set a shorter rise, dwell or fall")
@@ -110,11 +110,11 @@ def _shed_checks(found: SheddingAnalysis) -> Iterator[Check]:
     yield from _neighbour_checks(design)
 
 
-def _window_checks(found: SheddingAnalysis) -> Iterator[Check]:
+def _window_checks(analysis: SheddingAnalysis) -> Iterator[Check]:
     """The shuttle's window against the required one, if any."""
-    design, required = found.design, found.design.params.shuttle_angle
+    design, required = analysis.design, analysis.design.params.shuttle_angle
     if required is None and design.params.phase == "flattest":
-        first, last = found.together.window()
+        first, last = analysis.together.window()
         required = required_window(design.params, last - first)
     if required is not None:
         wider = "set a larger lift or dwell, or a lower shuttle_height"
@@ -166,8 +166,8 @@ def _shaft_checks(one: CamShaft) -> Iterator[Check]:
     yield at_most("speed of the shaft", params.speed, shaft.critical / 2, "rpm", half).with_cure("set more spans")
 
 
-def _bearing_checks(one: CamShaft) -> Iterator[Check]:
-    params, seat, bar = one.params, one.shaft.seat, one.shaft.bar
+def _bearing_checks(shaft: CamShaft) -> Iterator[Check]:
+    params, seat, bar = shaft.params, shaft.shaft.seat, shaft.shaft.bar
     life, stronger = params.bearing_life, "set more spans, or another bearing"
     yield at_least("life of the bearings", seat.life, life, "h", "ISO 281, bearing_life").with_cure(stronger)
     bore, torsion = seat.bearing.bore, "torsion, von Mises"
@@ -187,19 +187,19 @@ def _bearing_checks(one: CamShaft) -> Iterator[Check]:
     yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar").with_cure(stronger)
 
 
-def _key_checks(one: CamShaft) -> Iterator[Check]:
-    yield one.driven_end.check("cam shaft", "set another bearing, or more shafts", ())
+def _key_checks(shaft: CamShaft) -> Iterator[Check]:
+    yield shaft.driven_end.check("cam shaft", "set another bearing, or more shafts", ())
 
 
-def _motor_checks(one: CamShaft) -> Iterator[Check]:
-    drive = one.drive
+def _motor_checks(shaft: CamShaft) -> Iterator[Check]:
+    drive = shaft.drive
     continuous, other = "continuous torque of the motor", "set another ratio, or more shafts"
     yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous).with_cure(other)
 
 
-def _warp_checks(one: CamShaft) -> Iterator[Check]:
+def _warp_checks(shaft: CamShaft) -> Iterator[Check]:
     """Strain and tension of a lifted warp; nothing where only its force is given."""
-    params, warp = one.params, shed_warp(one.params)
+    params, warp = shaft.params, shed_warp(shaft.params)
     if warp is None:
         return
     looser = "set a longer warp_length, more compensation, or a lower lift"

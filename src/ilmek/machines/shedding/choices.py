@@ -34,14 +34,14 @@ def choices(design: SheddingDesign) -> tuple[Choice, ...]:
     )
 
 
-def _torque(one: CamShaft) -> float:
-    return one.drive.torque_max.value
+def _torque(shaft: CamShaft) -> float:
+    return shaft.drive.torque_max.value
 
 
-def _prime(one: CamShaft) -> Choice:
+def _prime(shaft: CamShaft) -> Choice:
     """The prime radius: by the pressure angle, or by the bore; smaller ones fail it."""
-    prime, bore = one.cam.prime_radius, one.prime_radius_for_bore
-    chosen, least = format_quantity(prime, "mm"), one.smallest_prime.value
+    prime, bore = shaft.cam.prime_radius, shaft.prime_radius_for_bore
+    chosen, least = format_quantity(prime, "mm"), shaft.smallest_prime.value
     if prime > least:
         below = at_least("prime radius round the bore", least, bore, "mm", "bore_wall")
         return Choice("prime_radius", chosen, below.name, format_quantity(least, "mm"), failing(below))
@@ -67,9 +67,9 @@ def _bar(one: CamShaft) -> Choice:
     return Choice(name, chosen, decided, format_quantity(smaller[-1], "mm"), failing(failed))
 
 
-def _bearing(one: CamShaft) -> Choice:
+def _bearing(shaft: CamShaft) -> Choice:
     """The lightest insert bearing with life and bore; the next lighter one fails one of them."""
-    seat = one.shaft.seat
+    seat = shaft.shaft.seat
     lighter = [
         each
         for each in bearings.ROLLING_BEARINGS.values()
@@ -78,14 +78,14 @@ def _bearing(one: CamShaft) -> Choice:
     if not lighter:
         return Choice("bearing", seat.bearing.name, CHEAPEST)
     cheaper = max(lighter, key=lambda each: (each.mass, each.bore))
-    check = next((check for check in _bearing_checks(one, cheaper) if not check.ok), None)
+    check = next((check for check in _bearing_checks(shaft, cheaper) if not check.ok), None)
     if check is None:
         return Choice("bearing", seat.bearing.name, "no bearing of the table keeps every limit", cheaper.name)
     return Choice("bearing", seat.bearing.name, check.name, cheaper.name, failing(check))
 
 
-def _bearing_checks(one: CamShaft, bearing: RollingBearing) -> tuple[Check, ...]:
-    seat, params = one.shaft.seat, one.params
+def _bearing_checks(shaft: CamShaft, bearing: RollingBearing) -> tuple[Check, ...]:
+    seat, params = shaft.shaft.seat, shaft.params
     load = bearings.equivalent_load(bearing, seat.reaction)
     life = bearings.life(bearing.dynamic, load, bearing.kind) * turn / params.speed
     static = bearings.static_load(bearing, seat.reaction)
@@ -100,13 +100,13 @@ def _bearing_checks(one: CamShaft, bearing: RollingBearing) -> tuple[Check, ...]
             "DIN 743-2",
         ),
         at_least("static load of the bearings", bearing.static, static, "N", "ISO 76"),
-        at_most("bore of the bearing in the bar", bearing.bore, one.shaft.bar, "mm", "journal"),
+        at_most("bore of the bearing in the bar", bearing.bore, shaft.shaft.bar, "mm", "journal"),
     )
 
 
-def _motor(one: CamShaft) -> Choice:
+def _motor(shaft: CamShaft) -> Choice:
     """The motor of least power; the next smaller one fails by its torque or its speed."""
-    drive = one.drive
+    drive = shaft.drive
     assert drive.motor is not None
     smaller = [motor for motor in MOTORS if motor.power < drive.motor.power]
     if not smaller:

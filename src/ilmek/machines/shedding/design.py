@@ -114,7 +114,7 @@ class SheddingDesign:
     @property
     def parity_numbers(self) -> tuple[int, int]:
         """Even and odd warps of all shafts."""
-        return sum(one.numbers[0] for one in self.shafts), sum(one.numbers[1] for one in self.shafts)
+        return sum(shaft.numbers[0] for shaft in self.shafts), sum(shaft.numbers[1] for shaft in self.shafts)
 
     @property
     def guideway(self) -> Guideway:
@@ -123,7 +123,7 @@ class SheddingDesign:
 
     def torque(self, angle: FloatArray) -> FloatArray:
         """Torque of the warps on all shafts together [N m]."""
-        return sum((one.shed.torque(angle) for one in self.shafts), np.zeros_like(angle))
+        return sum((shaft.shed.torque(angle) for shaft in self.shafts), np.zeros_like(angle))
 
     shaft_count = computed("1", "cam shafts one above the other", lambda it: len(it.shafts), name="shafts")
     guides_shown = computed(
@@ -132,9 +132,9 @@ class SheddingDesign:
 
     @computed("", "distance of each shaft beyond the first [m]", name="shaft_positions")
     def shaft_distances(self) -> list[float]:
-        return [one.beyond for one in self.shafts]
+        return [shaft.beyond for shaft in self.shafts]
 
-    lifts = computed("", "lift of the warps of each shaft [m]", lambda it: [one.params.lift for one in it.shafts])
+    lifts = computed("", "lift of the warps of each shaft [m]", lambda it: [shaft.params.lift for shaft in it.shafts])
     prime_radius = computed("mm", "prime radius of the cam, Rp", lambda it: it.cam.prime_radius, least=0.0)
     prime_radius_min = computed("mm", "smallest for the pressure angle", lambda it: it.first.smallest_prime.value)
 
@@ -199,7 +199,7 @@ class SheddingDesign:
 
     @computed("J", "work of lifting the even warps once, returned when they fall")
     def shed_work(self) -> float:
-        return float(sum(one.numbers[0] * lifting_work(one.params) for one in self.shafts))
+        return float(sum(shaft.numbers[0] * lifting_work(shaft.params) for shaft in self.shafts))
 
     @computed("", "the cycle of even and odd warps, shaft angles [rad]")
     def phases(self) -> Json:
@@ -260,11 +260,11 @@ def shed_lengthenings(design: SheddingDesign, angle: FloatArray) -> tuple[FloatA
     times its number of warps (`SheddingDesign.parity_numbers`) it gives what they are lengthened by together.
     """
     totals = np.zeros(np.shape(angle)), np.zeros(np.shape(angle))
-    for one in design.shafts:
-        spans = one.params.spans_of_warp
+    for shaft in design.shafts:
+        spans = shaft.params.spans_of_warp
         if spans is None:
             continue
-        for total, parity in zip(totals, (one.shed.even, one.shed.odd), strict=True):
+        for total, parity in zip(totals, (shaft.shed.even, shaft.shed.odd), strict=True):
             for number, motion in zip(parity.numbers, parity.motions(angle), strict=True):
                 total += number * shed_lengthening(motion.s, *spans)
     even, odd = design.parity_numbers

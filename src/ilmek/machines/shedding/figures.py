@@ -16,9 +16,9 @@ from ilmek.units import format_quantity
 ANGLE, TORQUE = Axis("cam angle", "deg"), Axis("torque", "Nm")
 
 
-def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
+def figures(analysis: SheddingAnalysis) -> tuple[Figure, ...]:
     """The cam to scale and the plots, in the order of the report."""
-    design = found.design
+    design = analysis.design
     cam, shaft, params = design.cam, design.shaft, design.params
     programmes = {"even": design.even, "odd": design.odd}
     inertia = float(uniform.square_inertia(shaft.bar))
@@ -33,8 +33,8 @@ def figures(found: SheddingAnalysis) -> tuple[Figure, ...]:
         cam_figures.pressure_plot(cam, params.pressure_angle_limit, design.pressure_angle_at),
         cam_figures.curvature_plot(cam, convex_radius_min(cam).at),
         _torque_plot(design),
-        _stagger_plot(found),
-        *_tension_plots(found),
+        _stagger_plot(analysis),
+        *_tension_plots(analysis),
         deflection_plot(shaft.load, shaft.span, params.modulus, inertia, params.deflection_limit),
     )
     return tuple(
@@ -52,13 +52,13 @@ def _torque_plot(design: SheddingDesign) -> Plot:
     return cam_figures.turn_plot(title, TORQUE, curves, *both, name="torque", levels=levels, mark=mark, note=note)
 
 
-def _stagger_plot(found: SheddingAnalysis) -> Plot:
+def _stagger_plot(analysis: SheddingAnalysis) -> Plot:
     """Torque of cams all at once beside that of the flattest phases, or of those chosen."""
-    design = found.design
-    other = design.shed if design.params.phase == "staggered" else found.flattest
+    design = analysis.design
+    other = design.shed if design.params.phase == "staggered" else analysis.flattest
     spread = format_quantity(other.spread, "deg")
     name = f"{other.groups} groups over {spread}" if other.groups > 1 else "nothing is flatter"
-    curves = {"all at once": found.together.torque, name: other.torque}
+    curves = {"all at once": analysis.together.torque, name: other.torque}
     programmes = (*other.even.programmes, *other.odd.programmes, design.even)
     first, last = other.window()
     note = f"the shed is open for the shuttle for {format_quantity(last - first, 'deg')} with {name}"
@@ -66,9 +66,9 @@ def _stagger_plot(found: SheddingAnalysis) -> Plot:
     return cam_figures.turn_plot(title, TORQUE, curves, *programmes, name="stagger", dashed=(name,), note=note)
 
 
-def _tension_plots(found: SheddingAnalysis) -> tuple[Plot, ...]:
+def _tension_plots(analysis: SheddingAnalysis) -> tuple[Plot, ...]:
     """Tension of a warp over the turn, and the torque of warps draped over the cams; nothing without a tension."""
-    design, yarn, warp = found.design, found.yarn, found.warp
+    design, yarn, warp = analysis.design, analysis.yarn, analysis.warp
     if warp is None:
         return ()
     angle = cam_figures.sample_angles(design.even, design.odd)

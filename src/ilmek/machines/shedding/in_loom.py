@@ -121,4 +121,4 @@ def _gain(task: LoomTask, front: float, back: float, beside: float) -> float:
 
 def work(made: SheddingDesign) -> tuple[Work, ...]:
     """The work of a row: a turn of every shaft, each with a motor of its own, without recovery."""
-    return (Work("shedding", sum(positive_work(one.shed.torque) for one in made.shafts), "row"),)
+    return (Work("shedding", sum(positive_work(shaft.shed.torque) for shaft in made.shafts), "row"),)

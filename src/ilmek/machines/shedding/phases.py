@@ -28,12 +28,12 @@ class Shed(OpposedCams):
 
     params: SheddingParams
 
-    def draped_torque(self, one: DrapedWarp) -> FloatArray:
+    def draped_torque(self, warp: DrapedWarp) -> FloatArray:
         """Torque of all warps [N m], each like one that is draped over its cam, at `one.angle`."""
-        total = np.zeros_like(one.angle)
+        total = np.zeros_like(warp.angle)
         for parity, lag in ((self.even, 0.0), (self.odd, TURN / 2)):
             for number, offset in zip(parity.numbers, self.offsets, strict=True):
-                total += number * np.interp(one.angle - lag - offset, one.angle, one.torque, period=TURN)
+                total += number * np.interp(warp.angle - lag - offset, warp.angle, warp.torque, period=TURN)
         return total
 
     def across(self, angle: FloatArray) -> FloatArray:

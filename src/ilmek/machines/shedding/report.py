@@ -24,9 +24,9 @@ SPREADS = tuple(spread * deg for spread in (15, 30))
 """Spreads of two groups in the table of phases [rad]."""
 
 
-def warnings(found: SheddingAnalysis) -> tuple[str, ...]:
+def warnings(analysis: SheddingAnalysis) -> tuple[str, ...]:
     """What is worth knowing of cams that work: a quick shaft, hollows that a yarn does not follow."""
-    return (*_speed_warning(found.design), *_hollow_warning(found))
+    return (*_speed_warning(analysis.design), *_hollow_warning(analysis))
 
 
 def _speed_warning(design: SheddingDesign) -> tuple[str, ...]:
@@ -36,22 +36,22 @@ def _speed_warning(design: SheddingDesign) -> tuple[str, ...]:
     return (f"the cam shaft turns at {shown}; the thesis allows {allowed}",)
 
 
-def _hollow_warning(found: SheddingAnalysis) -> tuple[str, ...]:
-    design = found.design
+def _hollow_warning(analysis: SheddingAnalysis) -> tuple[str, ...]:
+    design = analysis.design
     hollow = concave_radius_min(design.cam)
     if hollow is None or design.params.roller_radius > 0:
         return ()
     shown, where = format_quantity(hollow.value, "mm"), format_quantity(hollow.at, "deg")
-    by = f", by {format_quantity(found.bridges.excess, 'mm')} at most" if found.bridges else ""
+    by = f", by {format_quantity(analysis.bridges.excess, 'mm')} at most" if analysis.bridges else ""
     late = "is lifted a little earlier and let down a little later than by the law"
     return (f"the cam is hollow (radius {shown} at {where}): a taut warp bridges the hollow and {late}{by}",)
 
 
-def tables(found: SheddingAnalysis) -> tuple[Table, ...]:
+def tables(analysis: SheddingAnalysis) -> tuple[Table, ...]:
     """The cycle, phases compared, motion laws, sides of the shaft, points of the cam."""
-    design = found.design
+    design = analysis.design
     several = (_shafts_table(design),) if len(design.shafts) > 1 else ()
-    first = _phase_table(design), _stagger_table(found), _law_table(design), _side_table(design)
+    first = _phase_table(design), _stagger_table(analysis), _law_table(design), _side_table(design)
     return (*several, *first, _point_table(design))
 
 
@@ -64,18 +64,18 @@ def _shafts_table(design: SheddingDesign) -> Table:
     rows = tuple(
         (
             index + 1,
-            one.beyond,
-            *one.numbers,
-            one.params.lift,
-            one.cam.prime_radius,
-            one.stack.guide_radius,
-            one.stack.mass,
-            one.shaft.bar,
-            one.drive.torque_max.value,
-            one.shaft.seat.bearing.name,
-            one.drive.motor.name if one.drive.motor else "given",
+            shaft.beyond,
+            *shaft.numbers,
+            shaft.params.lift,
+            shaft.cam.prime_radius,
+            shaft.stack.guide_radius,
+            shaft.stack.mass,
+            shaft.shaft.bar,
+            shaft.drive.torque_max.value,
+            shaft.shaft.seat.bearing.name,
+            shaft.drive.motor.name if shaft.drive.motor else "given",
         )
-        for index, one in enumerate(design.shafts)
+        for index, shaft in enumerate(design.shafts)
     )
     return Table("shedding-shafts", "The cam shafts one above the other", heads, rows)
 
@@ -89,13 +89,13 @@ def _phase_table(design: SheddingDesign) -> Table:
     return Table("shedding-phases", "The cycle over the shaft's angle", heads, rows)
 
 
-def _stagger_table(found: SheddingAnalysis) -> Table:
+def _stagger_table(analysis: SheddingAnalysis) -> Table:
     """Torque and shed of cams all at once, in two halves, and in the phases of least torque."""
-    design, params = found.design, found.design.params
-    sheds = [("all at once", found.together)]
+    design, params = analysis.design, analysis.design.params
+    sheds = [("all at once", analysis.together)]
     if params.cloth.warps >= 4:
         sheds += [("two halves", shed_of(params, design.even, spread, 2)) for spread in SPREADS]
-    sheds += [("flattest", found.flattest)]
+    sheds += [("flattest", analysis.flattest)]
     if params.phase == "staggered":
         sheds += [("chosen", design.shed)]
     heads = columns(

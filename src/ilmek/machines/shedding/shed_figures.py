@@ -34,8 +34,8 @@ def side_view(design: SheddingDesign) -> tuple[Drawing, ...]:
             Stroke(np.array([axis.imag * 1j, tip]), "dimension", f"lift {format_quantity(one.params.lift, 'mm')}")
         )
         dots.append(Dot(axis, "", "pivot"))
-    aside = -2.2 * max(one.stack.guide_radius for one in design.shafts)
-    heights = [0.0, *(front + one.beyond for one in design.shafts), top]
+    aside = -2.2 * max(shaft.stack.guide_radius for shaft in design.shafts)
+    heights = [0.0, *(front + shaft.beyond for shaft in design.shafts), top]
     for low, high in pairwise(heights):
         strokes.append(
             Stroke(np.array([aside + 1j * low, aside + 1j * high]), "dimension", format_quantity(high - low, "mm"))
@@ -44,16 +44,16 @@ def side_view(design: SheddingDesign) -> tuple[Drawing, ...]:
     return (Drawing("side", "Cam shafts and warps with the even shed open", tuple(strokes), tuple(dots), note=note),)
 
 
-def _shaft_strokes(one: CamShaft, axis: complex) -> list[Stroke]:
+def _shaft_strokes(shaft: CamShaft, axis: complex) -> list[Stroke]:
     """An even cam with its nose to the front, the bore, and the guides."""
     angle = np.linspace(0.0, TURN, 361)
-    turned = np.exp(1j * (one.params.rise + one.params.dwell / 2))
-    side = one.shaft.bar / 2
+    turned = np.exp(1j * (shaft.params.rise + shaft.params.dwell / 2))
+    side = shaft.shaft.bar / 2
     bore = side * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]) * turned
-    guide = "guide cams" if one.stack.shares.guides else "outer edge of the reed"
+    guide = "guide cams" if shaft.stack.shares.guides else "outer edge of the reed"
     return [
-        Stroke(axis + one.stack.guide_radius * _CIRCLE, "construction", guide, closed=True),
-        Stroke(axis + one.cam.surface(angle) * turned, "outline", "", closed=True, filled=True),
+        Stroke(axis + shaft.stack.guide_radius * _CIRCLE, "construction", guide, closed=True),
+        Stroke(axis + shaft.cam.surface(angle) * turned, "outline", "", closed=True, filled=True),
         Stroke(axis + bore, "outline", "", closed=True),
     ]
 

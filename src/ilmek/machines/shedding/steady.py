@@ -81,7 +81,7 @@ def steady_of(shaft: CamShaft) -> Steady | None:
         return None
     force = shaft.shaft.seat.reaction / math.cos(ASIDE)
     rollers = sorted(ROLLERS.values(), key=lambda one: (one.diameter, one.force_limit))
-    chosen = next((one for one in rollers if one.force_limit >= force), rollers[-1])
+    chosen = next((roller for roller in rollers if roller.force_limit >= force), rollers[-1])
     return Steady(chosen, stack.guide_radius, force)
 
 

@@ -15,12 +15,12 @@ def cam_tables(design: SheddingDesign) -> tuple[CamTable, ...]:
         _motion(
             design,
             f"{parity}-warps"
-            + (f"-{group + 1}" if one.shed.groups > 1 else "")
+            + (f"-{group + 1}" if shaft.shed.groups > 1 else "")
             + (f"-shaft-{index + 1}" if index else ""),
             programme,
         )
-        for index, one in enumerate(design.shafts)
-        for parity, cams in (("even", one.shed.even), ("odd", one.shed.odd))
+        for index, shaft in enumerate(design.shafts)
+        for parity, cams in (("even", shaft.shed.even), ("odd", shaft.shed.odd))
         if sum(cams.numbers) > 0
         for group, programme in enumerate(cams.programmes)
     )

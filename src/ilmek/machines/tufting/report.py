@@ -31,9 +31,9 @@ def analyse(design: Tufting) -> TuftingAnalysis:
     return TuftingAnalysis(design, needle_strength(design))
 
 
-def checks(found: TuftingAnalysis) -> tuple[Check, ...]:
+def checks(analysis: TuftingAnalysis) -> tuple[Check, ...]:
     """Stroke, backing and angles; links, pins, shafts, bearings and motor."""
-    design = found.design
+    design = analysis.design
     params = design.params
     levels = abs(design.entry_height - design.exit_height)
     return (
@@ -42,7 +42,7 @@ def checks(found: TuftingAnalysis) -> tuple[Check, ...]:
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
         *_lowest_check(design),
-        *needle_checks(found.strength, needle_parts(params, needle_sizes(design)).ids),
+        *needle_checks(analysis.strength, needle_parts(params, needle_sizes(design)).ids),
     )
 
 
@@ -55,23 +55,23 @@ def _lowest_check(design: Tufting) -> tuple[Check, ...]:
     return (must("needle lowest between entry and exit", design.lowest_within, f"lowest at {lowest}").with_cure(cure),)
 
 
-def self_tests(found: TuftingAnalysis) -> tuple[Check, ...]:
+def self_tests(analysis: TuftingAnalysis) -> tuple[Check, ...]:
     """The balances of work and power."""
-    design = found.design
+    design = analysis.design
     work = design.work
     scale = max(abs(work["drive"]), design.main_shaft_torque_max)
     unbalanced = abs(work["drive"] - work["friction"]) / scale if scale else 0.0
     return (
         at_most("work of drive against friction, over a turn", unbalanced, BALANCE, "1", "energy balance"),
         at_most("power balance of the forces", design.state.forces.power_error, BALANCE, "1", "virtual power"),
-        equilibrium_test(found.strength.linkage),
+        equilibrium_test(analysis.strength.linkage),
     )
 
 
-def tables(found: TuftingAnalysis) -> tuple[Table, ...]:
+def tables(analysis: TuftingAnalysis) -> tuple[Table, ...]:
     """Links with the range of their angles, the greatest values over a turn, strength of links and pins."""
-    strength = strength_table(found.strength.linkage, "tufting")
-    return (_link_table(found.design), _peak_table(found.design), *strength)
+    strength = strength_table(analysis.strength.linkage, "tufting")
+    return (_link_table(analysis.design), _peak_table(analysis.design), *strength)
 
 
 def _link_table(design: Tufting) -> Table:

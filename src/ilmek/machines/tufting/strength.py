@@ -127,17 +127,17 @@ def design(params: TuftingParams) -> Tufting:
         sizes = sizes.with_least(needed)
 
 
-def needle_sizes(made: Tufting) -> NeedleSizes:
+def needle_sizes(tufting: Tufting) -> NeedleSizes:
     """Diameters of shafts and pins: those that the masses were computed with, or that bear the forces."""
-    return made.sizes or _required(needle_strength(made))
+    return tufting.sizes or _required(needle_strength(tufting))
 
 
-def _required(found: NeedleStrength) -> NeedleSizes:
-    widths = {link: section.width for link, section in found.linkage.sections.items()}
-    pins = {name: found.linkage.pins[name].diameter for name in "BDE"}
+def _required(strength: NeedleStrength) -> NeedleSizes:
+    widths = {link: section.width for link, section in strength.linkage.sections.items()}
+    pins = {name: strength.linkage.pins[name].diameter for name in "BDE"}
     least = {"B": ("coupler", "rocker"), "D": ("arm", "rod"), "E": ("rod",)}
     bored = {name: bore_for(size, min(widths[link] for link in least[name])) for name, size in pins.items()}
-    return NeedleSizes(found.main.diameter, found.driven.diameter, tuple(bored.items()))
+    return NeedleSizes(strength.main.diameter, strength.driven.diameter, tuple(bored.items()))
 
 
 def _shaft(duty: PinDuty, torque: tuple[float, float], limits: NeedleStrengthParams) -> ShaftStrength:
@@ -171,13 +171,13 @@ def _shaft_safety(loading: Loading, diameter: float) -> float:
     return goodman(loading, section, endurance=limit, tensile=STEEL.tensile, notch=(notch[0], notch[1]))
 
 
-def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
+def needle_checks(strength: NeedleStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
     """Whether links, pins, shafts, bearings and motor bear the speed; parts: ids of links and pins by name."""
-    limits, slower = found.limits, "set a lower speed, or lighter moving links and needle"
+    limits, slower = strength.limits, "set a lower speed, or lighter moving links and needle"
     stronger = "set a lower speed, or a heavier and therefore stronger link, or a lighter needle"
-    shafts = (("main", found.main), ("driven", found.driven))
+    shafts = (("main", strength.main), ("driven", strength.driven))
     return (
-        *strength_checks(found.linkage, stronger=stronger, parts=parts),
+        *strength_checks(strength.linkage, stronger=stronger, parts=parts),
         *(
             at_least(
                 f"safety of the {name} shaft against fatigue",
@@ -198,7 +198,7 @@ def needle_checks(found: NeedleStrength, parts: Mapping[str, str]) -> tuple[Chec
             ).with_cure(slower, f"{NAME}/{name}-bearing")
             for name, shaft in shafts
         ),
-        must("a servo turns the main shaft", found.motor is not None, "motor table, margin 1.25").with_cure(
+        must("a servo turns the main shaft", strength.motor is not None, "motor table, margin 1.25").with_cure(
             slower, *MOTOR
         ),
     )

@@ -63,7 +63,7 @@ class WarpTensionAnalysis:
 
     cylinder_tube = computed("", "stock tube of each cylinder", lambda it: it.of_each("tube_name"))
     cylinder_load = computed(
-        "kN/m", "load with own weight", lambda it: {one.name: abs(one.load) for one in it.cylinders}
+        "kN/m", "load with own weight", lambda it: {cylinder.name: abs(cylinder.load) for cylinder in it.cylinders}
     )
     cylinder_slope = computed("mrad", "slope in the bearings", lambda it: it.of_each("slope"))
     cylinder_slope_bare = computed("mrad", "the same without own weight", lambda it: it.of_each("slope_bare"))
@@ -92,7 +92,7 @@ class WarpTensionAnalysis:
 
     def of_each(self, attribute: str) -> dict[str, Json]:
         """An attribute of the cylinders by their names."""
-        return {one.name: getattr(one, attribute) for one in self.cylinders}
+        return {cylinder.name: getattr(cylinder, attribute) for cylinder in self.cylinders}
 
 
 def analyse(design: WarpTensionDesign) -> WarpTensionAnalysis:

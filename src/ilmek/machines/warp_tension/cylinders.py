@@ -299,10 +299,10 @@ def spacer_tube(params: WarpTensionParams, radius: float = math.inf) -> Tube:
     depth, pull = slots_of(params).depth, spacer_load(params, abs(worst_load(params)))
     offered = sorted(spacer_tubes(params), key=lambda one: one.outer_radius > radius + 0.5 * mm)
 
-    def keeps(one: Tube) -> bool:
+    def keeps(tube: Tube) -> bool:
         """Its metal between the slots weighs, and counts as uncut."""
-        under = one.outer_radius - depth
-        lands = tube_weight(params, under, one.outer_radius)
-        return keeps_limits(params, one.inner_radius, under, pull - 1j * lands)
+        under = tube.outer_radius - depth
+        lands = tube_weight(params, under, tube.outer_radius)
+        return keeps_limits(params, tube.inner_radius, under, pull - 1j * lands)
 
     return next(filter(keeps, offered), max(offered, key=lambda tube: tube.inertia))

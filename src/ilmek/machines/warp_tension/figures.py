@@ -16,15 +16,15 @@ SHOWN_ROWS = 4
 _RING = np.exp(1j * np.linspace(0, turn, 73))
 
 
-def figures(found: WarpTensionAnalysis) -> tuple[Figure, ...]:
+def figures(analysis: WarpTensionAnalysis) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    design, params = found.design, found.design.params
+    design, params = analysis.design, analysis.design.params
     inertia = float(uniform.tube_inertia(design.outer_radius, design.inner_radius))
     load = design.load + design.self_weight
     line = deflection_plot(load, params.span, params.modulus, inertia, params.deflection_limit)
     section = tube_drawing(design.outer_radius, design.inner_radius, design.outer_radius_min)
     of_one = (replace(figure, name=f"warp-tension-{figure.name}") for figure in (line, section))
-    return (side_view(found), moving(found), *of_one, _tension_plot(found))
+    return (side_view(analysis), moving(analysis), *of_one, _tension_plot(analysis))
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,9 +35,9 @@ class _Side:
     path: ComplexArray
 
 
-def _side(found: WarpTensionAnalysis) -> _Side:
-    params, (upper, lower, spacer) = found.design.params, found.cylinders
-    height, back = params.free_length, 4 * found.design.outer_radius
+def _side(analysis: WarpTensionAnalysis) -> _Side:
+    params, (upper, lower, spacer) = analysis.design.params, analysis.cylinders
+    height, back = params.free_length, 4 * analysis.design.outer_radius
     arc = np.exp(1j * np.linspace(0.0, params.spacer_wrap, 25))
     middle = {"spacer": -spacer.outer + 1j * height, "lower": -lower.outer + 0j}
     leaves = middle["spacer"] + spacer.outer * arc[-1]
@@ -47,12 +47,12 @@ def _side(found: WarpTensionAnalysis) -> _Side:
     return _Side(middle, path)
 
 
-def side_view(found: WarpTensionAnalysis) -> Drawing:
+def side_view(analysis: WarpTensionAnalysis) -> Drawing:
     """The three cylinders from the side, to scale, with the path of the warps and the loads."""
-    side, height = _side(found), found.design.params.free_length
-    longest = max(abs(one.load) for one in found.cylinders)
+    side, height = _side(analysis), analysis.design.params.free_length
+    longest = max(abs(cylinder.load) for cylinder in analysis.cylinders)
     strokes = [Stroke(side.path, "yarn", "warps")]
-    for one in found.cylinders:
+    for one in analysis.cylinders:
         at = side.middle[one.name]
         force = format_quantity(abs(one.load), "kN", 3)
         load = at + np.array([0.0, one.load / longest * height / 3])
@@ -62,13 +62,13 @@ def side_view(found: WarpTensionAnalysis) -> Drawing:
     return Drawing("warp-tension-side", "The three cylinders from the side", tuple(strokes), unit="m", note=note)
 
 
-def moving(found: WarpTensionAnalysis) -> Animation:
+def moving(analysis: WarpTensionAnalysis) -> Animation:
     """A turn of the lower cylinder, take-ups joined to a steady motion: warps, and how far both cylinders turn.
 
     The lower cylinder winds the length w of carpet, the upper one releases w (1 + crimp); the spacer stands still.
     """
-    at, side, params = frames(), _side(found), found.design.params
-    upper, lower, _ = found.cylinders
+    at, side, params = frames(), _side(analysis), analysis.design.params
+    upper, lower, _ = analysis.cylinders
     woven = lower.outer * at
     released = woven * (1 + params.crimp)
     turned = {"lower": at, "upper": released / upper.outer}
@@ -76,7 +76,7 @@ def moving(found: WarpTensionAnalysis) -> Animation:
         Stroke(side.path, "yarn", "warps"),
         *(
             Stroke(side.middle[one.name] + one.outer * _RING, "outline", one.name, closed=True, filled=True)
-            for one in found.cylinders
+            for one in analysis.cylinders
         ),
     )
     spokes = tuple(
@@ -85,7 +85,7 @@ def moving(found: WarpTensionAnalysis) -> Animation:
             "path",
             f"{one.name} cylinder",
         )
-        for one in found.cylinders
+        for one in analysis.cylinders
         if one.name in turned
     )
     marks = MovingDot(_along(side.path, released), "", "point")
@@ -110,11 +110,11 @@ def _along(path: ComplexArray, released: FloatArray) -> ComplexArray:
     return np.asarray(np.interp(released, run, path[::-1].real) + 1j * np.interp(released, run, path[::-1].imag))
 
 
-def _tension_plot(found: WarpTensionAnalysis) -> Plot:
+def _tension_plot(analysis: WarpTensionAnalysis) -> Plot:
     """Tension of a warp over some rows."""
-    rows = max(SHOWN_ROWS, found.design.params.rows_between + 1)
-    at, over = history(found.design, rows)
-    rest = Series("required", np.array([0.0, float(rows)]), np.full(2, found.tension.over.rest), dashed=True)
+    rows = max(SHOWN_ROWS, analysis.design.params.rows_between + 1)
+    at, over = history(analysis.design, rows)
+    rest = Series("required", np.array([0.0, float(rows)]), np.full(2, analysis.tension.over.rest), dashed=True)
     note = "rises by the crimp of the warps; peaks: its shed; falls at the take-up, where the upper cylinder releases"
     title = "Tension of a warp over the rows"
     series = (Series("a warp", at, over), rest)

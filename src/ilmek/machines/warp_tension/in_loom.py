@@ -35,7 +35,7 @@ def fit(task: LoomTask) -> WarpTensionParams:
     return replace(derived, tube=USUAL)
 
 
-def work(made: WarpTensionDesign) -> tuple[Work, ...]:
+def work(design: WarpTensionDesign) -> tuple[Work, ...]:
     """The work of taking up the carpet against the pull of the warps, the reducer's losses included."""
-    params = made.params
-    return (Work("take-up", params.cloth.pull * params.carpet_length / made.reducer.efficiency, "carpet"),)
+    params = design.params
+    return (Work("take-up", params.cloth.pull * params.carpet_length / design.reducer.efficiency, "carpet"),)

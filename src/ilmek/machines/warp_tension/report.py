@@ -25,9 +25,9 @@ STEP_SHARE = 0.05
 SHOWN_TUBES = 8
 
 
-def checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
+def checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
     """Cylinder and drive, spacer, bearings, shaft ends, slots and the warp's strength."""
-    return (*_design_checks(found.design), *_cylinder_checks(found))
+    return (*_design_checks(analysis.design), *_cylinder_checks(analysis))
 
 
 TUBE_CURE = "set a larger tube, a lower tension, or a narrower loom"
@@ -61,39 +61,39 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
     )
 
 
-def _cylinder_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
-    params, spacer, case = found.design.params, found.spacer, f"worst case: {found.design.loads.worst_case}"
+def _cylinder_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
+    params, spacer, case = analysis.design.params, analysis.spacer, f"worst case: {analysis.design.loads.worst_case}"
     under = f"under the slots; {case}"
     return (
         at_most("slope of the spacer", spacer.slope, params.slope_limit, "rad", under).with_cure(SPACER_CURE, *_SPACER),
         at_most("deflection of the spacer", spacer.deflection, params.deflection_limit, "mm", under).with_cure(
             SPACER_CURE, *_SPACER
         ),
-        *_end_checks(found, case),
-        *attachment_checks(params, cylinders(found.design)[:2]),
-        *_warp_checks(found),
+        *_end_checks(analysis, case),
+        *attachment_checks(params, cylinders(analysis.design)[:2]),
+        *_warp_checks(analysis),
     )
 
 
-def _slope_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
+def _slope_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
     """Slopes of the cylinders within their limit, but more than the kinds of their bearings allow."""
     return tuple(
         at_most(
             f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"
         ).with_cure("set a stiffer tube", part_id(f"{one.name}-bearing"))
-        for one in found.cylinders
-        if slope_limit(one.bearing) < one.slope <= found.design.params.slope_limit
+        for one in analysis.cylinders
+        if slope_limit(one.bearing) < one.slope <= analysis.design.params.slope_limit
     )
 
 
-def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
+def _end_checks(analysis: WarpTensionAnalysis, case: str) -> Iterator[Check]:
     """Bearings, shaft ends and keys of the cylinders."""
-    params = found.design.params
-    tired = min(found.cylinders, key=lambda one: one.static_safety)
-    weak = min(found.cylinders, key=lambda one: one.stub_safety)
-    notched = min(found.cylinders, key=lambda one: one.end.safety)
+    params = analysis.design.params
+    tired = min(analysis.cylinders, key=lambda one: one.static_safety)
+    weak = min(analysis.cylinders, key=lambda one: one.stub_safety)
+    notched = min(analysis.cylinders, key=lambda one: one.end.safety)
     larger = "set a larger bearing, or a lower tension"
-    yield from _slope_checks(found)
+    yield from _slope_checks(analysis)
     yield at_least(
         f"static safety, {tired.bearing.name}", tired.static_safety, params.static_safety, "1", f"ISO 76; {case}"
     ).with_cure(larger, part_id(f"{tired.name}-bearing"))
@@ -109,16 +109,16 @@ def _end_checks(found: WarpTensionAnalysis, case: str) -> Iterator[Check]:
         f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
     ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end"))
     yield from (
-        one.driven_end.check(f"{one.name} cylinder", larger, (part_id(f"{one.name}-key"),))
-        for one in found.cylinders
-        if one.torque > 0
+        cylinder.driven_end.check(f"{cylinder.name} cylinder", larger, (part_id(f"{cylinder.name}-key"),))
+        for cylinder in analysis.cylinders
+        if cylinder.torque > 0
     )
 
 
-def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
+def _warp_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
     """The warps in their slots, and their strength."""
-    params, slots, tension = found.design.params, found.slots, found.tension
-    metal = found.spacer_wall - slots.depth
+    params, slots, tension = analysis.design.params, analysis.slots, analysis.tension
+    metal = analysis.spacer_wall - slots.depth
     breaks = "breaking force of the warp"
     step = STEP_SHARE * params.cloth.warp_tension
     return (
@@ -133,7 +133,7 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
         at_most("tension with the shed open", tension.over.shed, tension.breaking, "N", breaks).with_cure(
             "set a lower tension or lift, or thicker warps"
         ),
-        at_most("tension at the beat", found.design.loads.beat, tension.breaking, "N", breaks).with_cure(
+        at_most("tension at the beat", analysis.design.loads.beat, tension.breaking, "N", breaks).with_cure(
             "set a lower tension, or thicker warps"
         ),
         at_most("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension").with_cure(
@@ -142,9 +142,9 @@ def _warp_checks(found: WarpTensionAnalysis) -> tuple[Check, ...]:
     )
 
 
-def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
+def warnings(analysis: WarpTensionAnalysis) -> tuple[str, ...]:
     """Drives that do not hold the warps or are too weak."""
-    design, made = found.design, []
+    design, made = analysis.design, []
     params, efficiency = design.params, format_number(design.params.efficiency)
     if params.self_locking and not design.reducer.self_locking:
         needed = format_quantity(design.torque_full / (design.reducer.ratio * LOCKING), "Nm")
@@ -157,12 +157,12 @@ def warnings(found: WarpTensionAnalysis) -> tuple[str, ...]:
     return tuple(made)
 
 
-def tables(found: WarpTensionAnalysis) -> tuple[Table, ...]:
+def tables(analysis: WarpTensionAnalysis) -> tuple[Table, ...]:
     """The three cylinders, stock tubes, bearings, the thesis' tubes, reducers."""
-    design = found.design
+    design = analysis.design
     stock, bearings = _stock_table(design), _bearing_table(design)
     loads = _loads_table(design.loads)
-    return loads, _cylinder_table(found.cylinders), stock, bearings, _tube_table(design), _efficiency_table(design)
+    return loads, _cylinder_table(analysis.cylinders), stock, bearings, _tube_table(design), _efficiency_table(design)
 
 
 def _loads_table(loads: WarpLoads) -> Table:

@@ -73,7 +73,7 @@ def _bodies(
     far = params.span / 2 + params.stub
     rim, journal = min(RIM, params.stub / 2), seat.bearing.bore
     steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
-    shape = stepped(*(one for one in steps if min(one) > 0), (journal, params.stub - rim + seat.through))
+    shape = stepped(*(step for step in steps if min(step) > 0), (journal, params.stub - rim + seat.through))
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
     keyed, outer = cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
     grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
@@ -119,7 +119,7 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
 
 def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
     """Reducer and motor: one of each for each of the three cylinders [thesis 3.1]."""
-    end = max((one.driven_end for one in cylinders(design)), key=lambda one: (one.diameter, one.length))
+    end = max((cylinder.driven_end for cylinder in cylinders(design)), key=lambda one: (one.diameter, one.length))
     geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor, end)
     torque, speed = design.motor_torque, design.motor_speed
     return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)

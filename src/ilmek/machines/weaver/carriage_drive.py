@@ -168,7 +168,7 @@ def motor_corner(weaver: Weaver, drive: CarriageDrive) -> complex:
 
 def drive_mass(weaver: Weaver, drive: CarriageDrive) -> float:
     """Mass of what the drive adds to the head [kg]."""
-    return math.fsum(len(one.positions) * one.part.mass for one in drive_parts(weaver, drive))
+    return math.fsum(len(drive_part.positions) * drive_part.part.mass for drive_part in drive_parts(weaver, drive))
 
 
 def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float) -> Iterator[Occurrence]:

@@ -76,14 +76,14 @@ def analyse(weaver: Weaver) -> WeaverAnalysis:
     return WeaverAnalysis(weaver, grippers, weaver.opener, weaver.magazine, cams, weaver.drive, head_limits(weaver))
 
 
-def checks(found: WeaverAnalysis) -> tuple[Check, ...]:
+def checks(analysis: WeaverAnalysis) -> tuple[Check, ...]:
     """The checks of a head."""
-    return head_checks(found.weaver, found.limits)
+    return head_checks(analysis.weaver, analysis.limits)
 
 
-def warnings(found: WeaverAnalysis) -> tuple[str, ...]:
+def warnings(analysis: WeaverAnalysis) -> tuple[str, ...]:
     """A knot that the thesis' mechanism does not tie; more yarn drawn than billed."""
-    weaver = found.weaver
+    weaver = analysis.weaver
     params, warned = weaver.params, []
     if weaver.knot_tied != params.knot and not params.with_arms:
         warned.append(
@@ -102,9 +102,9 @@ def warnings(found: WeaverAnalysis) -> tuple[str, ...]:
     return tuple(warned)
 
 
-def tables(found: WeaverAnalysis) -> tuple[Table, ...]:
+def tables(analysis: WeaverAnalysis) -> tuple[Table, ...]:
     """Greatest values of the tracks, cams, motions."""
-    weaver = found.weaver
+    weaver = analysis.weaver
     tracks = weaver.tools
     heads = columns(
         "track", "driven by", "stroke [mm]", "largest speed [m/s]", "largest acceleration [m/s^2]", "shortest cycle [s]"
@@ -133,9 +133,9 @@ def _room_table(weaver: Weaver) -> Table:
     return Table("head-width", "Width of the head by its contents", columns("content", "width [mm]"), rows)
 
 
-def figures(found: WeaverAnalysis) -> tuple[Figure, ...]:
+def figures(analysis: WeaverAnalysis) -> tuple[Figure, ...]:
     """Cyclogram, grippers in plan view and in motion, cams, accelerations, torque."""
-    weaver = found.weaver
+    weaver = analysis.weaver
     return (
         timing(weaver),
         *(() if weaver.params.with_arms else (plan_view(weaver), animation(weaver))),

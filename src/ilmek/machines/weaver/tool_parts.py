@@ -259,12 +259,12 @@ class _Wall(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def _masses(made: ToolBodies) -> Mapping[str, float]:
+def _masses(bodies: ToolBodies) -> Mapping[str, float]:
     """Mass that each track moves [kg]."""
     masses: dict[str, float] = {}
-    for track, body in made.bodies():
+    for track, body in bodies.bodies():
         masses[track] = masses.get(track, 0.0) + body.moments.zeroth
-    return {**masses, HANDLER: made.handler_arm.mass}
+    return {**masses, HANDLER: bodies.handler_arm.mass}
 
 
 def _sliding(

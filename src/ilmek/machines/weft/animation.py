@@ -11,20 +11,20 @@ FRAMES = 30
 """Frames of a passage."""
 
 
-def moving(made: Weft, plan: Drawing, cells: tuple[float, float]) -> Animation:
+def moving(weft: Weft, plan: Drawing, cells: tuple[float, float]) -> Animation:
     """Both shuttles over two rows, or the rapier there and back, in plan.
 
     plan    what stands still
     cells   positions across the width of the plan of the first and of the second carrier [m]
     """
-    passage = made.passage
+    passage = weft.passage
     time = np.arange(FRAMES) * (passage.time / FRAMES)
     motion = passage.at(time)
-    if isinstance(made.carried, Shuttle):
-        strokes, motion = _shuttles(made, made.carried, motion, cells)
+    if isinstance(weft.carried, Shuttle):
+        strokes, motion = _shuttles(weft, weft.carried, motion, cells)
         passages = 4
     else:
-        strokes, passages = _rapier(made, made.carried.length, motion, cells[0]), 1
+        strokes, passages = _rapier(weft, weft.carried.length, motion, cells[0]), 1
     at = np.arange(passages * FRAMES) * (passage.time / FRAMES)
     readings = (
         Reading("position of the carrier", motion[0], "mm"),
@@ -36,14 +36,14 @@ def moving(made: Weft, plan: Drawing, cells: tuple[float, float]) -> Animation:
 
 
 def _shuttles(
-    made: Weft, carried: Shuttle, motion: FloatArray, cells: tuple[float, float]
+    weft: Weft, carried: Shuttle, motion: FloatArray, cells: tuple[float, float]
 ) -> tuple[tuple[MovingStroke, ...], FloatArray]:
     """Two rows: the straight weft to the right, the sinuous weft to the left, and both back; motion of the moving one.
 
     A shuttle waits in its box while the other passes.
     """
-    distance, cloth = motion[0], made.params.cloth.width
-    stroke, rest = float(made.passage.stroke), np.zeros(FRAMES)
+    distance, cloth = motion[0], weft.params.cloth.width
+    stroke, rest = float(weft.passage.stroke), np.zeros(FRAMES)
     there, back = distance, stroke - distance
     straight = np.concatenate([there, rest + stroke, back, rest])
     sinuous = np.concatenate([rest + stroke, back, rest, there])
@@ -55,7 +55,7 @@ def _shuttles(
         ("straight weft", straight, cells[0], [0.0, cloth, cloth, 0.0]),
         ("sinuous weft", sinuous, cells[1], [cloth, cloth, 0.0, 0.0]),
     ):
-        middle = where - made.passage.run + 1j * height
+        middle = where - weft.passage.run + 1j * height
         strokes += [
             MovingStroke(np.stack([np.repeat(edges, FRAMES) + 0j, middle], axis=1), "path", label),
             MovingStroke(middle[:, None] + _box(carried.length, cells), "outline", closed=True),

@@ -195,29 +195,29 @@ def _friction(params: WeftParams, carried: Carrier) -> float:
     return params.cloth.yarns.friction * carried.mass * GRAVITY
 
 
-def _room_check(made: Weft) -> Check:
-    title = f"room of the {made.params.carrier} beside the cloth"
-    return at_most(title, made.side_room, made.params.room, "m", "assumed by this project: parameter room").with_cure(
+def _room_check(weft: Weft) -> Check:
+    title = f"room of the {weft.params.carrier} beside the cloth"
+    return at_most(title, weft.side_room, weft.params.room, "m", "assumed by this project: parameter room").with_cure(
         "set more weft.room, or weft=shuttle", CARRIAGE, AXIS
     )
 
 
-def _tension_checks(made: Weft) -> tuple[Check, ...]:
-    yarns = made.params.cloth.carpet_yarns
+def _tension_checks(weft: Weft) -> tuple[Check, ...]:
+    yarns = weft.params.cloth.carpet_yarns
     source = "share of the breaking force, assumed by this project: parameter tension_share"
     breaks = {"straight weft": yarns.straight_weft.breaking_force, "sinuous weft": yarns.sinuous_weft.breaking_force}
     cure = "set a lower weft.speed, weft.acceleration or weft.brake, or a heavier weft"
-    pulled = (BOBBIN,) if made.params.carrier == SHUTTLE else (GRIPPER,)
+    pulled = (BOBBIN,) if weft.params.carrier == SHUTTLE else (GRIPPER,)
     return tuple(
-        at_most(f"tension of the {name}", tension, made.params.tension_share * breaks[name], "N", source).with_cure(
+        at_most(f"tension of the {name}", tension, weft.params.tension_share * breaks[name], "N", source).with_cure(
             cure, *pulled
         )
-        for name, tension in made.tension.items()
+        for name, tension in weft.tension.items()
     )
 
 
-def _axis_checks(made: Weft) -> tuple[Check, ...]:
-    axis, passage, params = made.axis, made.passage, made.params
+def _axis_checks(weft: Weft) -> tuple[Check, ...]:
+    axis, passage, params = weft.axis, weft.passage, weft.params
     reserve = axis.drive.duty.reserve if axis.drive else 0.0
     cure, moved = "set a lower weft.acceleration or weft.speed", (CARRIAGE,)
     return (

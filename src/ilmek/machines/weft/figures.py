@@ -14,15 +14,15 @@ MOST_ROWS = 400
 """Rows over which the weft on a bobbin is drawn."""
 
 
-def figures(made: Weft) -> tuple[Figure, ...]:
+def figures(weft: Weft) -> tuple[Figure, ...]:
     """All figures, in the order of the report."""
-    wound = (bobbin_plot(made),) if made.bobbins else ()
-    return (shed_drawing(made), plan_drawing(made), moving_plan(made), *motion_plots(made), *wound)
+    wound = (bobbin_plot(weft),) if weft.bobbins else ()
+    return (shed_drawing(weft), plan_drawing(weft), moving_plan(weft), *motion_plots(weft), *wound)
 
 
-def shed_drawing(made: Weft) -> Drawing:
+def shed_drawing(weft: Weft) -> Drawing:
     """The carrier in the open shed, which is as wide at its lower edge as the carrier needs: a wedge from the fell."""
-    params, carried = made.params, made.carried
+    params, carried = weft.params, weft.carried
     wide, opening = carried.opening, params.open_share * params.lift
     above = 2.5 * carried.width
     span = above / max(1 - wide / opening, 0.1)
@@ -39,28 +39,28 @@ def shed_drawing(made: Weft) -> Drawing:
         Stroke(carrier, "outline", params.carrier, closed=True),
         Stroke(np.array([0, opening]) + 1.1j * span, "dimension", format_quantity(opening, "mm", 3)),
         Stroke(np.array([0, wide]) + 1j * low, "dimension", format_quantity(wide, "mm", 3)),
-        *_wound(made, middle),
+        *_wound(weft, middle),
     )
     note = "as near to the fell as it has room; in a loom the side view states where it runs"
     return Drawing("weft-shed", "The carrier in the open shed, from the side", strokes, note=note)
 
 
-def _wound(made: Weft, middle: complex) -> tuple[Stroke, ...]:
+def _wound(weft: Weft, middle: complex) -> tuple[Stroke, ...]:
     """The bobbin in the shuttle, or the tube of the rapier."""
     circle = np.exp(2j * np.pi * np.arange(49) / 48)
-    if isinstance(made.carried, Shuttle):
-        size = made.carried.bobbin
+    if isinstance(weft.carried, Shuttle):
+        size = weft.carried.bobbin
         return tuple(Stroke(middle + circle * r / 2, "path") for r in (size.diameter, size.core))
-    tall, wide, _ = made.carried.tube
+    tall, wide, _ = weft.carried.tube
     corners = np.array([-wide - 1j * tall, wide - 1j * tall, wide + 1j * tall, -wide + 1j * tall]) / 2
     return (Stroke(middle + corners, "path", closed=True),)
 
 
-def plan_drawing(made: Weft) -> Drawing:
+def plan_drawing(weft: Weft) -> Drawing:
     """Cloth, carriers at rest and their room, seen along the warps; depth drawn larger."""
-    cloth, edge, deep = made.params.cloth.width, made.params.edge, _depth(made)
-    carried = made.carried
-    strokes = [*_standing(made), Stroke(np.array([0, cloth]) - 2j * deep, "dimension", format_quantity(cloth, "m"))]
+    cloth, edge, deep = weft.params.cloth.width, weft.params.edge, _depth(weft)
+    carried = weft.carried
+    strokes = [*_standing(weft), Stroke(np.array([0, cloth]) - 2j * deep, "dimension", format_quantity(cloth, "m"))]
     if isinstance(carried, Shuttle):
         length = carried.length
         left = -edge - length
@@ -81,26 +81,26 @@ def plan_drawing(made: Weft) -> Drawing:
     return Drawing("weft-plan", "The weft side in plan", tuple(strokes), unit="m", note=f"{note}; true along the width")
 
 
-def moving_plan(made: Weft) -> Animation:
+def moving_plan(weft: Weft) -> Animation:
     """The plan in motion."""
-    shuttles = isinstance(made.carried, Shuttle)
+    shuttles = isinstance(weft.carried, Shuttle)
     note = "two rows, without the time between the passages" if shuttles else "one passage"
     note = f"{note}; true along the width"
-    still = Drawing("weft-moving", "The weft side in motion", tuple(_standing(made)), unit="m", note=note)
-    return moving(made, still, (0.5 * _depth(made), 1.5 * _depth(made)))
+    still = Drawing("weft-moving", "The weft side in motion", tuple(_standing(weft)), unit="m", note=note)
+    return moving(weft, still, (0.5 * _depth(weft), 1.5 * _depth(weft)))
 
 
-def _depth(made: Weft) -> float:
+def _depth(weft: Weft) -> float:
     """Depth of a cell in plan, drawn larger [m]."""
-    return 0.06 * made.params.cloth.width
+    return 0.06 * weft.params.cloth.width
 
 
-def _standing(made: Weft) -> list[Stroke]:
+def _standing(weft: Weft) -> list[Stroke]:
     """What stands still in plan: cloth, and the boxes of shuttles or the drive and the packages of a rapier."""
-    cloth, edge, deep = made.params.cloth.width, made.params.edge, _depth(made)
-    length = made.carried.length
+    cloth, edge, deep = weft.params.cloth.width, weft.params.edge, _depth(weft)
+    length = weft.carried.length
     strokes = [_box((0.0, cloth, -deep, 0.0), "yarn", "cloth")]
-    if isinstance(made.carried, Shuttle):
+    if isinstance(weft.carried, Shuttle):
         bay = length + BOX_END
         return [
             *strokes,
@@ -121,15 +121,15 @@ def _box(bounds: tuple[float, float, float, float], role: str, label: str) -> St
     return Stroke(corners, role, label, closed=True)
 
 
-def motion_plots(made: Weft) -> tuple[Plot, Plot]:
+def motion_plots(weft: Weft) -> tuple[Plot, Plot]:
     """Position, and speed, of the carrier over the time of its shortest passage."""
-    passage = made.passage
+    passage = weft.passage
     time = np.linspace(0.0, passage.time, 361)
     position, speed, _, _ = passage.at(time)
     cloth = np.array([0.0, passage.time])
     edges = tuple(
         Series(name, cloth, np.full(2, at), dashed=True)
-        for name, at in (("edge", passage.run), ("other edge", passage.run + made.params.cloth.width))
+        for name, at in (("edge", passage.run), ("other edge", passage.run + weft.params.cloth.width))
     )
     over = Axis("time", "s")
     place = Axis("position", "mm")
@@ -140,7 +140,7 @@ def motion_plots(made: Weft) -> tuple[Plot, Plot]:
             "Position of the carrier over a passage",
             over,
             place,
-            (Series(made.params.carrier, time, position), *edges),
+            (Series(weft.params.carrier, time, position), *edges),
             note=note,
         ),
         Plot(
@@ -148,16 +148,16 @@ def motion_plots(made: Weft) -> tuple[Plot, Plot]:
             "Speed of the carrier over a passage",
             over,
             Axis("speed", "m/s"),
-            (Series(made.params.carrier, time, speed),),
+            (Series(weft.params.carrier, time, speed),),
         ),
     )
 
 
-def bobbin_plot(made: Weft) -> Plot:
+def bobbin_plot(weft: Weft) -> Plot:
     """Weft left on the bobbins over the rows: each row takes its length, each stop brings a full one."""
-    assert isinstance(made.carried, Shuttle)
-    last = min(made.params.rows, MOST_ROWS)
-    series = tuple(_left(one, last) for one in made.carried.windings)
+    assert isinstance(weft.carried, Shuttle)
+    last = min(weft.params.rows, MOST_ROWS)
+    series = tuple(_left(winding, last) for winding in weft.carried.windings)
     axes = Axis("rows of knots woven"), Axis("weft on the bobbin", "m")
     return Plot("weft-bobbins", "Weft on the bobbins", *axes, series, note="each jump is a stop of the loom")
 

@@ -73,9 +73,9 @@ def carriage(params: WeftParams, made: Shuttle, row: LinearGuide) -> Part:
     return Part(CARRIAGE, "carriage of the shuttle", "machined link", text, shape, ALUMINIUM)
 
 
-def carriage_length(params: WeftParams, made: Shuttle) -> float:
+def carriage_length(params: WeftParams, shuttle: Shuttle) -> float:
     """Length of the carriage: over its magnets [m]."""
-    return made.bobbin.length + 2 * (params.wall + magnet_sides(params, made.bobbin.diameter)[0] + COVER)
+    return shuttle.bobbin.length + 2 * (params.wall + magnet_sides(params, shuttle.bobbin.diameter)[0] + COVER)
 
 
 @record

@@ -41,10 +41,10 @@ def fit(task: LoomTask) -> WeftParams:
     )
 
 
-def work(made: Weft) -> tuple[Work, ...]:
+def work(weft: Weft) -> tuple[Work, ...]:
     """The work of a passage, and of the carriage's empty run to the other edge after every row of a shuttle."""
-    name, carried = made.params.carrier, made.carried
-    passage = Work(name, made.passage_energy, "pass")
+    name, carried = weft.params.carrier, weft.carried
+    passage = Work(name, weft.passage_energy, "pass")
     if not isinstance(carried, Shuttle):
         return (passage,)
-    return passage, Work(name, 0.5 * (made.axis.mass - carried.full) * made.passage.speed**2, "row")
+    return passage, Work(name, 0.5 * (weft.axis.mass - carried.full) * weft.passage.speed**2, "row")

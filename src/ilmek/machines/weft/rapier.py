@@ -105,33 +105,33 @@ def _rapier(params: WeftParams, tall: float) -> Rapier:
     )
 
 
-def size_checks(params: WeftParams, made: Rapier, acceleration: float) -> tuple[Check, ...]:
+def size_checks(params: WeftParams, rapier: Rapier, acceleration: float) -> tuple[Check, ...]:
     """The checks that the tube decides."""
     return (
         at_most(
             "sag of the rapier",
-            made.sag,
+            rapier.sag,
             params.sag_limit,
             "mm",
             "a cantilever from the edge; assumed by this project: parameter sag_limit",
         ).with_cure("set weft=shuttle or a narrower carpet", RAPIER_TUBE),
         at_least(
             "safety of the rapier against buckling",
-            made.buckling / (made.mass * acceleration),
+            rapier.buckling / (rapier.mass * acceleration),
             BUCKLING,
             "1",
             "Euler, one end clamped; safety 3, assumed by this project",
         ).with_cure("set a lower weft.acceleration or weft=shuttle", RAPIER_TUBE),
-        shed_check(params, made.opening, "weft=shuttle", RAPIER_TUBE),
+        shed_check(params, rapier.opening, "weft=shuttle", RAPIER_TUBE),
     )
 
 
-def rapier_checks(params: WeftParams, made: Rapier, acceleration: float, tension: float) -> tuple[Check, ...]:
+def rapier_checks(params: WeftParams, rapier: Rapier, acceleration: float, tension: float) -> tuple[Check, ...]:
     """All checks of the rapier at an acceleration [m/s²] and a tension of the weft [N]."""
     holds = 2 * params.cloth.yarns.friction * params.grip_force
     tucked = params.turn / 2 / params.cloth.warp_pitch
     return (
-        *size_checks(params, made, acceleration),
+        *size_checks(params, rapier, acceleration),
         at_most(
             "pull of the weft in the gripper",
             params.safety * tension,

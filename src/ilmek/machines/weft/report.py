@@ -11,25 +11,25 @@ MOST_STOPS = 200
 """Largest number of stops in the table."""
 
 
-def results(made: Weft) -> tuple[object, ...]:
+def results(weft: Weft) -> tuple[object, ...]:
     """The records whose results are reported."""
-    return (made, made.carried, made.passage, made.axis)
+    return (weft, weft.carried, weft.passage, weft.axis)
 
 
-def warnings(made: Weft) -> tuple[str, ...]:
+def warnings(weft: Weft) -> tuple[str, ...]:
     """An edge without a selvedge."""
-    if made.params.edge_warps:
+    if weft.params.edge_warps:
         return ()
     return ("an edge has no selvedge warp: the wefts turn about warps with knots",)
 
 
-def tables(made: Weft) -> tuple[Table, ...]:
+def tables(weft: Weft) -> tuple[Table, ...]:
     """Carriers, and for shuttles bobbins and stops."""
-    carriers = (_carriers(made),) if made.alternatives else ()
-    return (*carriers, *((_bobbins(made), _stops(made)) if made.params.carrier == SHUTTLE else ()))
+    carriers = (_carriers(weft),) if weft.alternatives else ()
+    return (*carriers, *((_bobbins(weft), _stops(weft)) if weft.params.carrier == SHUTTLE else ()))
 
 
-def _carriers(made: Weft) -> Table:
+def _carriers(weft: Weft) -> Table:
     heads = columns("carrier", "price", "wefts and stops [h]", "passage [s]", "room beside the cloth [m]", "fails")
     rows = tuple(
         (
@@ -40,19 +40,19 @@ def _carriers(made: Weft) -> Table:
             one.side_room,
             ", ".join(check.name for check in one.checks if not check.ok) or "nothing",
         )
-        for one in (made, *made.alternatives)
+        for one in (weft, *weft.alternatives)
     )
     return Table("weft-carriers", "Carriers of the weft", heads, rows)
 
 
-def _bobbins(made: Weft) -> Table:
+def _bobbins(weft: Weft) -> Table:
     """Rows that bobbins of all sizes last."""
-    carried, params = made.carried, made.params
+    carried, params = weft.carried, weft.params
     own = {carried.bobbin.diameter: carried.bobbin} if isinstance(carried, Shuttle) else {}
     usual = {one.diameter: one for one in stock_sizes()}
     rows = []
     for size in dict(sorted({**usual, **own}.items())).values():
-        straight, sinuous = windings(params, size, made.lengths)
+        straight, sinuous = windings(params, size, weft.lengths)
         rows.append((size.diameter, size.length, straight.capacity, straight.rows, sinuous.capacity, sinuous.rows))
     heads = columns(
         "bobbin [mm]", "length [mm]", "straight weft [m]", "lasts rows", "sinuous weft [m]", "sinuous lasts rows"
@@ -60,9 +60,9 @@ def _bobbins(made: Weft) -> Table:
     return Table("weft-bobbins", "Bobbins: length of weft, and rows that it lasts", heads, tuple(rows))
 
 
-def _stops(made: Weft) -> Table:
+def _stops(weft: Weft) -> Table:
     heads = columns("before row", "new bobbins", "time [s]")
-    first = MOST_STOPS * min(one.rows for one in made.bobbins) + 1
-    stops = change_stops(made.bobbins, min(first, made.params.rows))[:MOST_STOPS]
-    rows = tuple((one.row + 1, " and ".join(one.yarns), one.time) for one in stops)
+    first = MOST_STOPS * min(bobbin.rows for bobbin in weft.bobbins) + 1
+    stops = change_stops(weft.bobbins, min(first, weft.params.rows))[:MOST_STOPS]
+    rows = tuple((stop.row + 1, " and ".join(stop.yarns), stop.time) for stop in stops)
     return Table("weft-stops", "Stops for new bobbins, rows from the bottom", heads, rows)

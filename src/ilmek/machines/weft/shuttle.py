@@ -53,11 +53,11 @@ class Shuttle:
 
     @computed("m", "length of each weft on a full bobbin")
     def capacity(self) -> dict[str, float]:
-        return {one.name: one.capacity for one in self.windings}
+        return {winding.name: winding.capacity for winding in self.windings}
 
     @computed("1", "rows that a bobbin of each weft lasts")
     def rows_of_a_bobbin(self) -> dict[str, int]:
-        return {one.name: one.rows for one in self.windings}
+        return {winding.name: winding.rows for winding in self.windings}
 
     @property
     def width(self) -> float:
@@ -103,48 +103,48 @@ def _unweighed(params: WeftParams, size: BobbinSize, lengths: WeftLengths) -> Sh
     )
 
 
-def _weighed(params: WeftParams, made: Shuttle) -> Shuttle:
+def _weighed(params: WeftParams, shuttle: Shuttle) -> Shuttle:
     """The shuttle with the masses of its parts."""
-    magnets = PAIRS * magnet(params, made.bobbin).mass if params.nose > 0 else 0.0
-    empty = shuttle_wood(params, made.bobbin).mass + magnets + params.fittings
-    full = empty + bobbin(params, made.bobbin).mass + max(winding.mass for winding in made.windings)
-    return replace(made, empty=empty, full=full)
+    magnets = PAIRS * magnet(params, shuttle.bobbin).mass if params.nose > 0 else 0.0
+    empty = shuttle_wood(params, shuttle.bobbin).mass + magnets + params.fittings
+    full = empty + bobbin(params, shuttle.bobbin).mass + max(winding.mass for winding in shuttle.windings)
+    return replace(shuttle, empty=empty, full=full)
 
 
-def size_checks(params: WeftParams, made: Shuttle) -> tuple[Check, ...]:
+def size_checks(params: WeftParams, shuttle: Shuttle) -> tuple[Check, ...]:
     """The checks that the size of the bobbin decides."""
-    lasts = min(*(one.rows for one in made.windings), params.rows)
+    lasts = min(*(winding.rows for winding in shuttle.windings), params.rows)
     least = min(params.least_rows, params.rows)
     where = "assumed by this project: parameters least_rows, packing, reserve"
     cure = "set a higher lift, weft=rapier, or a smaller weft.least_rows"
     supports = "every second warp is lifted; three supports, assumed by this project"
     return (
         at_least("rows between two changes of a bobbin", lasts, least, "1", where).with_cure(cure, BOBBIN),
-        shed_check(params, made.opening, "a smaller weft.bobbin_diameter", SHUTTLE_WOOD),
-        at_least("lifted warps under the shuttle", made.supports, SUPPORTS, "1", supports).with_cure(
+        shed_check(params, shuttle.opening, "a smaller weft.bobbin_diameter", SHUTTLE_WOOD),
+        at_least("lifted warps under the shuttle", shuttle.supports, SUPPORTS, "1", supports).with_cure(
             "set a longer weft.bobbin_length", SHUTTLE_WOOD
         ),
         at_most(
             "gap that the shuttle bridges at the edge",
             params.edge + 2 * params.cloth.warp_pitch,
-            made.length / 2,
+            shuttle.length / 2,
             "mm",
             "its middle is supported until its tip bears on the first lifted warp",
         ).with_cure("set a smaller weft.edge or a longer bobbin", SHUTTLE_WOOD),
     )
 
 
-def shuttle_checks(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> tuple[Check, ...]:
+def shuttle_checks(params: WeftParams, shuttle: Shuttle, acceleration: float, tension: float) -> tuple[Check, ...]:
     """All checks of the shuttle at an acceleration [m/s²] and a tension of its weft [N]."""
-    return (*size_checks(params, made), magnet_check(params, made, acceleration, tension))
+    return (*size_checks(params, shuttle), magnet_check(params, shuttle, acceleration, tension))
 
 
-def magnet_check(params: WeftParams, made: Shuttle, acceleration: float, tension: float) -> Check:
+def magnet_check(params: WeftParams, shuttle: Shuttle, acceleration: float, tension: float) -> Check:
     """Whether the magnets drag the full shuttle at an acceleration [m/s²] and a tension of its weft [N]."""
     return at_most(
         "force on the shuttle's magnets",
-        params.safety * coupling_force(made, acceleration, tension),
-        made.coupling.hold,
+        params.safety * coupling_force(shuttle, acceleration, tension),
+        shuttle.coupling.hold,
         "N",
         "m a, tension and weight, by parameter safety; block magnets of the noses [Akoun and Yonnet, 1984]",
     ).with_cure(
@@ -153,9 +153,9 @@ def magnet_check(params: WeftParams, made: Shuttle, acceleration: float, tension
     )
 
 
-def friction(params: WeftParams, made: Shuttle) -> float:
+def friction(params: WeftParams, shuttle: Shuttle) -> float:
     """Friction of the shuttle on the warps [N]."""
-    return params.cloth.yarns.friction * made.coupling.pull
+    return params.cloth.yarns.friction * shuttle.coupling.pull
 
 
 def most_tension(params: WeftParams) -> float:
@@ -167,6 +167,6 @@ def most_tension(params: WeftParams) -> float:
     )
 
 
-def coupling_force(made: Shuttle, acceleration: float, tension: float) -> float:
+def coupling_force(shuttle: Shuttle, acceleration: float, tension: float) -> float:
     """Force on the magnets of the full shuttle, beside the friction of their own pull [N]."""
-    return math.hypot(made.full * acceleration + tension, made.full * GRAVITY)
+    return math.hypot(shuttle.full * acceleration + tension, shuttle.full * GRAVITY)

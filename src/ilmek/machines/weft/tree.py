@@ -78,21 +78,21 @@ class WeftBodies:
             raise TypeError("shuttles have a guide behind the warps")
         return RapierSide(self.params, self.carried, self.passage, self.axis)
 
-    def _shuttles(self, made: Shuttle) -> Iterator[RigidBody]:
+    def _shuttles(self, shuttle: Shuttle) -> Iterator[RigidBody]:
         """Both shuttles in their boxes, as a row begins, the carriage behind the left one, and what guides them."""
         wood, core, (fitted, eyes) = (
-            shuttle_wood(self.params, made.bobbin),
-            bobbin(self.params, made.bobbin),
-            fittings(self.params, made.bobbin),
+            shuttle_wood(self.params, shuttle.bobbin),
+            bobbin(self.params, shuttle.bobbin),
+            fittings(self.params, shuttle.bobbin),
         )
-        guide, wide = self.guide, made.bobbin.length
+        guide, wide = self.guide, shuttle.bobbin.length
         cells = guide.box()
         parts = [Occurrence(wood), Occurrence(fitted, eyes), Occurrence(core, (along(-wide / 2),))]
         if self.params.nose > 0:
-            backs = (placement(x, z=-made.depth / 2) for x in magnet_positions(self.params, made.bobbin))
-            parts.append(Occurrence(magnet(self.params, made.bobbin), tuple(backs)))
+            backs = (placement(x, z=-shuttle.depth / 2) for x in magnet_positions(self.params, shuttle.bobbin))
+            parts.append(Occurrence(magnet(self.params, shuttle.bobbin), tuple(backs)))
         half = guide.stroke / 2
-        yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, made)))
+        yield RigidBody(part_id("guide"), (*guide.standing(), *guide.slides(), self._spare(core, shuttle)))
         for name, side in ((LEFT_BOX, -1), (RIGHT_BOX, 1)):
             shifted = Joint(JointKind.SLIDE, (0.0, 1.0, 0.0), motor=BOX_MOTOR)
             yield RigidBody(name, (Occurrence(cells, (guide.box_position(side),)),), joint=shifted)
@@ -100,23 +100,23 @@ class WeftBodies:
         yield _sliding(SINUOUS, tuple(parts), placement(half, guide.pitch))
         yield _sliding(DRAGGING, tuple(guide.carried()), placement(-half), MOTOR)
 
-    def _spare(self, core: Part, made: Shuttle) -> Occurrence:
+    def _spare(self, core: Part, shuttle: Shuttle) -> Occurrence:
         """A wound bobbin for each shuttle, for the next change: on the ends of the bar, behind the boxes."""
-        guide, radius, wall = self.guide, made.bobbin.core / 2, self.params.wall
+        guide, radius, wall = self.guide, shuttle.bobbin.core / 2, self.params.wall
         depth = max((guide.front + guide.rear) / 2, guide.rear + radius)
-        starts = (wall - guide.box_end, guide.box_end - wall - made.bobbin.length)
+        starts = (wall - guide.box_end, guide.box_end - wall - shuttle.bobbin.length)
         return Occurrence(core, tuple(placement(x, radius, depth).after(along(0.0)) for x in starts))
 
 
 @lru_cache(maxsize=16)
-def _tree(made: WeftBodies) -> Tree:
+def _tree(bodies: WeftBodies) -> Tree:
     """The tree, made once for a design."""
     across, up = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
-    shuttles = (STRAIGHT, SINUOUS) if isinstance(made.carried, Shuttle) else ()
+    shuttles = (STRAIGHT, SINUOUS) if isinstance(bodies.carried, Shuttle) else ()
     # The magnets draw a shuttle along; the guide, and at the right edge the box, hold its height.
     drawn = (Closure(JointKind.TRANSMISSION, (DRAGGING, one), kept_by=(MAGNET,), along=across) for one in shuttles)
-    held = (Closure(JointKind.TRANSMISSION, (RIGHT_BOX, one), kept_by=(BOX,), along=up) for one in shuttles)
-    return Tree(tuple(made.bodies()), (*drawn, *held))
+    held = (Closure(JointKind.TRANSMISSION, (RIGHT_BOX, shuttle), kept_by=(BOX,), along=up) for shuttle in shuttles)
+    return Tree(tuple(bodies.bodies()), (*drawn, *held))
 
 
 def _sliding(name: str, parts: tuple[Occurrence, ...], start: Placement, motor: str = "") -> RigidBody:

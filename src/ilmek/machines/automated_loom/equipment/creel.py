@@ -1,8 +1,9 @@
 """The creel: a package of pile yarn on a peg for each tube of a head, its brake with a stop motion, and the conduits.
 
-It stands at the left side of the fence, outside of it, so that packages are changed while the loom weaves. Rows of pegs
-along the fence point to it; the yarn leaves its package over the nose, runs through the brake, and in a conduit of its
-own through the mesh, in a duct over the front foot, and in the energy chain of its head to its tube.
+It stands at the left side of the fence, or where a rapier runs out there at the right one, outside of the fence, so
+that packages are changed while the loom weaves. Rows of pegs along the fence point to it; the yarn leaves its package
+over the nose, runs through the brake, and in a conduit of its own through the mesh, in a duct over the front foot, and
+in the energy chain of its head to its tube.
 
 A package of the mass m, as long as it is thick, on a core of the diameter c:   pi (d² - c²) d rho / 4 = m    [volume]
 
@@ -21,6 +22,8 @@ from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.on_rail import CONDUIT_SIZE
+from ilmek.machines.weft.params import RAPIER
+from ilmek.part.extents import Extent
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -53,7 +56,8 @@ class Creel:
     size     diameter and length of a package [m]       pitch  of neighbours [m]
     rows     heights of their axes [m]                   columns  z of their axes, from the front [m]
     ends     of its rails, z [m]: past all columns, to a post of the fence
-    base     x of the packages' bases, their axes point to the right [m]
+    hand     side of the fence, -1 left, 1 right
+    base     x of the packages' bases, their axes point to the fence [m]
     inner    x of the rails' faces that carry the brakes [m]
     number   of packages                                 mouth  where the duct begins, x, y, z [m]
     duct     side of its section [m]                     duct_end  x of its end [m]
@@ -64,6 +68,7 @@ class Creel:
     rows: tuple[float, ...]
     columns: tuple[float, ...]
     ends: tuple[float, float]
+    hand: int
     base: float
     inner: float
     number: int
@@ -97,13 +102,15 @@ def creel_of(loom: LoomDesign) -> Creel:
     """The creel of a loom."""
     near, fence = surroundings(loom), fence_of(loom)
     size, number = package_size(loom.params.package_mass), loom.heads * loom.weaver.params.tubes
-    foot = near.of(part_id("front-foot"))[0]
+    hand = 1 if loom.weft.carrier == RAPIER else -1
+    foot = foot_under_duct(near, hand)
     side = max(LEAST_DUCT, math.ceil(CONDUIT_SIZE * math.sqrt(number / FILLED) / _STEP) * _STEP)
     low, high = trough_box(loom)
     height = max(float(low[1] + high[1]) / 2, float(foot.high[1]) + side)
-    end, start = float(foot.high[0]) + side / 2, fence.left
-    depth = _free_depth(near, (start, end), height, side, float(low[2] + high[2]) / 2)
-    pitch, inner = size + BETWEEN, fence.left - POST - POST
+    end = float(foot.high[0]) + side / 2 if hand < 0 else float(foot.low[0]) - side / 2
+    start = fence.left if hand < 0 else fence.right
+    depth = _free_depth(near, (min(start, end), max(start, end)), height, side, float(low[2] + high[2]) / 2)
+    pitch, inner = size + BETWEEN, start + hand * 2 * POST
     lowest = fence.floor + size / 2 + 2 * BETWEEN
     rows = np.arange(lowest, max(fence.floor + HIGHEST, lowest) + _REAL, pitch).tolist()
     many = math.ceil(number / len(rows))
@@ -116,13 +123,19 @@ def creel_of(loom: LoomDesign) -> Creel:
         rows=tuple(rows),
         columns=columns,
         ends=(min(begin, post), last),
-        base=inner - BRAKE.size[2] - 2 * size,
+        hand=hand,
+        base=inner + hand * (BRAKE.size[2] + 2 * size),
         inner=inner,
         number=number,
         mouth=(start, height, depth),
         duct=side,
         duct_end=end,
     )
+
+
+def foot_under_duct(near: Surroundings, hand: int) -> Extent:
+    """The front foot, the outermost one of a side, over which the duct leads."""
+    return near.of(part_id("front-foot"))[0 if hand < 0 else -1]
 
 
 def _free_depth(near: Surroundings, ends: tuple[float, float], height: float, side: float, wished: float) -> float:

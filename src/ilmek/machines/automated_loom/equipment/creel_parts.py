@@ -21,8 +21,9 @@ from ilmek.machines.automated_loom.equipment.creel import (
     PEG,
     Creel,
     creel_of,
+    foot_under_duct,
 )
-from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, device, placed
+from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
 from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
@@ -72,44 +73,45 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         device(BRAKE_ID, "yarn brake", BRAKE),
         device(signals.YARN_STOP, "stop motion of a yarn", YARN_SENSOR),
     )
-    on_pegs = tuple(placement(creel.base, y, z).after(ALONG_WIDTH) for y, z in creel.axes)
+    inwards, outwards = (TO_THE_RIGHT, TO_THE_LEFT)[:: -creel.hand]
+    on_pegs = tuple(placed(creel.base, y, z, inwards) for y, z in creel.axes)
     yield Occurrence(peg, on_pegs)
     yield Occurrence(package, on_pegs)
-    yield Occurrence(brake, tuple(placed(creel.inner, y, z, TO_THE_LEFT) for y, z in creel.axes))
+    yield Occurrence(brake, tuple(placed(creel.inner, y, z, outwards) for y, z in creel.axes))
     above = (BRAKE.size[1] + YARN_SENSOR.size[1]) / 2
-    yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, TO_THE_LEFT) for y, z in creel.axes))
+    yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, outwards) for y, z in creel.axes))
 
 
 def _stand(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     """Rails behind the packages and behind the brakes, uprights between the columns, ties between both planes."""
-    half, floor = POST / 2, loom.side.floor
+    half, floor, out = POST / 2, loom.side.floor, creel.hand * POST
     begin, end = creel.ends
     rail = member("creel-rail", "rail of the creel", _SECTION, end - begin + POST)
-    behind, before = creel.base - half, creel.inner + half
+    behind, before = creel.base + out / 2, creel.inner - out / 2
     yield Occurrence(rail, tuple(placement(x, y, begin - half) for x in (behind, before) for y in creel.rows))
     top = creel.rows[-1] + creel.size / 2 + POST
     every = max(1, math.floor(_UPRIGHTS / creel.pitch))
     between = [(a + b) / 2 for a, b in pairwise(creel.columns)]
     stations = (begin, *between[every - 1 :: every], end)
     upright = member("creel-upright", "upright of the creel", _SECTION, top - floor)
-    beside = behind - POST, creel.inner - half
+    beside = behind + out, creel.inner + out / 2
     feet = tuple(placement(x, floor, z).after(UPRIGHT) for x in beside for z in stations)
     yield Occurrence(upright, feet)
-    low = beside[0] + half
-    tie = member("creel-tie", "tie of the creel", _SECTION, beside[1] - half - low)
+    low, high = min(beside) + half, max(beside) - half
+    tie = member("creel-tie", "tie of the creel", _SECTION, high - low)
     yield Occurrence(tie, tuple(placement(low, top - half, z).after(ALONG_WIDTH) for z in (stations[0], stations[-1])))
 
 
 def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     """The duct from the fence over the front foot, its stand, and the conduits, whose ends hang free."""
     (start, height, depth), side = creel.mouth, creel.duct
-    foot, long = surroundings(loom).of(part_id("front-foot"))[0], creel.duct_end - start
-    mass = DUCT_MASS * side / LEAST_DUCT * long
+    foot, long = foot_under_duct(surroundings(loom), creel.hand), abs(creel.duct_end - start)
+    left, mass = min(start, creel.duct_end), DUCT_MASS * side / LEAST_DUCT * long
     shape, size = Prism(_channel(side, side, WALL), long), format_quantity(side, "mm")
     duct = Part(
         DUCT, "duct of yarns and cables", "duct", size, shape, purchase=Bought("slotted duct", mass, length=long)
     )
-    yield Occurrence(duct, (placement(start, height, depth).after(ACROSS),))
+    yield Occurrence(duct, (placement(left, height, depth).after(ACROSS),))
     clear, middle = height - side / 2 - float(foot.high[1]), float(foot.low[0] + foot.high[0]) / 2
     if clear > PLAY:
         stand = member("duct-stand", "stand of the duct", _SECTION, clear)
@@ -125,7 +127,7 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         purchase=Bought("PTFE", CONDUIT_MASS * creel.number * each, length=creel.number * each),
         envelope=True,
     )
-    yield Occurrence(bundle, (placement(start, height - 0.1 * within, depth).after(ACROSS),))
+    yield Occurrence(bundle, (placement(left, height - 0.1 * within, depth).after(ACROSS),))
 
 
 def _channel(wide: float, high: float, wall: float) -> Profile:

@@ -218,11 +218,12 @@ def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
     height = fence.floor + _STOP_HEIGHT
     stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
     # Beside the creel's rails, which may reach past the corner.
-    left = fence.left - POST + STOP.size[0] / 2
+    left, right = fence.left - POST + STOP.size[0] / 2, fence.right + POST - STOP.size[0] / 2
     back = placed(left, height, fence.rear - POST, TO_THE_BACK)
-    yield Occurrence(stop, (*(placement(max(x, left), height, outer) for x in _stations(front)), back))
+    before = (placement(min(max(x, left), right), height, outer) for x in _stations(front))
+    yield Occurrence(stop, (*before, back))
     reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
-    yield Occurrence(reset, (placement(front[-1], fence.floor + _RESET_HEIGHT, outer),))
+    yield Occurrence(reset, (placement(right, fence.floor + _RESET_HEIGHT, outer),))
 
 
 def _stations(front: tuple[float, ...]) -> Iterable[float]:

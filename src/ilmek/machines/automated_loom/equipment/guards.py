@@ -77,13 +77,13 @@ class Fence:
         """Upper edge over the fell [m]."""
         return self.floor + self.height
 
-    def distance(self, one: Hazard) -> float:
+    def distance(self, hazard: Hazard) -> float:
         """Horizontal distance of a hazard from the nearest side of the fence [m]."""
-        return min(_distances(self.left, self.right, self.rear, self.front, one))
+        return min(_distances(self.left, self.right, self.rear, self.front, hazard))
 
-    def needed(self, one: Hazard) -> float:
+    def needed(self, hazard: Hazard) -> float:
         """Distance at which a hazard is not reached over the fence [m]."""
-        return over_span(*_heights(self.floor, one), self.height)
+        return over_span(*_heights(self.floor, hazard), self.height)
 
 
 @lru_cache(maxsize=4)
@@ -111,15 +111,15 @@ def _approach(loom: LoomDesign, stopping: StoppingTime) -> float:
     return approach(stopping.whole, 0.0 if loom.heads else GRID_REACH)
 
 
-def _heights(floor: float, one: Hazard) -> tuple[float, float]:
-    return max(float(one.low[1]) - floor, 0.0), float(one.high[1]) - floor
+def _heights(floor: float, hazard: Hazard) -> tuple[float, float]:
+    return max(float(hazard.low[1]) - floor, 0.0), float(hazard.high[1]) - floor
 
 
-def _distances(left: float, right: float, rear: float, front: float, one: Hazard) -> Iterator[float]:
-    yield float(one.low[0]) - left
-    yield right - float(one.high[0])
-    yield float(one.low[2]) - rear
-    yield front - float(one.high[2])
+def _distances(left: float, right: float, rear: float, front: float, hazard: Hazard) -> Iterator[float]:
+    yield float(hazard.low[0]) - left
+    yield right - float(hazard.high[0])
+    yield float(hazard.low[2]) - rear
+    yield front - float(hazard.high[2])
 
 
 def side_posts(fence: Fence) -> tuple[float, ...]:
@@ -140,7 +140,7 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
     fence = fence_of(loom)
     nearest = min(fence.hazards, key=fence.distance)
     worst = min(fence.hazards, key=lambda one: fence.distance(one) - fence.needed(one))
-    moved = max(float(one.high[2]) for one in fence.hazards)
+    moved = max(float(hazard.high[2]) for hazard in fence.hazards)
     height, opening = format_quantity(fence.height, "m", 3), format_quantity(MESH - WIRE, "mm")
     stops = format_quantity(fence.stopping.whole, "s", 3)
     title, device = ("doors", signals.INTERLOCK) if loom.heads else ("light grid", signals.GRID)
@@ -172,8 +172,8 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
     )
 
 
-def _named(one: Hazard) -> str:
-    return one.body.rpartition("/")[2]
+def _named(hazard: Hazard) -> str:
+    return hazard.body.rpartition("/")[2]
 
 
 def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[float, ...]:
@@ -182,7 +182,7 @@ def bays(begin: float, end: float, stations: tuple[float, ...] = ()) -> tuple[fl
     >>> bays(0.0, 1.5), bays(0.0, 1.0, (0.4,))
     ((0.0, 0.75, 1.5), (0.0, 0.4, 1.0))
     """
-    ends = (begin, *sorted(one for one in stations if begin + POST < one < end - POST), end)
+    ends = (begin, *sorted(station for station in stations if begin + POST < station < end - POST), end)
     posts = [begin]
     for first, then in pairwise(ends):
         number = math.ceil((then - first) / BAY - 1e-9)

@@ -44,7 +44,7 @@ class Surroundings:
 
     def of(self, part: str) -> tuple[Extent, ...]:
         """The boxes of the pieces of a part, from left to right. Raises LoomError where the loom has none."""
-        pieces = sorted((one for one in self.extents if one.part == part), key=lambda one: float(one.low[0]))
+        pieces = sorted((extent for extent in self.extents if extent.part == part), key=lambda one: float(one.low[0]))
         if not pieces:
             raise LoomError(f"no part {part!r} in the loom", allowed="a part of its tree")
         return tuple(pieces)
@@ -52,7 +52,7 @@ class Surroundings:
     @property
     def standing(self) -> tuple[Corner, Corner]:
         """Corners of the box about all that stands, but the cabinet of the control [m]."""
-        return around(one for one in self.extents if not one.moving and one.part != CONTROL)
+        return around(extent for extent in self.extents if not extent.moving and extent.part != CONTROL)
 
     @property
     def moving(self) -> tuple[Corner, Corner]:
@@ -76,7 +76,7 @@ class Surroundings:
 
     def free(self, low: Corner, high: Corner, *, but: str = "") -> bool:
         """Whether a box has room in the loom, over all motions; `but`: the part that carries it is not looked at."""
-        return not any(one.meets(low, high, GAP) for one in self.extents if one.part != but)
+        return not any(extent.meets(low, high, GAP) for extent in self.extents if extent.part != but)
 
 
 @lru_cache(maxsize=4)
@@ -94,7 +94,7 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     return Surroundings(tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards))
 
 
-def _widened(one: Hazard, half: float) -> Hazard:
-    low, high = one.low.copy(), one.high.copy()
+def _widened(hazard: Hazard, half: float) -> Hazard:
+    low, high = hazard.low.copy(), hazard.high.copy()
     low[0], high[0] = min(low[0], -half), max(high[0], half)
-    return Hazard(one.body, low, high)
+    return Hazard(hazard.body, low, high)

@@ -34,8 +34,18 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
         *sensors(loom),
         MachineTree(_NAME, guards(loom)),
         MachineTree(_NAME, circuit(loom)),
-        *((*creel_trees(loom), *chain_trees(loom)) if loom.heads else (MachineTree(_NAME, station_tree(loom)),)),
+        *(_of_heads(loom) or (MachineTree(_NAME, station_tree(loom)),)),
     )
+
+
+def _of_heads(loom: LoomDesign) -> tuple[MachineTree, ...]:
+    """Creel and chains of the heads; none where weavers tie."""
+    return (*creel_trees(loom), *chain_trees(loom)) if loom.heads else ()
+
+
+def more_for_heads(loom: LoomDesign) -> frozenset[str]:
+    """Parts of creel and chains: a loom with more heads has more of them, or longer ones."""
+    return frozenset(part.id for branch in _of_heads(loom) for part, _ in branch.tree.occurrences())
 
 
 def equipment_trees(loom: LoomDesign) -> tuple[Tree, ...]:

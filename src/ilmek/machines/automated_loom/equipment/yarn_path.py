@@ -127,10 +127,9 @@ def yarn_path(loom: LoomDesign) -> YarnPath:
 
 def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
     (start, height, depth), (low, high) = creel.mouth, trough_box(loom)
-    brake = creel.inner - BRAKE.size[2]
-    nose, half = brake - creel.base - creel.size, creel.size / 2
+    nose, half = abs(creel.inner - creel.base) - BRAKE.size[2] - creel.size, creel.size / 2
     y, z = max(creel.axes, key=lambda one: math.hypot(one[0] - height, one[1] - depth))
-    along, up = float(low[0]) - creel.duct_end, float(low[1] + high[1]) / 2 - height
+    along, up = abs(creel.duct_end) - float(high[0]), float(low[1] + high[1]) / 2 - height
     loop = math.hypot(along, up)
     share, long = share_of(loom), float(high[0] - low[0])
     heads = loom.side.of_heads
@@ -141,7 +140,7 @@ def _steps(loom: LoomDesign, creel: Creel) -> tuple[PathStep, ...]:
     return (
         PathStep("from the package over its nose", math.hypot(nose, half), 0.0, math.atan2(half, nose)),
         PathStep("conduit to the duct", math.hypot(y - height, z - depth), height - y, turn / 2, PTFE),
-        PathStep("duct over the foot", creel.duct_end - start, share=PTFE),
+        PathStep("duct over the foot", abs(creel.duct_end - start), share=PTFE),
         PathStep("loop to the rail", loop + heads.retreat, up, 2 * math.atan2(abs(up), max(along, 0.0)), PTFE),
         PathStep("trough to the farthest head", long - share / 2, share=PTFE),
         PathStep("energy chain", energy_chain(loom).length(share), 0.0, turn / 2, PTFE),

@@ -62,21 +62,21 @@ def _beat(loom: LoomDesign) -> tuple[FloatArray, ComplexArray]:
     return angle, beat_tip(path, row, angle)
 
 
-def _of_links(one: BeatUp, angle: FloatArray, tip: ComplexArray) -> dict[str, SceneMotion]:
+def _of_links(beat_up: BeatUp, angle: FloatArray, tip: ComplexArray) -> dict[str, SceneMotion]:
     """The motions of crank, coupler and rocker by the tip of what beats from the fell [m]."""
-    swing = np.maximum(-np.angle(1 - tip / one.lengths["beater"]), 0.0)
-    return link_motions(one, ROW, angle, crank_angles(one, swing))
+    swing = np.maximum(-np.angle(1 - tip / beat_up.lengths["beater"]), 0.0)
+    return link_motions(beat_up, ROW, angle, crank_angles(beat_up, swing))
 
 
-def crank_angles(one: BeatUp, swing: FloatArray) -> FloatArray:
+def crank_angles(beat_up: BeatUp, swing: FloatArray) -> FloatArray:
     """Angles of the crank [rad] that follow one another for swings of the rocker from the beat [rad].
 
     While the swing falls the crank is before the beat, while it rises behind it.
     """
-    table = one.dead_centres.beta + np.linspace(
-        float(one.dead_centres.rotation) - turn, float(one.dead_centres.rotation), _TABLE
+    table = beat_up.dead_centres.beta + np.linspace(
+        float(beat_up.dead_centres.rotation) - turn, float(beat_up.dead_centres.rotation), _TABLE
     )
-    at = np.abs(np.unwrap(solve(one.plan, table).angle("rocker")) - one.rocker_angles[0])
+    at = np.abs(np.unwrap(solve(beat_up.plan, table).angle("rocker")) - beat_up.rocker_angles[0])
     least = int(np.argmin(at))
     falling = np.gradient(swing) < 0
     before = np.interp(swing, at[: least + 1][::-1], table[: least + 1][::-1])

@@ -65,7 +65,7 @@ def wefts(loom: LoomDesign) -> tuple[SceneYarn, ...]:
     """Both wefts over a row: from the edge to the carrier, then across, and beaten to the fell."""
     row = loom.row_cyclogram
     carrier = row.track(loom.row_timing.carrier)
-    angle = np.unique(np.concatenate([track_angles(carrier), [one.end for one in row.track(BEATER).segments]]))
+    angle = np.unique(np.concatenate([track_angles(carrier), [segment.end for segment in row.track(BEATER).segments]]))
     at = sample(carrier, angle).position
     shuttle = isinstance(loom.weft.carried, Shuttle)
     run = (loom.weft.passage.stroke - loom.task.cloth.width) / 2 if shuttle else loom.weft.passage.run

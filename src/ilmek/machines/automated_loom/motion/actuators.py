@@ -94,8 +94,8 @@ def _speeds(cyclogram: Cyclogram, radii: dict[str, float]) -> tuple[Series, ...]
     """The speed of each track over its angle; of one that turns, at a radius [m]."""
     angle = _angles(cyclogram)
     return tuple(
-        Series(one.name, angle, radii.get(one.name, 1.0) * sample(one, angle).slope * cyclogram.speed)
-        for one in cyclogram.tracks
+        Series(track.name, angle, radii.get(track.name, 1.0) * sample(track, angle).slope * cyclogram.speed)
+        for track in cyclogram.tracks
     )
 
 

@@ -1,0 +1,152 @@
+"""What a carpet costs on a loom, without its yarn, and what the loom costs that ties it.
+
+    made    = parts + fitter's wage * (screws * time of a screw + axes * time of an axis + commissioning)
+    sold    = made * (1 + margin)
+    annuity = sold * i / (1 - (1 + i)^-n);  sold / n without interest
+    carpets a year = hours * availability / (weaving time + changeover)
+
+    cost = (annuity + upkeep * sold + rent * floor) / carpets a year + wage * persons * hours / carpets a year
+           + price of energy * energy + finishing * area
+
+The loom is paid back against weavers by hand after sold / (carpets a year * (hand - cost without annuity)) years, where
+hand = knots / knots a day * hours a day * wage + finishing * area. Rates: `CostRates`.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+
+from ilmek.elements.prices import PriceRates
+from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.records import computed, record
+
+YEAR = 365.25 * 86400.0
+
+
+def annuity_factor(interest: float, years: float) -> float:
+    """Share of a loan that is paid each year, so that it is paid off after a number of years.
+
+    >>> round(annuity_factor(0.05, 7), 5), annuity_factor(0.0, 4)
+    (0.17282, 0.25)
+    """
+    return -interest / math.expm1(-years * math.log1p(interest)) if interest else 1 / years
+
+
+@record
+class MachineCost:
+    """What a loom costs its maker: its parts, and the screws and axes by which its assembly is paid."""
+
+    parts: float
+    screws: float
+    axes: float
+
+    def made(self, rates: CostRates) -> float:
+        """Price of the loom with assembly and setting to work."""
+        work = self.screws * rates.screw_time + self.axes * rates.axis_time + rates.commissioning
+        return self.parts + rates.fitter_wage * work
+
+    def plus(self, other: "MachineCost") -> "MachineCost":
+        """With another."""
+        return MachineCost(self.parts + other.parts, self.screws + other.screws, self.axes + other.axes)
+
+    def times(self, number: float) -> "MachineCost":
+        """A number of times."""
+        return MachineCost(number * self.parts, number * self.screws, number * self.axes)
+
+
+def with_control(cost: MachineCost, prices: Mapping[str, PriceRates]) -> MachineCost:
+    """A cost without the amplifiers of the control, with those of its axes."""
+    return replace(cost, parts=cost.parts + cost.axes * prices["axis of the control"].each)
+
+
+@record
+class CarpetCost:
+    """Cost of a carpet of a number of knots and an area [m^2], woven in a time [s] with an energy [J], on a loom.
+
+    floor  that the loom needs, with the aisle round it [m^2]      machine  what the loom costs its maker
+    """
+
+    rates: CostRates
+    knots: int
+    area: float
+    time: float
+    energy: float
+    floor: float
+    machine: MachineCost
+
+    @computed("", "price of the loom: parts, made with assembly and setting to work, sold with the maker's margin")
+    def machine_price(self) -> dict[str, float]:
+        return {"parts": self.machine.parts, "made": self.machine.made(self.rates), "sold": self.sold}
+
+    @computed("1", "carpets that the loom weaves in a year")
+    def carpets_per_year(self) -> float:
+        return self.rates.hours * self.rates.availability / (self.time + self.rates.changeover)
+
+    @computed("", "cost of a carpet without yarn, by cause")
+    def cost_shares(self) -> dict[str, float]:
+        return {"capital": self._annuity / self.carpets_per_year, **self._running}
+
+    @computed("", "cost of a carpet, without its yarn")
+    def cost_per_carpet(self) -> float:
+        return sum(self.cost_shares.values())
+
+    @computed("1/m^2", "cost of a square metre of carpet, without its yarn")
+    def cost_per_area(self) -> float:
+        cost: float = self.cost_per_carpet
+        return cost / self.area
+
+    @computed("", "cost of the carpet tied by hand, without its yarn")
+    def hand_cost(self) -> float:
+        rates = self.rates
+        day = rates.weaver_day * rates.wage
+        return self.knots / rates.weaver_knots * day + rates.finishing * self.area
+
+    @computed(
+        "day",
+        "time after which the loom has earned its price against weavers by hand",
+        optional=True,
+        absent="a carpet tied by hand is the cheaper one",
+    )
+    def payback_time(self) -> float | None:
+        saving = self.carpets_per_year * (self.hand_cost - sum(self._running.values()))
+        return self.sold / saving * YEAR if saving > 0 else None
+
+    @property
+    def sold(self) -> float:
+        """Price of the loom with the maker's margin."""
+        return self.machine.made(self.rates) * (1 + self.rates.margin)
+
+    def of_fewer(self, carpets: float) -> float:
+        """Cost of a carpet without yarn where the loom weaves a number of them a year [1], at most all that it can.
+
+        The loom and its floor are paid by these; persons are there while it weaves.
+        """
+        cost: float = self.cost_per_carpet
+        return cost + self._yearly * (self.carpets_per_year / carpets - 1)
+
+    @property
+    def even_with_hand(self) -> float:
+        """Carpets a year with which a carpet costs as much as by hand [1]; inf where it never costs so little."""
+        saved = self.hand_cost - self.cost_per_carpet + self._yearly
+        return float(self._yearly * self.carpets_per_year / saved) if saved > 0 else math.inf
+
+    @property
+    def _yearly(self) -> float:
+        """Share of what is paid a year for the loom in the cost of a carpet."""
+        shares: dict[str, float] = self.cost_shares
+        return sum(shares[name] for name in ("capital", "upkeep", "floor"))
+
+    @property
+    def _annuity(self) -> float:
+        return self.sold * annuity_factor(self.rates.interest, self.rates.life)
+
+    @property
+    def _running(self) -> Mapping[str, float]:
+        rates, carpets = self.rates, self.carpets_per_year
+        return {
+            "operators": rates.wage * rates.persons * rates.hours / carpets,
+            "upkeep": rates.upkeep * self.sold / carpets,
+            "floor": rates.rent * self.floor / carpets,
+            "energy": rates.energy * self.energy,
+            "finishing": rates.finishing * self.area,
+        }
