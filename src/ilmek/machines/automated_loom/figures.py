@@ -43,6 +43,8 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
         one_knot,
         knot_speeds,
         knot_forces,
+        cost_over_heads,
+        cost_over_carpets,
         scaling,
         cost_over_heads,
         cost_over_carpets,
