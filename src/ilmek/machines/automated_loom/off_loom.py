@@ -8,7 +8,7 @@ s_l, s_w shrinkage in washing. The pile is shorn to its height; what is shorn of
 carpet's width and length are those on the loom. Rates of washing and warping are assumed by this project.
 """
 
-from ilmek.carpet.ground import ground_yarns, selvedge_yarn
+from ilmek.carpet.ground import GroundParams, ground_yarns, selvedge_yarn
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.finish_params import FinishParams
@@ -19,8 +19,7 @@ from ilmek.records import computed, record
 class OffLoom:
     """A carpet of a width and a length on the loom [m], its warps stretched by a strain, its yarns of a mass [kg].
 
-    warps, crimp  number of warps, and their length in the carpet over its own, less 1
-    ends          of each warp beside the carpet: fringes and what is lost in the loom [m]
+    warps, ground  number of warps, and what lengthens each
     """
 
     finish: FinishParams
@@ -29,8 +28,7 @@ class OffLoom:
     strain: float
     yarns: float
     warps: int
-    crimp: float
-    ends: float
+    ground: GroundParams
 
     @computed("m", "width and length of the carpet off the loom, shorn and washed")
     def size_off_loom(self) -> dict[str, float]:
@@ -47,7 +45,7 @@ class OffLoom:
     warp_cut = computed(
         "m",
         "length of a warp to be wound: carpet, take-up by its crimp, fringes, what is lost in the loom",
-        lambda it: it.length * (1 + it.crimp) + it.ends,
+        lambda it: it.ground.warp_length(it.length),
     )
 
     @computed("h", "preparing, drawing in and winding of all warps")
@@ -70,6 +68,5 @@ def off_loom(loom: LoomDesign) -> OffLoom:
         strain=cloth.warp_tension / cloth.carpet_yarns.warp.stiffness,
         yarns=knots + sum(one.mass * one.kept for one in bound),
         warps=loom.warps,
-        crimp=loom.warp_tension.params.crimp,
-        ends=2 * ground.fringe + ground.loom_waste,
+        ground=ground,
     )

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN, GroundParams
+from ilmek.carpet.ground import CRIMP, SELVEDGE_WARPS, WEFT_TURN, GroundParams
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
@@ -245,7 +245,13 @@ class AutomatedLoomParams(Params):
     def ground(self) -> GroundParams:
         """Warp and wefts of the carpet for its yarn bill: those of the loom."""
         turn = self.machines.of("weft").get("turn", WEFT_TURN)
-        return GroundParams(selvedge_warps=self.selvedge_warps, weft_turn=float(str(turn)), yarns=self.yarns)
+        crimp = self.machines.of("warp-tension").get("crimp", CRIMP)
+        return GroundParams(
+            crimp=float(str(crimp)),
+            selvedge_warps=self.selvedge_warps,
+            weft_turn=float(str(turn)),
+            yarns=self.yarns,
+        )
 
     def check_together(self) -> None:
         """Raise LoomError where the warp pitch does not give the knots across."""
