@@ -46,8 +46,6 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
         cost_over_heads,
         cost_over_carpets,
         scaling,
-        cost_over_heads,
-        cost_over_carpets,
     )
     return tuple(partial(make, loom) for make in made)
 

@@ -228,9 +228,8 @@ class Bounds:
                 continue
             if option.kind not in branch.looms:
                 continue
-            loom, frame = branch.looms[option.kind], self.simplest.frame.times(1 - OTHER_SLACK)
-            if (weft, option.kind) == (self.simplest.offer.weft, self.simplest.offer.beat):
-                frame = frame_cost(loom).times(1 - SLACK)
+            loom, alike = branch.looms[option.kind], (self.simplest.offer.weft, self.simplest.offer.beat)
+            frame = self._frame(loom if (weft, option.kind) == alike else None)
             for heads in (params.heads,) if params.heads else range(1, branch.most + 1):
                 cost, floor = self._least(weft, heads, loom, branch.head, frame)
                 for cycle in branch.cycles:
@@ -243,8 +242,15 @@ class Bounds:
 
         loom  with its carrier of the weft and its beat, the slowest knot and the fewest heads
         """
-        cost, floor = self._least(offer.weft, offer.heads, loom, head, frame_cost(loom).times(1 - SLACK))
+        cost, floor = self._least(offer.weft, offer.heads, loom, head, self._frame(loom))
         return replace(offer, price=cost.parts, value=self._value(cost, floor, offer.time))
+
+    def _frame(self, loom: LoomDesign | None) -> MachineCost:
+        """The least cost of a frame, by that of a loom; by the simplest one's where it has none, or no room for it."""
+        with contextlib.suppress(ParameterError):
+            if loom is not None:
+                return frame_cost(loom).times(1 - SLACK)
+        return self.simplest.frame.times(1 - OTHER_SLACK)
 
     def _least(
         self, weft: str, heads: int, loom: LoomDesign, head: MachineCost, frame: MachineCost
