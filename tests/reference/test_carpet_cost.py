@@ -188,6 +188,15 @@ def test_curves_of_the_cost_are_those_of_the_looms() -> None:
     assert np.interp(even, carpets.series[0].x, carpets.series[0].y) == pytest.approx(found.cost.hand_cost, rel=0.01)
 
 
+def test_time_between_two_carpets_follows_the_dressing_of_the_loom() -> None:
+    found = loom("comb", 1, replace(RATES, changeover=None))
+    winding = (0.6 * 1.03 + 2 * 0.1 + 0.4) / 1.0
+    dressing = 3600 + found.warps * (12 + winding)
+    hours = 4000 * 3600 * 0.85 / float(found.cost.carpets_per_year)
+    assert hours - found.time == pytest.approx(dressing + 4.5 * 3600)
+    assert loom("comb", 1).cost.changeover == 5 * 3600
+
+
 def test_payment_pays_off_the_loan() -> None:
     for interest, years in ((0.05, 7), (0.12, 3), (0.0, 4)):
         loan = 1.0
@@ -197,7 +206,7 @@ def test_payment_pays_off_the_loan() -> None:
 
 
 def test_carpets_tied_by_hand_for_less_have_no_payback() -> None:
-    cheap = CarpetCost(CostRates(weaver_knots=1e6), 10_000, 1.0, 3600.0, 0.0, 10.0, MachineCost(1e4, 0, 0))
+    cheap = CarpetCost(CostRates(weaver_knots=1e6), 10_000, 1.0, 3600.0, 0.0, 0.0, 10.0, MachineCost(1e4, 0, 0))
     assert cheap.payback_time is None
 
 
