@@ -20,7 +20,7 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.params import Params, nested, param
 from ilmek.sentences import Sentence
@@ -31,9 +31,6 @@ SELVEDGE_WARPS = 8
 
 WEFT_TURN = 20 * mm
 """Weft beyond the cloth for a row [m]: the turn into the next row, or both ends tucked in; assumed by this project."""
-
-CRIMP = 0.03
-"""Warp in the carpet over the carpet's length, less 1: its waves about the wefts; assumed by this project."""
 
 WEFT_SHARE = 0.5
 """Share of the sinuous weft in the amplitude of a crossing, the rest the warps'; assumed by this project."""

@@ -15,7 +15,7 @@ and `ARMS_REST` of one on cams, until it is designed. A test holds the bounds ag
 
 import contextlib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
@@ -140,22 +140,26 @@ def _looms(ready: ReadyLoom, journal: SearchJournal) -> Mapping[str, LoomDesign]
     return looms
 
 
-def undesigned_arms(branch: HeadBranch, *, designed: bool) -> HeadBranch | None:
-    """The branch of looms by arms, before their heads are designed, from that with cams; None where no arms tie so.
+def undesigned_arms(cams: Sequence[HeadBranch], *, designed: bool) -> tuple[HeadBranch, ...]:
+    """The branches of looms by arms, before their heads are designed, from those with cams; none where no arms tie so.
 
     designed  whether the arms themselves are: else they tie in no time, and have their servos alone
     """
-    head, own, prices = branch.ready.head.weaver.params, branch.cycles, read_prices(branch.ready.params.prices)
+    ready, own = cams[0].ready, cams[0].cycles
+    head, prices = ready.head.weaver.params, read_prices(ready.params.prices)
     inside = replace(head.arms, time=1e-3, yarn=0.0)
     arms = MachineCost(ARM_SERVOS * prices["servo"].each, 0, ARM_SERVOS)
     if designed:
         try:
-            inside, parts = arms_for(branch.ready.params)
+            inside, parts = arms_for(ready.params)
         except (LoomError, ParameterError):
-            return None
+            return ()
         arms = machine_cost(parts, prices)
     cycles = _cycles(replace(head, arms=inside)) if len(own) > 1 else own
-    return replace(branch, kind=ARMS, cycles=cycles, head=arms.plus(branch.head.times(ARMS_REST)))
+    heads = (arms.plus(branch.head.times(ARMS_REST)) for branch in cams)
+    return tuple(
+        replace(branch, kind=ARMS, cycles=cycles, head=least) for branch, least in zip(cams, heads, strict=True)
+    )
 
 
 def _cycles(head: WeaverParams) -> tuple[float, ...]:

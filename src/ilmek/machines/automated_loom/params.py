@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 
 from ilmek.cams.laws import SMOOTH_LAWS
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.ground import CRIMP, SELVEDGE_WARPS, WEFT_TURN, GroundParams
+from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN, GroundParams
 from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines

@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass
 
-from ilmek.carpet.ground import CRIMP
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.params import Params, kind, nested
