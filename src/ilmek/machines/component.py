@@ -177,19 +177,28 @@ class Component(Generic[P, D, A]):
         progress(0.0)
         return self.long_design(params, progress) if self.long_design else self.design(params)
 
-    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True, assembled: bool = True) -> Report:
+    def report(
+        self,
+        design: D,
+        *,
+        in_a_loom: bool = False,
+        illustrated: bool = True,
+        drawn: bool = True,
+        assembled: bool = True,
+    ) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
 
         in_a_loom    True: without the figures that only the machine's own page shows
         illustrated  False: without tables and figures, which take as long as all the rest
+        drawn        False: without figures
         assembled    False: without its parts against each other in space
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
         whole = (self.assembly(design),) if self.assembly and assembled else ()
-        figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated else ((), ())
+        figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated and drawn else ((), ())
         tests = self.self_tests(analysis)
         made = Report(
             machine=self.name,
@@ -211,7 +220,7 @@ class Component(Generic[P, D, A]):
             cam_tables=self.cam_tables(design),
             pieces=self.pieces(design),
             parts=self.parts(design),
-            children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
+            children=tuple(child.reported(illustrated=illustrated, drawn=drawn) for child in self.children(design)),
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
@@ -274,12 +283,12 @@ class Child:
         """Work of its acts."""
         return self.component.work(self.design)
 
-    def reported(self, *, illustrated: bool = True) -> Report:
-        """Its report, as a machine in a loom; `illustrated` as in `Component.report`."""
-        return self.made or _report_in_a_loom(self.component, self.design, illustrated)
+    def reported(self, *, illustrated: bool = True, drawn: bool = True) -> Report:
+        """Its report, as a machine in a loom; `illustrated` and `drawn` as in `Component.report`."""
+        return self.made or _report_in_a_loom(self.component, self.design, illustrated, illustrated and drawn)
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool) -> Report:
+def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
-    return component.report(design, in_a_loom=True, illustrated=illustrated)
+    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn)

@@ -9,7 +9,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
@@ -255,7 +255,13 @@ class AutomatedLoomParams(Params):
     def ground(self) -> GroundParams:
         """Warp and wefts of the carpet for its yarn bill: those of the loom."""
         turn = self.machines.of("weft").get("turn", WEFT_TURN)
-        return GroundParams(selvedge_warps=self.selvedge_warps, weft_turn=float(str(turn)), yarns=self.yarns)
+        crimp = self.machines.of("warp-tension").get("crimp", CRIMP)
+        return GroundParams(
+            crimp=float(str(crimp)),
+            selvedge_warps=self.selvedge_warps,
+            weft_turn=float(str(turn)),
+            yarns=self.yarns,
+        )
 
     @property
     def hand_knot(self) -> float:

@@ -195,8 +195,8 @@ class _Search:
         """The looms by arms, which are designed only where none with a head on cams is better than their bound: first
         the arms alone, then their heads.
         """
-        arms = [undesigned_arms(branch, designed=designed) for branch in cams]
-        self.closed = [offer for branch in arms if branch for offer in self.bounds.offers(branch)]
+        arms = undesigned_arms(cams, designed=designed)
+        self.closed = [offer for branch in arms for offer in self.bounds.offers(branch)]
         if self.closed:
             best = min(self.closed, key=lambda offer: offer.value)
             opens = self._open if designed else partial(self.postpone, cams, designed=True)

@@ -171,7 +171,7 @@ def results(found: HandLoomAnalysis) -> tuple[object, ...]:
 def off_loom_of(loom: HandLoom) -> OffLoom:
     """The loom's carpet off the loom."""
     params = loom.params
-    return carpet_off_loom(params, (loom.rows, loom.columns), params.billed, loom.winding.params.crimp)
+    return carpet_off_loom(params, (loom.rows, loom.columns), params.billed)
 
 
 def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:

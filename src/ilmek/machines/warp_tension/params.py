@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver_hands import CRANK, HAND, WeaverHands
@@ -97,7 +97,7 @@ class WarpTensionParams(Params):
     free_length: float = kind.length(
         1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp between the cylinders"
     )
-    crimp: float = kind.ratio(0.03, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
+    crimp: float = kind.ratio(CRIMP, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
     shed_lift: float = kind.length(60 * mm, at_least=0.0, at_most=0.5, doc="lift of a warp for the shed; 0: none")
     shed_span: float = kind.length(
         170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cam to the holds on both sides"
