@@ -11,9 +11,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.materials import BEECH, CARBON, NEODYMIUM
 from ilmek.machines.weft.bobbin import BobbinSize
 from ilmek.machines.weft.coupling import magnet_sides
-from ilmek.machines.weft.materials import BEECH, CARBON, NEODYMIUM
 from ilmek.machines.weft.params import WeftParams
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
