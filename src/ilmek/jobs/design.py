@@ -107,8 +107,7 @@ def design_machine(
     """
     with joined(outputs, progress=progress) as made:
         write = workshop_writer(workshop, made)
-        machine = find_machine(name)
-        params = machine.params.read(settings)
+        machine, params = find_machine(name).ordered(settings)
         designed = machine.with_room(machine.designed(params, progress.part(0.0, 0.6, "design")), params)
         progress.part(0.6, 0.8, "report")
         report = machine.report(designed, illustrated=illustrated)

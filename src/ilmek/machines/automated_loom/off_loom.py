@@ -12,6 +12,7 @@ from ilmek.carpet.ground import ground_yarns, selvedge_yarn
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.finish_params import FinishParams
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.records import computed, record
 
 
@@ -58,19 +59,24 @@ class OffLoom:
 
 def off_loom(loom: LoomDesign) -> OffLoom:
     """The loom's carpet off the loom."""
-    params, cloth, ground = loom.params, loom.task.cloth, loom.params.ground
+    of_knot = float(loom.weaver.yarn_in_knot) if loom.heads else loom.params.billed
+    return carpet_off_loom(loom.params, (loom.rows, loom.columns), of_knot, loom.warp_tension.params.crimp)
+
+
+def carpet_off_loom(params: AutomatedLoomParams, grid: tuple[int, int], of_knot: float, crimp: float) -> OffLoom:
+    """A carpet off the loom: rows and knots of a row, pile yarn of a knot [m], crimp of the warps [-]."""
+    cloth, ground, (rows, columns) = params.cloth, params.ground, grid
     size, quality, pile = CarpetSize(params.width, params.length), params.quality, cloth.carpet_yarns.pile
-    of_ground = ground_yarns(size, quality, loom.rows, loom.columns, ground)
+    of_ground = ground_yarns(size, quality, rows, columns, ground)
     bound = (*of_ground, selvedge_yarn(size, quality, pile.linear_density, ground))
-    of_knot = float(loom.weaver.yarn_in_knot) if loom.heads else params.billed
-    knots = loom.rows * loom.columns * of_knot * pile.linear_density
+    knots = rows * columns * of_knot * pile.linear_density
     return OffLoom(
         finish=params.finish,
         width=params.width,
         length=params.length,
         strain=cloth.warp_tension / cloth.carpet_yarns.warp.stiffness,
         yarns=knots + sum(one.mass * one.kept for one in bound),
-        warps=loom.warps,
-        crimp=loom.warp_tension.params.crimp,
+        warps=cloth.warps,
+        crimp=crimp,
         ends=2 * ground.fringe + ground.loom_waste,
     )

@@ -38,7 +38,7 @@ from ilmek.machines.automated_loom.design import (
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
-from ilmek.machines.automated_loom.params import AUTO, COST, HAND, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
 from ilmek.machines.automated_loom.search import LoomOffer, SearchJournal
@@ -46,6 +46,7 @@ from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.weaver.design import ties_in_time
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver_hands import HAND
 from ilmek.machines.weft.params import SHUTTLE
 from ilmek.records import record
 
