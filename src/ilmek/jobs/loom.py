@@ -31,7 +31,7 @@ from ilmek.loom.operations import LoomSetup
 from ilmek.loom.programme import Programme, make_programme
 from ilmek.machines import hand_loom
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
-from ilmek.machines.automated_loom.cost import CarpetCost
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.report import analyse
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.hand_loom import HandLoom

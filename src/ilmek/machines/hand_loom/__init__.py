@@ -8,7 +8,7 @@ even tension of short warps.
 Source: thesis, 1.3.1 and 3.1 to 3.2, Figures 3.3 to 3.6 and 3.13 to 3.15; it prints no sizes of a hand loom.
 """
 
-from ilmek.machines.automated_loom.cost import CarpetCost
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.equipment.bench import Bench
 from ilmek.machines.automated_loom.off_loom import OffLoom
 from ilmek.machines.automated_loom.report import LoomVerdict

@@ -9,8 +9,9 @@ from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import price_of, read_prices
 from ilmek.machines.automated_loom.assembly import joint_check, mesh_check
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check
-from ilmek.machines.automated_loom.cost import CarpetCost, machine_cost
+from ilmek.machines.automated_loom.cost import machine_cost
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.frame import column_checks, part_id
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
@@ -67,7 +68,7 @@ class HandLoomAnalysis:
     frame_column = computed("", "square hollow section of the columns", lambda it: it.loom.layout.column.name)
     foot_load = computed("N", "load of a levelling foot, where two bear the loom", lambda it: foot_load(it.loom))
     mass = computed("kg", "mass of all parts but the reducers", lambda it: sum(line.mass_all for line in it.lines))
-    price = computed("", "price of all parts by the table of prices", lambda it: it.cost.parts)
+    price = computed("", "price of all parts by the table of prices", lambda it: it.cost.machine.parts)
 
     @property
     def balance(self) -> DriveBalance:
@@ -145,8 +146,6 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
     """Parts and cost of a loom. Raises ParameterError for unreadable prices."""
     lines, params = bill(tree(loom)), loom.params
     rates = replace(params.cost, persons=float(loom.weavers), commissioning=0.0)
-    cost = machine_cost(lines, read_prices(params.prices))
-    made, sold = cost.sold(rates)
     low, high = around(extents(tree(loom), (SHED,)))
     aisle = 2 * rates.aisle
     whole = CarpetCost(
@@ -156,9 +155,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
         time=loom.rows * loom.row_time,
         energy=0.0,
         floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
-        parts=cost.parts,
-        made=made,
-        sold=sold,
+        machine=machine_cost(lines, read_prices(params.prices)),
     )
     return HandLoomAnalysis(loom, lines, whole)
 
