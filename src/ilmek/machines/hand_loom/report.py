@@ -154,6 +154,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
         area=params.width * params.length,
         time=loom.rows * loom.row_time,
         energy=0.0,
+        dressing=float(off_loom_of(loom).dressing_time),
         floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
         machine=machine_cost(lines, read_prices(params.prices)),
     )
