@@ -12,9 +12,8 @@ from collections.abc import Iterator
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
-from ilmek.elements.materials import GRAVITY
+from ilmek.elements.materials import BEECH, GRAVITY
 from ilmek.machines.automated_loom.frame import member, part_id
-from ilmek.machines.weft.materials import BEECH
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.shapes import box
