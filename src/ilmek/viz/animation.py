@@ -65,7 +65,7 @@ def laid_out(animation: Animation, looks: Mapping[str, int], sheet: type[Sheet] 
     numbers = look_numbers((*still.strokes, *moving), looks)
     rows = list(_rows(animation))
     foot = FOOT + _ROW * len(rows)
-    points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(one.at for one in animation.dots)]
+    points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(dot.at for dot in animation.dots)]
     pen = pen_for(np.concatenate(points), numbers, still.unit, foot, sheet)
     draw_still(pen, still)
     _legend(pen, rows, {at for at, one in enumerate(moving, len(still.strokes)) if one.role == "path"})
@@ -138,8 +138,8 @@ def _bars(pen: Pen, animation: Animation) -> list[ComplexArray]:
     ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
     found = []
     for frame in range(len(animation.at)):
-        lines = [dotted(pen(one.points[frame])) for one in animation.strokes]
-        found.append(np.concatenate([*lines, *(pen(one.at)[frame] + ring for one in animation.dots)]))
+        lines = [dotted(pen(stroke.points[frame])) for stroke in animation.strokes]
+        found.append(np.concatenate([*lines, *(pen(dot.at)[frame] + ring for dot in animation.dots)]))
     return found
 
 
@@ -151,10 +151,10 @@ def _filled(centre: complex, half: complex) -> ComplexArray:
 def _names(pen: Pen, animation: Animation, met: list[ComplexArray], foot: float) -> Iterator[MovingName]:
     """Names of all dots; those of fixed dots do not move."""
     frames = len(animation.at)
-    fixed = [(np.full(frames, one.at), one.label, _STILL) for one in animation.still.dots]
+    fixed = [(np.full(frames, dot.at), dot.label, _STILL) for dot in animation.still.dots]
     requests = [
         LabelRequest(pen(at), label, STRONG, 6.0, pull)
-        for at, label, pull in (*fixed, *((one.at, one.label, _MOVING) for one in animation.dots))
+        for at, label, pull in (*fixed, *((dot.at, dot.label, _MOVING) for dot in animation.dots))
         if label
     ]
     corner = complex(pen.sheet.width, pen.sheet.height) - (2 + 2j)
@@ -167,15 +167,15 @@ def _rows(animation: Animation) -> Iterator[list[tuple[float, int, str]]]:
     """The legend in rows: left edge [pt], index among all strokes, and name of each coloured line."""
     row: list[tuple[float, int, str]] = []
     left, first, seen = _LEFT, len(animation.still.strokes), {""}
-    for index, one in enumerate(animation.strokes, first):
-        width = 20.0 + text_width(one.label, TEXT) + 12.0
-        if one.role in PLAIN or one.label in seen:
+    for index, stroke in enumerate(animation.strokes, first):
+        width = 20.0 + text_width(stroke.label, TEXT) + 12.0
+        if stroke.role in PLAIN or stroke.label in seen:
             continue
-        seen.add(one.label)
+        seen.add(stroke.label)
         if row and left + width > WIDTH:
             yield row
             row, left = [], _LEFT
-        row.append((left, index, one.label))
+        row.append((left, index, stroke.label))
         left += width
     if row:
         yield row
@@ -204,11 +204,11 @@ def _run(animation: Animation, tracks: PointTracks) -> str:
     frames = len(at)
     readings = [
         {
-            "values": [float(f"{value:.4g}") for value in one.values / parse_unit(one.unit).factor],
-            "decimals": decimals(float(np.ptp(one.values)) / parse_unit(one.unit).factor),
-            "measure": shown_unit(one.unit),
+            "values": [float(f"{value:.4g}") for value in reading.values / parse_unit(reading.unit).factor],
+            "decimals": decimals(float(np.ptp(reading.values)) / parse_unit(reading.unit).factor),
+            "measure": shown_unit(reading.unit),
         }
-        for one in animation.readings
+        for reading in animation.readings
     ]
     ends = float(at[0]), float(at[0]) + step * (frames if animation.closes else frames - 1)
     run = {

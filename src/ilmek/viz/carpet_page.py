@@ -109,11 +109,11 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
     )
 
 
-def _statistic_lines(found: ChartStatistics) -> list[Fact]:
-    rows = ", ".join(f"{count(row)} ({count(found.of_row(row))})" for row in found.hardest)
-    patches = ", ".join(f"{count(one.patches)} of {_sizes(one)}" for one in found.patches)
+def _statistic_lines(statistics: ChartStatistics) -> list[Fact]:
+    rows = ", ".join(f"{count(row)} ({count(statistics.of_row(row))})" for row in statistics.hardest)
+    patches = ", ".join(f"{count(patch.patches)} of {_sizes(patch)}" for patch in statistics.patches)
     return [
-        Fact("Changes of colour in a row", fixed(found.mean_changes, 1.0, 1), "mean over the rows"),
+        Fact("Changes of colour in a row", fixed(statistics.mean_changes, 1.0, 1), "mean over the rows"),
         Fact("Hardest rows", rows or "none", "row, from the lower edge (changes)"),
         Fact("Small patches", patches, "of knots of one yarn that touch, also at a corner"),
     ]

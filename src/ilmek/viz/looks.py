@@ -105,7 +105,7 @@ def _subjects(figures: tuple[Figure, ...], bodies: list[str]) -> dict[str, str]:
 def _bodies(figure: Figure) -> Iterator[str]:
     """Labels of bars and wheels."""
     if isinstance(figure, Drawing | Animation):
-        yield from (one.label for one in figure.strokes if one.role in ("link", "wheel") and one.label)
+        yield from (stroke.label for stroke in figure.strokes if stroke.role in ("link", "wheel") and stroke.label)
 
 
 def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
@@ -113,14 +113,14 @@ def _labels(figure: Figure) -> Iterator[tuple[str, bool]]:
     if isinstance(figure, Plot):
         yield from ((one.label, one.dashed) for one in figure.series)
     elif isinstance(figure, Timing):
-        yield from ((one.name, False) for one in figure.lanes)
+        yield from ((lane.name, False) for lane in figure.lanes)
     elif isinstance(figure, Gantt | StackedBars):
         yield from ((name, False) for name in figure.kinds)
     else:
         still = figure.still if isinstance(figure, Animation) else figure
-        roles = [(one.role, one.label) for one in still.strokes]
+        roles = [(stroke.role, stroke.label) for stroke in still.strokes]
         if isinstance(figure, Animation):
-            roles += [(one.role, one.label) for one in figure.strokes]
+            roles += [(stroke.role, stroke.label) for stroke in figure.strokes]
         yield from ((label, False) for wanted in COLOURED for role, label in roles if role == wanted)
 
 

@@ -60,7 +60,7 @@ def loom_page(page: LoomPage, left_out: list[str] | None = None, progress: Progr
         title=page.title,
         lead=page.lead,
         back=page.back,
-        verdict=PageVerdict(GOOD, BAD, len(checks), reasons(one.named for one in checks), nearest=page.nearest),
+        verdict=PageVerdict(GOOD, BAD, len(checks), reasons(check.named for check in checks), nearest=page.nearest),
         choices=page.choices,
         warnings=[*page.warnings, *of_machines, *left_out],
         sections=sections,

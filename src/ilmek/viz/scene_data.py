@@ -100,18 +100,18 @@ def checks_of_parts(scene: Scene) -> JsonObject:
     return {part.name: [check.as_json() for check in part.checks] for part in scene.parts if part.checks}
 
 
-def needed_samples(one: SceneMotion) -> Int32[np.ndarray, " kept"]:
+def needed_samples(motion: SceneMotion) -> Int32[np.ndarray, " kept"]:
     """The samples of a motion between which straight lines stay within the errors allowed.
 
     [Douglas and Peucker 1973, deviations at equal angles]
     """
-    values = np.column_stack([one.shift / SHIFT_ERROR, one.rotation / TURN_ERROR])
+    values = np.column_stack([motion.shift / SHIFT_ERROR, motion.rotation / TURN_ERROR])
 
     def away(number: IntArray, begin: IntArray, end: IntArray) -> FloatArray:
-        long = one.angle[end] - one.angle[begin]
-        share = (one.angle[number] - one.angle[begin]) / np.where(long > 0, long, 1.0)
+        long = motion.angle[end] - motion.angle[begin]
+        share = (motion.angle[number] - motion.angle[begin]) / np.where(long > 0, long, 1.0)
         straight = values[begin] + share[:, None] * (values[end] - values[begin])
         return np.asarray(np.abs(values[number] - straight).max(axis=1))
 
-    ends = np.isin(np.arange(len(one.angle)), [0, len(one.angle) - 1])
+    ends = np.isin(np.arange(len(motion.angle)), [0, len(motion.angle) - 1])
     return np.flatnonzero(divided(ends, away, 1.0)).astype(np.int32)

@@ -147,6 +147,6 @@ def shown_first(checks: Sequence[MachineCheck], first: int) -> int:
 
     A rest of two is shown as well.
     """
-    failed = sum(not one.check.ok for one in checks)
+    failed = sum(not check.check.ok for check in checks)
     shown = max(failed, first)
     return shown if len(checks) > shown + 2 else len(checks)

@@ -118,8 +118,8 @@ def _marked(image: Image.Image, pile: tuple[int, int, int, int], setup: LoomSetu
     left, top, right, bottom = pile
     across, along = (right - left) / setup.columns, (bottom - top) / setup.rows
     marks = _apart(
-        [(one.kind, complex(left + (one.column + 0.5) * across, height - bottom + (one.row + 0.5) * along))
-         for one in result.faults]
+        [(fault.kind, complex(left + (fault.column + 0.5) * across, height - bottom + (fault.row + 0.5) * along))
+         for fault in result.faults]
     )  # fmt: skip
     for kind, centre in marks:
         _mark(canvas, kind, centre)

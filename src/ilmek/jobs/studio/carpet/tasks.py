@@ -235,10 +235,10 @@ def _yarns(made: Chart) -> tuple[ChartYarn, ...]:
     return tuple(ChartYarn(yarn.name, yarn.hex, signs[index]) for index, yarn in enumerate(made.yarns))
 
 
-def _needed(made: ChartResult) -> tuple[ChartYarn, ...]:
+def _needed(result: ChartResult) -> tuple[ChartYarn, ...]:
     """The yarns of a chart with what is needed of them."""
-    yarns = list(_yarns(made.chart))
-    for index, need in zip(made.chart.used, made.bill.pile, strict=True):
+    yarns = list(_yarns(result.chart))
+    for index, need in zip(result.chart.used, result.bill.pile, strict=True):
         yarns[index] = replace(
             yarns[index],
             knots=need.knots,
@@ -257,8 +257,8 @@ def _assignment(chart: Chart) -> tuple[AssignedColour, ...]:
     return tuple(AssignedColour(**{**row, "merged_with": tuple(row["merged_with"][:MOST_MERGED])}) for row in rows)
 
 
-def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
-    chart, bill, reading = made.chart, made.bill, made.chart.reading
+def _answer(result: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
+    chart, bill, reading = result.chart, result.bill, result.chart.reading
     return ChartAnswer(
         rows=chart.rows,
         columns=chart.columns,
@@ -269,15 +269,15 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         reading=reading.kind,
         reason=reading.reason,
         fit=reading.fit.words,
-        yarns=_needed(made),
+        yarns=_needed(result),
         ground=tuple(
             GroundNeed(in_page(one.name), one.use, one.length, one.mass, one.to_buy, one.hanks, one.price)
             for one in bill.ground
         ),
-        listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in made.order.yarns),
+        listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in result.order.yarns),
         assignment=_assignment(chart),
-        hardest=tuple(HardRow(number, made.statistics.of_row(number)) for number in made.statistics.hardest),
-        mean_changes=made.statistics.mean_changes,
+        hardest=tuple(HardRow(number, result.statistics.of_row(number)) for number in result.statistics.hardest),
+        mean_changes=result.statistics.mean_changes,
         edited=reading.edited,
         small_patches=chart.small_patches,
         mean_delta_e=reading.mean_delta_e,
@@ -285,9 +285,9 @@ def _answer(made: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         mass_per_area=bill.mass_per_area,
         price=bill.price,
         currency=bill.currency,
-        checks=tuple(shown_check(check) for check in made.checks),
-        warnings=all_in_page(made.warnings),
-        notes=all_in_page(made.notes),
+        checks=tuple(shown_check(check) for check in result.checks),
+        warnings=all_in_page(result.warnings),
+        notes=all_in_page(result.notes),
         half_knots=sum(chart.tied.half),
         jufti_knots=sum(chart.tied.jufti),
         draft=draft and has_draft(reading.kind, chart.knots.size),

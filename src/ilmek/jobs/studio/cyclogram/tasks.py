@@ -76,8 +76,8 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
     cyclogram = cyclogram_of_data(request.data)
     drawn = [(track, curves(track, STEPS)) for track in cyclogram.tracks]
     parts = [_packed(cyclogram, rows) for _, rows in drawn]
-    relations = tuple(_relation(cyclogram, one) for one in cyclogram.relations)
-    exclusions = tuple(_exclusion(cyclogram, one) for one in cyclogram.exclusions)
+    relations = tuple(_relation(cyclogram, relation) for relation in cyclogram.relations)
+    exclusions = tuple(_exclusion(cyclogram, exclusion) for exclusion in cyclogram.exclusions)
     about = CyclogramView(
         name=cyclogram.name,
         period=cyclogram.period,
@@ -89,7 +89,7 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
             for one in limit_checks(cyclogram)
         ),
         laws=tuple(FAMILIES),
-        lengths=tuple(len(one) for one in parts),
+        lengths=tuple(len(part) for part in parts),
     )
     return packed(about, *parts)
 
@@ -113,7 +113,7 @@ def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
         limits={name: _finite(getattr(limits, name)) for name in ("speed", "acceleration", "jerk")}
         | {"time": limits.time or None},
         motions=tuple(_part(cyclogram, part) for part in track.segments),
-        events=tuple(ShownEvent(one.name, one.angle, one.on, one.share) for one in track.events),
+        events=tuple(ShownEvent(event.name, event.angle, event.on, event.share) for event in track.events),
         peaks={
             "speed": _finite(peak_speed(track, period)),
             "acceleration": _finite(peak_acceleration(track, period)),
@@ -136,23 +136,23 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def _relation(cyclogram: Cyclogram, one: Relation) -> ShownRelation:
-    first, then = (_moment(cyclogram, moment) for moment in (one.first, one.then))
-    gap = then.angle + turn * one.turns - first.angle
-    least = one.gap + one.delay * cyclogram.speed if one.gap > -math.inf else None
-    most = one.most if one.most < math.inf else None
+def _relation(cyclogram: Cyclogram, relation: Relation) -> ShownRelation:
+    first, then = (_moment(cyclogram, moment) for moment in (relation.first, relation.then))
+    gap = then.angle + turn * relation.turns - first.angle
+    least = relation.gap + relation.delay * cyclogram.speed if relation.gap > -math.inf else None
+    most = relation.most if relation.most < math.inf else None
     margins = [math.inf if least is None else gap - least, math.inf if most is None else most - gap]
     return ShownRelation(
-        label=one.label(cyclogram.units),
-        why=one.why,
+        label=relation.label(cyclogram.units),
+        why=relation.why,
         first=first,
         then=then,
-        turns=one.turns,
+        turns=relation.turns,
         gap=gap,
         least=least,
         most=most,
         margin=min(margins),
-        ok=all(check.ok for check in check_all(cyclogram, (one,))),
+        ok=all(check.ok for check in check_all(cyclogram, (relation,))),
     )
 
 
@@ -160,14 +160,14 @@ def _moment(cyclogram: Cyclogram, moment: Moment) -> ShownMoment:
     return ShownMoment(moment.track, moment_angle(cyclogram, moment), moment.label(cyclogram.units))
 
 
-def _exclusion(cyclogram: Cyclogram, one: Exclusion) -> ShownExclusion:
-    check = check_apart(cyclogram, one)
-    both = common(present(cyclogram, one.first), present(cyclogram, one.second))
+def _exclusion(cyclogram: Cyclogram, exclusion: Exclusion) -> ShownExclusion:
+    check = check_apart(cyclogram, exclusion)
+    both = common(present(cyclogram, exclusion.first), present(cyclogram, exclusion.second))
     return ShownExclusion(
-        label=one.label(cyclogram.units),
-        why=one.why,
-        first=_presence(cyclogram, one.first),
-        second=_presence(cyclogram, one.second),
+        label=exclusion.label(cyclogram.units),
+        why=exclusion.why,
+        first=_presence(cyclogram, exclusion.first),
+        second=_presence(cyclogram, exclusion.second),
         overlaps=_spans(both),
         apart=check.value,
         gap=check.limit,
@@ -184,7 +184,7 @@ def _presence(cyclogram: Cyclogram, one: Presence) -> ShownPresence:
 
 
 def _spans(windows: Windows) -> list[list[float]]:
-    return [[one.start, one.end] for one in windows]
+    return [[window.start, window.end] for window in windows]
 
 
 def solved(request: SolveRequest, context: Context) -> CyclogramSolution:

@@ -73,7 +73,7 @@ def shown_figure(figure: Figure, looks: Mapping[str, int]) -> ShownFigure:
 
 def shown_table(table: Table) -> ShownTable:
     """A table, without rounding noise."""
-    heads = [ShownColumn(one.heading, one.unit, one.digits) for one in table.columns]
+    heads = [ShownColumn(column.heading, column.unit, column.digits) for column in table.columns]
     return ShownTable(table.name, table.title, heads, [list(row) for row in quiet_rows(table)])
 
 
@@ -111,20 +111,20 @@ def _plot(plot: Plot, looks: Mapping[str, int]) -> ShownPlot:
     for one, look in zip(plot.series, numbers, strict=True):
         x, y = thinned_curve(np.asarray(one.x, float), np.asarray(one.y, float))
         curves.append(ShownCurve(one.label, look, one.dashed, rounded_numbers(x), rounded_numbers(y)))
-    marks = [ShownMark(one.x, one.label) for one in plot.marks]
+    marks = [ShownMark(mark.x, mark.label) for mark in plot.marks]
     return ShownPlot(ShownAxis(plot.x.label, plot.x.unit), ShownAxis(plot.y.label, plot.y.unit), curves, marks)
 
 
 def _coloured(strokes: Iterable[Stroke | MovingStroke], looks: Mapping[str, int]) -> list[int]:
     """The look of each stroke; -1 of those whose role has a colour of its own."""
     strokes = tuple(strokes)
-    order = [index for role in COLOURED for index, one in enumerate(strokes) if one.role == role]
+    order = [index for role in COLOURED for index, stroke in enumerate(strokes) if stroke.role == role]
     found = dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
     return [found.get(index, -1) for index in range(len(strokes))]
 
 
 def _drawing(drawing: Drawing, numbers: list[int]) -> ShownDrawing:
-    parts = [one.points[np.isfinite(one.points)] for one in drawing.strokes if len(one.points)]
+    parts = [stroke.points[np.isfinite(stroke.points)] for stroke in drawing.strokes if len(stroke.points)]
     everything = np.concatenate(parts) if parts else np.zeros(1, complex)
     wide = max(np.ptp(everything.real), np.ptp(everything.imag), 1e-9) if len(everything) else 1.0
     scale = FINE / float(wide)
@@ -134,7 +134,7 @@ def _drawing(drawing: Drawing, numbers: list[int]) -> ShownDrawing:
         )
         for one, look in zip(drawing.strokes, numbers, strict=True)
     ]
-    dots = [ShownDot((one.at.real, one.at.imag), one.label, one.role) for one in drawing.dots]
+    dots = [ShownDot((dot.at.real, dot.at.imag), dot.label, dot.role) for dot in drawing.dots]
     return ShownDrawing(strokes, dots, drawing.unit)
 
 
@@ -157,7 +157,7 @@ def _animation(animation: Animation, looks: Mapping[str, int]) -> ShownAnimation
     tracks = _Tracks()
     numbers = _coloured((*animation.still.strokes, *animation.strokes), looks)
     still = len(animation.still.strokes)
-    shapes = [_shape(one, tracks, look) for one, look in zip(animation.strokes, numbers[still:], strict=True)]
+    shapes = [_shape(stroke, tracks, look) for stroke, look in zip(animation.strokes, numbers[still:], strict=True)]
     return ShownAnimation(
         still=_drawing(animation.still, numbers[:still]),
         drive=ShownAxis(animation.drive.label, animation.drive.unit),
@@ -166,12 +166,12 @@ def _animation(animation: Animation, looks: Mapping[str, int]) -> ShownAnimation
         shapes=shapes,
         points=[
             MovingPoint(
-                tracks.number(one.at),
-                -1 if one.along is None else tracks.number(one.at + one.along),
-                one.label,
-                one.role,
+                tracks.number(dot.at),
+                -1 if dot.along is None else tracks.number(dot.at + dot.along),
+                dot.label,
+                dot.role,
             )
-            for one in animation.dots
+            for dot in animation.dots
         ],
         readings=[ShownReading(one.label, one.unit, rounded_numbers(one.values)) for one in animation.readings],
         closes=animation.closes,
@@ -205,19 +205,19 @@ def _timing(timing: Timing, looks: Mapping[str, int]) -> ShownTiming:
                 look,
                 rounded_numbers(angle),
                 rounded_numbers(position),
-                [ShownMark(one.x, one.label) for one in lane.events],
-                [ShownMove(one.name, one.start, one.end, one.begin, one.finish, one.law) for one in lane.moves],
-                [ShownShade(one.start, one.end, one.label, one.bad) for one in lane.shades],
+                [ShownMark(event.x, event.label) for event in lane.events],
+                [ShownMove(move.name, move.start, move.end, move.begin, move.finish, move.law) for move in lane.moves],
+                [ShownShade(shade.start, shade.end, shade.label, shade.bad) for shade in lane.shades],
             )
         )
-    links = [ShownLink(one.first, one.then, one.label, one.ok) for one in timing.links]
+    links = [ShownLink(link.first, link.then, link.label, link.ok) for link in timing.links]
     return ShownTiming(ShownAxis(timing.drive.label, timing.drive.unit), timing.period, lanes, links)
 
 
 def _gantt(gantt: Gantt, looks: Mapping[str, int]) -> ShownGantt:
     lanes = [
-        ShownSpans(one.name, rounded_numbers(one.starts), rounded_numbers(one.ends), one.kinds.tolist())
-        for one in gantt.lanes
+        ShownSpans(lane.name, rounded_numbers(lane.starts), rounded_numbers(lane.ends), lane.kinds.tolist())
+        for lane in gantt.lanes
     ]
     kinds = list(gantt.kinds)
     return ShownGantt(ShownAxis(gantt.x.label, gantt.x.unit), lanes, kinds, numbered(kinds, looks), gantt.pale)

@@ -82,7 +82,7 @@ def motion_of(machine: OwnMachine, plan: Plan, options: RunOptions, pose: Pose) 
             for pin, angle in transmission_angles(motion, machine.transmission).items()
         },
         closed.ranges if closed else (),
-        tuple(DeadCentreAnswer(*one) for one in closed.dead_centres) if closed else (),
+        tuple(DeadCentreAnswer(*dead_centre) for dead_centre in closed.dead_centres) if closed else (),
         closed.change_points if closed else (),
         _rates(motion) if options.rates else {},
         _forces(made.forces) if made.forces is not None else None,
@@ -170,11 +170,11 @@ def _rates(motion: Motion) -> dict[str, dict[str, Rates]]:
     return rates
 
 
-def _forces(found: InverseRun) -> ForceSeries:
+def _forces(run: InverseRun) -> ForceSeries:
     """The forces over the samples."""
-    effort = found.effort if found.effort is not None else np.full(len(found.forces.status), np.nan)
-    joints = {name: vectors(force) for name, force in found.forces.reactions.items()}
-    return ForceSeries(joints, rounded(effort), vectors(found.shaking.force))
+    effort = run.effort if run.effort is not None else np.full(len(run.forces.status), np.nan)
+    joints = {name: vectors(force) for name, force in run.forces.reactions.items()}
+    return ForceSeries(joints, rounded(effort), vectors(run.shaking.force))
 
 
 def vectors(values: ComplexField) -> VectorSeries:

@@ -166,7 +166,7 @@ def solved_part(mechanism: Mechanism, steps: tuple[Step, ...]) -> Mechanism:
         inputs=tuple(entry for entry in mechanism.inputs if entry.joint in names),
         branches={name: sign for name, sign in mechanism.branches.items() if name in names},
         pose={body: pose for body, pose in mechanism.pose.items() if body in bodies},
-        couplings=tuple(one for one in mechanism.couplings if set(one.bodies) <= bodies),
+        couplings=tuple(coupling for coupling in mechanism.couplings if set(coupling.bodies) <= bodies),
     )
 
 

@@ -138,15 +138,15 @@ def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
     )
 
 
-def _moved(made: MechanismRun) -> OneInput | None:
+def _moved(run: MechanismRun) -> OneInput | None:
     """The mechanism moved by its driving input; None where others move too."""
-    if made.running is None or not made.others_rest:
+    if run.running is None or not run.others_rest:
         return None
-    values = made.at(made.values)
+    values = run.at(run.values)
     return OneInput(
-        made.plan,
-        made.running.name,
-        {name: float(np.ravel(v)[0]) for name, v in values.items() if name != made.running.name},
+        run.plan,
+        run.running.name,
+        {name: float(np.ravel(v)[0]) for name, v in values.items() if name != run.running.name},
     )
 
 
@@ -156,22 +156,22 @@ def _circuits(moved: OneInput) -> tuple[tuple[CircuitAnswer, ...], tuple[str, ..
     if count > MOST_BRANCHES:
         return (), (f"circuits of {count} branches, {2**count} assemblies; at most {MOST_BRANCHES} branches",)
     try:
-        return tuple(_circuit(one, dict(moved.plan.mechanism.branches)) for one in circuits(moved)), ()
+        return tuple(_circuit(circuit, dict(moved.plan.mechanism.branches)) for circuit in circuits(moved)), ()
     except IlmekError as error:
         return (), (str(error),)
 
 
 def _circuit(circuit: Circuit, own: dict[str, int]) -> CircuitAnswer:
     branches = tuple(BranchAnswer(one.start, one.stop, dict(one.branches), one.full) for one in circuit.branches)
-    current = any(one.branches == own for one in branches)
+    current = any(branch.branches == own for branch in branches)
     return CircuitAnswer(branches, circuit.dead_centres, circuit.crossings, circuit.closed, current)
 
 
-def _curves(made: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:
+def _curves(run: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:
     """The coupler curves of the points that are no joints, or of the file's paths."""
-    ranges = [(low, high) for low, high in made.closing if high > low]
-    joints = {joint.name for joint in made.plan.mechanism.joints}
-    points = list(made.machine.paths) or [one for one in moving_points(made.plan.mechanism) if one[1] not in joints]
+    ranges = [(low, high) for low, high in run.closing if high > low]
+    joints = {joint.name for joint in run.plan.mechanism.joints}
+    points = list(run.machine.paths) or [one for one in moving_points(run.plan.mechanism) if one[1] not in joints]
     if not ranges or not points:
         return ()
     low, high = max(ranges, key=lambda ends: ends[1] - ends[0])
@@ -185,36 +185,36 @@ def _curves(made: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:
 
 def _curve(path: InputPath, body: str, point: str) -> CurveAnswer:
     curve = coupler_curve(path, body, point)
-    cusps = tuple(SpecialPoint(one.input, one.position.real, one.position.imag) for one in curve.cusps())
+    cusps = tuple(SpecialPoint(cusp.input, cusp.position.real, cusp.position.imag) for cusp in curve.cusps())
     bends = tuple(SpecialPoint(one.input, one.position.real, one.position.imag) for one in curve.inflections())
     crossings = tuple(SpecialPoint(one.inputs[0], one.position.real, one.position.imag) for one in curve.crossings())
     return CurveAnswer(body, point, curve.length(), cusps, crossings, bends)
 
 
-def _transmission(made: MechanismRun) -> tuple[LeastTransmission, ...]:
+def _transmission(run: MechanismRun) -> tuple[LeastTransmission, ...]:
     found = []
-    for pin, angles in transmission_angles(made.motion, made.machine.transmission).items():
+    for pin, angles in transmission_angles(run.motion, run.machine.transmission).items():
         if np.isfinite(angles).any():
             at = int(np.nanargmin(angles))
-            found.append(LeastTransmission(pin, float(angles[at]), float(made.values[at])))
+            found.append(LeastTransmission(pin, float(angles[at]), float(run.values[at])))
     return tuple(found)
 
 
-def _mobility(made: MechanismRun) -> str:
+def _mobility(run: MechanismRun) -> str:
     """The mobility in the middle of the samples that close."""
-    (good,) = np.nonzero(made.motion.status == Status.OK)
+    (good,) = np.nonzero(run.motion.status == Status.OK)
     if not len(good):
         return ""
     try:
-        return mobility(made.plan.mechanism, made.motion.pose(int(good[len(good) // 2]))).description
+        return mobility(run.plan.mechanism, run.motion.pose(int(good[len(good) // 2]))).description
     except IlmekError as error:
         return str(error)
 
 
-def _checks(made: MechanismRun, context: Context) -> tuple[tuple[JsonObject, ...], tuple[str, ...]]:
+def _checks(run: MechanismRun, context: Context) -> tuple[tuple[JsonObject, ...], tuple[str, ...]]:
     """The checks and warnings of the mechanism, as the command line reports them."""
     try:
-        found = analysis(made, context.progress.part(0.6, 0.9, "forces"))
+        found = analysis(run, context.progress.part(0.6, 0.9, "forces"))
     except IlmekError as error:
         return (), (str(error),)
     shown = (replace(check, cure=in_page(check.cure)) for check in found.checks)

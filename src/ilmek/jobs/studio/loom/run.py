@@ -174,7 +174,7 @@ def _news(now: Snapshot) -> RunNews:
         columns=tuple(head.column for head in now.heads),
         tied=sum(head.tied for head in now.heads),
         due=sum(head.knots for head in now.heads),
-        alarms=tuple(RunAlarm(one.name, one.cause, one.remedy) for one in now.alarms),
+        alarms=tuple(RunAlarm(alarm.name, alarm.cause, alarm.remedy) for alarm in now.alarms),
         requests=now.requests,
         commands=now.commands,
     )

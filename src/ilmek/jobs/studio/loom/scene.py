@@ -116,7 +116,7 @@ def drawing_of(found: Plate) -> PlateDrawing:
     lines = (found.outline, *found.cutouts)
     return PlateDrawing(
         title=found.title,
-        lines=tuple(_flat(one) for one in lines),
+        lines=tuple(_flat(line) for line in lines),
         holes=tuple((hole.at.real, hole.at.imag, hole.radius) for hole in found.holes),
         thickness=found.thickness,
         material=found.material,

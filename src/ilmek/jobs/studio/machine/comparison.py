@@ -66,24 +66,24 @@ def comparison(request: ComparisonRequest, context: Context) -> Comparison:
 
 def _parameters(a: DesignView, b: DesignView) -> tuple[Difference, ...]:
     return tuple(
-        Difference(name, "", one.text, other.text, _change(one.value, other.value))
-        for name, one in a.parameters.items()
-        if (other := b.parameters[name]).value != one.value
+        Difference(name, "", parameter.text, other.text, _change(parameter.value, other.value))
+        for name, parameter in a.parameters.items()
+        if (other := b.parameters[name]).value != parameter.value
     )
 
 
 def _results(a: DesignView, b: DesignView) -> tuple[Difference, ...]:
-    known = {(one.machine, one.name): one for one in b.results}
+    known = {(result.machine, result.name): result for result in b.results}
     return tuple(
-        Difference(one.name, one.machine, one.text, other.text, _change(one.value, other.value))
-        for one in a.results
-        if (other := known.get((one.machine, one.name))) is not None and other.text != one.text
+        Difference(result.name, result.machine, result.text, other.text, _change(result.value, other.value))
+        for result in a.results
+        if (other := known.get((result.machine, result.name))) is not None and other.text != result.text
     )
 
 
 def _checks(a: DesignView, b: DesignView) -> tuple[CheckDifference, ...]:
     """The checks that differ, those that turn first."""
-    of_a, of_b = ({(one.machine, one.name): one for one in view.checks} for view in (a, b))
+    of_a, of_b = ({(check.machine, check.name): check for check in view.checks} for view in (a, b))
     found = []
     for machine, name in {**of_a, **of_b}:
         one, other = of_a.get((machine, name)), of_b.get((machine, name))

@@ -213,9 +213,9 @@ def _size(now: Check) -> float:
 def _ranked(name: str, step: str, effects: Iterator[Effect], value: float) -> Sensitivity:
     """The strongest effects: those that turn a check first, the nearest of them first; the rest by relative size."""
 
-    def rank(one: Effect) -> tuple[bool, float, float]:
-        turns = one.ok != one.after or one.turns_at is not None
-        return not turns, abs((one.turns_at or value) - value), -abs(one.relative)
+    def rank(effect: Effect) -> tuple[bool, float, float]:
+        turns = effect.ok != effect.after or effect.turns_at is not None
+        return not turns, abs((effect.turns_at or value) - value), -abs(effect.relative)
 
     found = sorted(effects, key=rank)
     return Sensitivity(name, step, "", tuple(found[:MOST_EFFECTS]), max(0, len(found) - MOST_EFFECTS))
@@ -223,7 +223,7 @@ def _ranked(name: str, step: str, effects: Iterator[Effect], value: float) -> Se
 
 def _checks(report: Report, machine: str = "") -> dict[tuple[str, str], Check]:
     """The checks of a report and of the machines in it, by machine and name."""
-    found = {(machine, one.name): one for one in report.checks}
+    found = {(machine, check.name): check for check in report.checks}
     for child in report.children:
         found |= _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
     return found

@@ -185,26 +185,26 @@ def form_of(name: str) -> MachineFields:
     return MachineFields(machine.name, machine.title, machine.summary, fields, others, machine.long_design is not None)
 
 
-def _field(one: Parameter, others: tuple[str, ...]) -> FormField:
-    group = one.name.rpartition(".")[0]
-    head = one.name.partition(".")[0]
+def _field(parameter: Parameter, others: tuple[str, ...]) -> FormField:
+    group = parameter.name.rpartition(".")[0]
+    head = parameter.name.partition(".")[0]
     return FormField(
-        name=one.name,
+        name=parameter.name,
         group=group,
         machine=head if group and head in others else "",
-        kind="choice" if one.kind is str and one.choices else KINDS[one.kind],
-        default=one.default,
-        default_text=value_text(one.default, one.unit),
-        shown_unit=one.unit,
-        printed=printed_unit(one.unit),
-        factor=parse_unit(one.unit).factor,
-        above=one.above,
-        at_least=one.at_least,
-        below=one.below,
-        at_most=one.at_most,
-        allowed=one.allowed(),
-        choices=one.choices,
-        doc=one.doc,
-        symbol=one.symbol,
-        alias=one.alias,
+        kind="choice" if parameter.kind is str and parameter.choices else KINDS[parameter.kind],
+        default=parameter.default,
+        default_text=value_text(parameter.default, parameter.unit),
+        shown_unit=parameter.unit,
+        printed=printed_unit(parameter.unit),
+        factor=parse_unit(parameter.unit).factor,
+        above=parameter.above,
+        at_least=parameter.at_least,
+        below=parameter.below,
+        at_most=parameter.at_most,
+        allowed=parameter.allowed(),
+        choices=parameter.choices,
+        doc=parameter.doc,
+        symbol=parameter.symbol,
+        alias=parameter.alias,
     )

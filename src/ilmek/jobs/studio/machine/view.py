@@ -167,8 +167,8 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         machine=report.machine,
         title=report.title,
         holds=not report.failed,
-        failed=sum(not one.ok for one in checks),
-        reasons=tuple(ShownReason(one.name, *printed(one), in_page(one.cure)) for one in report.reasons),
+        failed=sum(not check.ok for check in checks),
+        reasons=tuple(ShownReason(reason.name, *printed(reason), in_page(reason.cure)) for reason in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
         choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
@@ -198,7 +198,7 @@ def _of_machines(report: Report) -> JsonObject:
 
 
 def _checks(report: Report, machine: str) -> Iterator[ShownCheck]:
-    yield from (shown_check(one, machine) for one in report.checks)
+    yield from (shown_check(check, machine) for check in report.checks)
     for child in report.children:
         yield from _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
 

@@ -78,7 +78,7 @@ def written(request: ProjectRequest, context: Context) -> OutList:
             source = known.get(name, "")
             files = tuple(_out_file(folder.base, path, status) for path, status in found)
             changed = origins.changed(name, source, max(times)) if source else ()
-            entries.append(OutEntry(name, sum(one.size for one in files), max(times) / 1e9, files, source, changed))
+            entries.append(OutEntry(name, sum(file.size for file in files), max(times) / 1e9, files, source, changed))
     return OutList(tuple(sorted(entries, key=lambda entry: (-entry.time, natural(entry.path)))))
 
 

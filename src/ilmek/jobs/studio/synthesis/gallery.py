@@ -62,11 +62,11 @@ def gallery(design: FourBarDesign) -> tuple[ShownFourBar, ...]:
         replace(
             one,
             motion=_motion_over_range(
-                found.four_bar, finite(option.details["crank_start"]), design.function.crank_swing
+                approximation.four_bar, finite(option.details["crank_start"]), design.function.crank_swing
             ),
-            function=_generated(found),
+            function=_generated(approximation),
         )
-        for one, option, found in zip(shown, design.choice.kept, design.approximations, strict=True)
+        for one, option, approximation in zip(shown, design.choice.kept, design.approximations, strict=True)
     )
 
 
@@ -99,12 +99,12 @@ def _shown(number: int, option: FourBarOption, *, task_only: bool) -> ShownFourB
     )
 
 
-def _error_max(one: Candidate, details: Mapping[str, Json]) -> float:
+def _error_max(candidate: Candidate, details: Mapping[str, Json]) -> float:
     """Greatest error that the method reports; else that of the check, of points before that of angles."""
     reported = finite(details.get("error_max"))
     if math.isfinite(reported):
         return reported
-    return one.point_error if math.isfinite(one.point_error) else one.angle_error
+    return candidate.point_error if math.isfinite(candidate.point_error) else candidate.angle_error
 
 
 def _known(value: float) -> float | None:
@@ -149,24 +149,24 @@ def _motion(one: Candidate) -> ShownMotion:
     return ShownMotion(flat(moved.a), flat(moved.b), flat(tracer), closed)
 
 
-def _motion_over_range(one: FourBar, start: float, swing: float) -> ShownMotion:
+def _motion_over_range(four_bar: FourBar, start: float, swing: float) -> ShownMotion:
     """The motion over the range of a function: the crank from its start by its swing [rad], on the branch as drawn."""
-    motion = solve(plan(one.mechanism()), np.linspace(start, start + swing, POSITIONS))
+    motion = solve(plan(four_bar.mechanism()), np.linspace(start, start + swing, POSITIONS))
     a, b = (np.asarray(motion.point("coupler", name).position) for name in ("A", "B"))
     closes = np.isfinite(b)
     return ShownMotion(flat(a[closes]), flat(b[closes]), [], closed=False)
 
 
-def _whole_curve(one: Candidate) -> list[float]:
+def _whole_curve(candidate: Candidate) -> list[float]:
     """The whole circuit of the first position as the tracer draws it."""
-    if one.four_bar.tracer is None:
+    if candidate.four_bar.tracer is None:
         return []
-    return flat(_loop(one, np.linspace(0.0, turn, POSITIONS + 1)).tracer)
+    return flat(_loop(candidate, np.linspace(0.0, turn, POSITIONS + 1)).tracer)
 
 
-def _loop(one: Candidate, u: FloatArray) -> LoopConfigurations:
+def _loop(candidate: Candidate, u: FloatArray) -> LoopConfigurations:
     """Positions on the circuit of the first position."""
-    return circuit_loops(one.four_bar)[max(one.positions[0].circuit - 1, 0)].at(u)
+    return circuit_loops(candidate.four_bar)[max(candidate.positions[0].circuit - 1, 0)].at(u)
 
 
 def flat(points: ComplexArray) -> list[float]:
