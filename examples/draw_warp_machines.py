@@ -1,4 +1,4 @@
-"""Draws hammer-*, shedding-* and tension-compensator-*.svg of docs/_static: what beats, sheds and holds the warps.
+"""Draws hammer-*, shedding-*, tension-compensator-* and hand-*.svg of docs/_static: what beats, sheds, holds the warps.
 
 Run it as `python examples/draw_warp_machines.py`; it ends with the least force of a warp over the largest.
 """
@@ -44,6 +44,8 @@ def figures(hammer: Hammer) -> Iterator[tuple[str, Figure]]:
     yield "shedding-draped", report_figure("shedding", "shedding-draped", **CLAMPED)
     yield "tension-compensator-side", report_figure("tension-compensator", "tension-compensator-side")
     yield "tension-compensator-tension", report_figure("tension-compensator", "tension-compensator-tension")
+    yield "hand-shed-high", report_figure("hand-shed", "hand-shed-high")
+    yield "hand-loom-side", report_figure("hand-loom", "hand-loom-side")
 
 
 if __name__ == "__main__":

@@ -6,39 +6,20 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from mechanisms import slotted_lever
 
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
 from ilmek.linkage.fourbar import four_bar, slider_crank
-from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 
 ANGLES = np.arange(128) * (2 * np.pi / 128)
 GRAVITY = 3.0 - 9.0j
-
-
-def slotted_lever() -> Mechanism:
-    """A crank whose block slides along a swinging lever: a slide on a moving guide."""
-    return Mechanism(
-        bodies=(
-            Body(GROUND, {"O": 0, "Q": -0.35j}),
-            Body("crank", {"O": 0, "P": 0.1}),
-            Body("block", {"P": 0, "slot": 0.02j}),
-            Body("lever", {"Q": 0, "slot": 0.02j + 0.01}),
-        ),
-        joints=(
-            Pin("O", GROUND, "crank"),
-            Pin("P", "crank", "block"),
-            Pin("Q", "lever", GROUND),
-            Slide("slot", "block", "lever"),
-        ),
-        inputs=(Rotation("crank", "O"),),
-        pose={"block": (0.1 + 0j, 1.3), "lever": (-0.35j, 1.3)},
-    )
 
 
 # Numbers only: what stands for a task is built in the test, because the run-time type checks draw random items.

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from mechanisms import check_newton
 
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
@@ -114,21 +115,7 @@ def check(mechanism: Mechanism, kind: str) -> None:
         assert np.abs(periodic_derivative(motion.omega(body)) - motion.alpha(body)).max() <= 1e-9 * max(
             1.0, np.abs(motion.alpha(body)).max()
         )
-    check_newton(mechanism)
-
-
-def check_newton(mechanism: Mechanism) -> None:
-    """Newton's method, started in the first sample's pose, finds the same motion at a changing speed."""
-    angle = np.linspace(0.0, 0.6, 9)
-    speed, acceleration = 2 + np.sin(angle), 3 * np.cos(angle)
-    motion = solve(plan(mechanism), angle, speed, acceleration).require()
-    pose = {body: (complex(motion.origin(body)[0]), float(motion.angle(body)[0])) for body in mechanism.moving}
-    posed = plan(dataclasses.replace(mechanism, pose=pose), closed_forms=False)
-    found = solve(posed, angle, speed, acceleration).require()
-    for body in mechanism.moving:
-        for field in ("origin", "direction", "velocity_of_origin", "acceleration_of_origin", "omega", "alpha"):
-            ours, theirs = (getattr(one, field)(body) for one in (motion, found))
-            assert np.abs(ours - theirs).max() <= 1e-10 * max(1.0, np.abs(theirs).max()), (body, field)
+    check_newton(mechanism, np.linspace(0.0, 0.6, 9))
 
 
 @FEW

@@ -121,9 +121,9 @@ def test_pile_yarn_of_the_worked_example() -> None:
 
 def test_warp_of_the_worked_example() -> None:
     """640 knots need 1280 warps; in wool 8/3 they weigh 960 g (iran-carpet.com 1726) if each is 2.00 m long: the 1.56 m
-    of the carpet and 44 cm, within the `up to 60 cm` of the same source.
+    of the carpet and 44 cm for crimp and ends, within the `up to 60 cm` of the same source.
     """
-    ground = GroundParams(selvedge_warps=0, yarns=CarpetYarnParams(warp="wool", warp_density=3 / 8 * g))
+    ground = GroundParams(crimp=0.0, selvedge_warps=0, yarns=CarpetYarnParams(warp="wool", warp_density=3 / 8 * g))
     plan = YarnPlanParams(fringe=0.1, loom_waste=0.24)
     warp = yarn_bill(worked_example(), plan, ground).ground[0]
     assert (warp.name, warp.length) == ("warp", pytest.approx(1280 * 2.00))

@@ -39,8 +39,11 @@ SETTLED: Mapping[str, Mapping[str, Any]] = {
 }
 """Parameters with which the forces count the made links."""
 
-FINE = 1e-5
-"""Deviation of a mesh over the cube root of the part's volume."""
+FINE, FINEST = 1e-5, 1e-6
+"""Deviations of a mesh over the cube root of the part's volume: the finer one where the other is not near enough."""
+
+MASS, TENSOR = 1e-6, 1e-4
+"""Largest deviation of masses in forces, and of moments from those of a mesh."""
 
 
 def changed(machine: str, seed: int) -> Any:
@@ -79,10 +82,15 @@ def made_parts(tree: Tree) -> Iterator[Part]:
 
 def deviation_of(part: Part) -> float:
     """Greatest relative difference of mass, place of the centre and tensor from those of the mesh."""
+    coarse = _deviation(part, FINE)
+    return coarse if coarse <= TENSOR else _deviation(part, FINEST)
+
+
+def _deviation(part: Part, fine: float) -> float:
     assert part.shape is not None
     assert part.material is not None
     size = part.shape.volume ** (1 / 3)
-    mass, centre, tensor = measured(part.shape.mesh(FINE * size), part.material.density)
+    mass, centre, tensor = measured(part.shape.mesh(fine * size), part.material.density)
     own = part.moments
     assert own is not None
     scale = np.linalg.norm(own.inertia)
@@ -178,9 +186,6 @@ OTHERS = ("beat-up", "hammer", "shedding", "tension-compensator", "warp-tension"
 
 EVERY = 10
 """Cases after which the largest deviations so far are printed."""
-
-MASS, TENSOR = 1e-6, 1e-4
-"""Largest deviation of masses in forces, and of moments from those of a mesh."""
 
 
 def random_loom(seed: int) -> Any:

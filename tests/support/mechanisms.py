@@ -1,9 +1,14 @@
 """Mechanisms of many kinds for the tests of what is judged on any of them."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.solve import solve
+from ilmek.linkage.structure import plan
 
 BEAT_UP = (0.300, 0.0597, 0.2007, 0.2308)
 
@@ -117,3 +122,36 @@ def triad(crank_pin: complex = 0.2 - 0.8j) -> Mechanism:
     joints = [Pin("A0", GROUND, "crank"), Pin("low0", "crank", "low")]
     joints += [Pin(f"{n}0", GROUND, n) for n in ("left", "right")] + [Pin(f"{n}1", n, "plate") for n in names]
     return Mechanism((ground, crank, *links, plate), tuple(joints), (Rotation("crank", "A0"),), name="triad")
+
+
+def slotted_lever() -> Mechanism:
+    """A crank whose block slides along a swinging lever: a slide on a moving guide."""
+    return Mechanism(
+        bodies=(
+            Body(GROUND, {"O": 0, "Q": -0.35j}),
+            Body("crank", {"O": 0, "P": 0.1}),
+            Body("block", {"P": 0, "slot": 0.02j}),
+            Body("lever", {"Q": 0, "slot": 0.02j + 0.01}),
+        ),
+        joints=(
+            Pin("O", GROUND, "crank"),
+            Pin("P", "crank", "block"),
+            Pin("Q", "lever", GROUND),
+            Slide("slot", "block", "lever"),
+        ),
+        inputs=(Rotation("crank", "O"),),
+        pose={"block": (0.1 + 0j, 1.3), "lever": (-0.35j, 1.3)},
+    )
+
+
+def check_newton(mechanism: Mechanism, angle: FloatArray) -> None:
+    """Newton's method, started in the pose at the first angle, finds the same motion at a changing speed."""
+    speed, acceleration = 2 + np.sin(angle), 3 * np.cos(angle)
+    motion = solve(plan(mechanism), angle, speed, acceleration).require()
+    pose = {body: (complex(motion.origin(body)[0]), float(motion.angle(body)[0])) for body in mechanism.moving}
+    posed = plan(replace(mechanism, pose=pose), closed_forms=False)
+    found = solve(posed, angle, speed, acceleration).require()
+    for body in mechanism.moving:
+        for field in ("origin", "direction", "velocity_of_origin", "acceleration_of_origin", "omega", "alpha"):
+            ours, theirs = (getattr(one, field)(body) for one in (motion, found))
+            assert np.abs(ours - theirs).max() <= 1e-10 * max(1.0, np.abs(theirs).max()), (body, field)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mechanisms import two_motors
+from mechanisms import triad, two_motors
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND, Body, Displacement, Mechanism, Pin, Rotation, Slide
@@ -54,21 +54,6 @@ def test_plan_says_in_words_what_is_left_to_newton():
         "crank turned by the input on ground",
         "block, lever with joints A, slot, O: Newton's method on the loop equations",
     ]
-
-
-def triad() -> Mechanism:
-    """A plate on three links, two on the ground, one on the crank: class III, without a dyad. Drawn in place."""
-    outer, corners = (1j, 3 + 0j, -1.2 - 1j), (0.6 + 1.2j, 2.2 + 0.8j, 1 + 0.1j)
-    crank_pin = 0.2 - 0.8j
-    names = ("left", "right", "low")
-    starts = (outer[0], outer[1], crank_pin)
-    links = [Body(n, {f"{n}0": s, f"{n}1": c}) for n, s, c in zip(names, starts, corners, strict=True)]
-    plate = Body("plate", {f"{n}1": c for n, c in zip(names, corners, strict=True)} | {"P": 1.3 + 1j})
-    ground = Body(GROUND, {"left0": outer[0], "right0": outer[1], "A0": 0.1 - 1j})
-    crank = Body("crank", {"A0": 0.1 - 1j, "low0": crank_pin})
-    joints = [Pin("A0", GROUND, "crank"), Pin("low0", "crank", "low")]
-    joints += [Pin(f"{n}0", GROUND, n) for n in ("left", "right")] + [Pin(f"{n}1", n, "plate") for n in names]
-    return Mechanism((ground, crank, *links, plate), tuple(joints), (Rotation("crank", "A0"),), name="triad")
 
 
 def test_class_three_group_drawn_in_place_closes_all_round():

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from mechanisms import slotted_lever
 
 from ilmek.dynamics.forward import ForwardState, forward
 from ilmek.dynamics.inertia import Inertia
@@ -23,7 +24,7 @@ from ilmek.dynamics.multibody.system import (
 from ilmek.dynamics.reduced import reduce
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
-from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
+from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Slide
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 
@@ -31,31 +32,10 @@ GRAVITY = -9.81j
 BLOCK = Body("block", {"S": 0, "eye": 0.1})
 
 
-def whitworth() -> Mechanism:
-    """A crank whose block slides along a lever: a slide on a moving guide."""
-    return Mechanism(
-        bodies=(
-            Body(GROUND, {"O": 0, "Q": -0.35j}),
-            Body("crank", {"O": 0, "P": 0.1}),
-            Body("block", {"P": 0, "slot": 0.02j}),
-            Body("lever", {"Q": 0, "slot": 0.02j + 0.01}),
-        ),
-        joints=(
-            Pin("O", GROUND, "crank"),
-            Pin("P", "crank", "block"),
-            Pin("Q", "lever", GROUND),
-            Slide("slot", "block", "lever"),
-        ),
-        inputs=(Rotation("crank", "O"),),
-        branches={},
-        pose={"block": (0.1 + 0j, 1.3), "lever": (-0.35j, 1.3)},
-    )
-
-
 MACHINES = {
     "four-bar": four_bar(0.3, 0.0597, 0.2007, 0.2308, branch=+1),
     "slider-crank": slider_crank(0.1, 0.3, branch=+1, offset=0.02),
-    "whitworth": whitworth(),
+    "whitworth": slotted_lever(),
 }
 
 

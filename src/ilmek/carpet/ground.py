@@ -20,7 +20,7 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
-from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.params import Params, nested, param
 from ilmek.sentences import Sentence
@@ -47,6 +47,7 @@ class GroundParams(Params):
         0.02, unit="mm", at_least=0.0, at_most=1.0, doc="flat-woven end before the first row and after the last"
     )
     loom_waste: float = param(0.40, unit="mm", at_least=0.0, at_most=10.0, doc="warp lost in the loom, both ends")
+    crimp: float = param(CRIMP, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
     selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
     weft_turn: float = param(WEFT_TURN, unit="mm", at_least=0.0, at_most=0.5, doc="weft for the turn of a pick")
     weft_share: float = param(
@@ -56,6 +57,10 @@ class GroundParams(Params):
         doc="share of the sinuous weft in the amplitude of a crossing, the rest the warps",
     )
     yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of the yarns")
+
+    def warp_length(self, length: float) -> float:
+        """Length of a warp to be wound for a carpet of a length [m]: with its crimp, both ends and the loom's waste."""
+        return length * (1 + self.crimp) + 2 * self.fringe + self.loom_waste
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,9 +124,9 @@ def weft_lengths(
 def warp_need(columns: int, length: float, yarn: YarnProperties, params: GroundParams) -> GroundYarn:
     """Warp for `columns` knots across: two per knot and the selvedges.
 
-    length  of the carpet [m]; each warp is longer by both ends and the loom's waste
+    length  of the carpet [m]
     """
-    each = length + 2 * params.fringe + params.loom_waste
+    each = params.warp_length(length)
     total = (2 * columns + params.selvedge_warps) * each
     mass = total * yarn.linear_density
     return GroundYarn(Sentence("ground.warp"), "warp", yarn.material, total, mass, 1 - params.loom_waste / each)

@@ -53,7 +53,7 @@ def mounting(chart: Chart, ground: GroundParams | None = None) -> Mounting:
         ground.selvedge_warps,
         quality.warp_pitch,
         warps * quality.warp_pitch,
-        chart.size.length + 2 * ground.fringe + ground.loom_waste,
+        ground.warp_length(chart.size.length),
         ground.fringe,
         TENS / quality.along,
         TENS / quality.across,

@@ -144,6 +144,7 @@ def command(  # noqa: PLR0917 - click calls it by name
             outputs=call.outputs,
             progress=call.progress,
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
+            drawn=page_to is not None or animation_to is not None,
         )
         shown = None if table is None else find_table(made.report, table)
         _give(made, call, motion, mechanism_to, pose)

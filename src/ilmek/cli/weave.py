@@ -21,7 +21,6 @@ from ilmek.jobs.recipe import saved_recipe
 from ilmek.jobs.weave import WeaveResult, days_in_words, order_in_words, time_in_words, wage, weave, weave_json
 from ilmek.machines.automated_loom.carpet_cost import YEAR, CarpetCost
 from ilmek.machines.automated_loom.params import AIMS
-from ilmek.machines.automated_loom.report import analyse
 from ilmek.machines.automated_loom.search import LoomSearch
 from ilmek.units import format_number
 
@@ -154,9 +153,9 @@ def rival_in_words(search: LoomSearch) -> str:
 
 def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
-    made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
-    time = woven.loomed.weaving_time
-    if made is None or time is None:
+    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
+    time, cost = woven.loomed.weaving_time, woven.loomed.cost
+    if made is None or time is None or cost is None:
         return []
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
     if programme is None:
@@ -165,7 +164,7 @@ def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     else:
         how = order_in_words(programme)
         of_knots = ("heads", f"{programme.heads} (of {made.heads_max} that fit)")
-    cost = analyse(made).cost
+    search = woven.loomed.design and woven.loomed.design.search
     chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
     return [
         ("weaving time", f"{time_in_words(time)}{within}; {how}"),
@@ -173,5 +172,5 @@ def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
         ("cost", cost_in_words(cost, woven.charted.bill.price)),
         ("loom", price_in_words(cost)),
         *([("chosen", "; ".join(chosen))] if chosen else []),
-        *([("next best", rival_in_words(made.search))] if made.search else []),
+        *([("next best", rival_in_words(search))] if search else []),
     ]

@@ -22,6 +22,9 @@ FRICTION = 0.25
 PILE_DENSITY = 0.8 * g / m
 """Linear density of the pile yarn of a machine without a loom [kg/m]."""
 
+CRIMP = 0.03
+"""Warp in the carpet over the carpet's length, less 1: its waves about the wefts; assumed by this project."""
+
 
 @dataclass(frozen=True, slots=True)
 class CarpetYarnParams(Params):

@@ -143,6 +143,25 @@ MATERIALS: dict[str, Material] = {
 }  # fmt: skip
 """By name. Strengths are the least values of the standards for the given size; hardnesses are typical."""
 
+BEECH, CARBON, NEODYMIUM = (
+    _material(
+        "beech",
+        "DIN 68364, along the grain; strength in compression, tensile along the grain",
+        modulus=14, density=720, strength=60, tensile=135, hardness=3.4, poisson=0.35,
+    ),
+    _material(
+        "carbon fibre",
+        "pultruded tube, along its fibres: makers' data",
+        modulus=120, density=1600, strength=1000, tensile=1200, hardness=50,
+    ),
+    _material(
+        "neodymium magnet",
+        "sintered Nd-Fe-B of grade N42: makers' data; it is brittle",
+        modulus=160, density=7500, strength=80, tensile=80, hardness=570, poisson=0.24,
+    ),
+)  # fmt: skip
+"""Of shuttles, rapiers and their magnets; no choice for other parts."""
+
 
 def find_material(name: str) -> Material:
     """The material of a name. Raises ParameterError with the nearest name for an unknown one.

@@ -78,6 +78,8 @@ PRICES: Mapping[str, PriceRates] = {
     "load cell": PriceRates(each=350.0),
     "light barrier": PriceRates(each=90.0),
     "light grid": PriceRates(each=350.0),
+    "hand tool": PriceRates(each=15.0),
+    "string heddle": PriceRates(each=0.05),
     "yarn sensor": PriceRates(each=35.0),
     "yarn brake": PriceRates(each=12.0),
     "yarn package": PriceRates(),

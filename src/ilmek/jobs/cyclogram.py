@@ -51,10 +51,10 @@ def cyclograms_of(machine: str, settings: Mapping[str, Setting], progress: Progr
 
     Raises ParameterError for an unknown machine, and for one without cyclograms; Cancelled.
     """
-    kind = find_machine(machine)
+    kind, params = find_machine(machine).ordered(settings)
     if kind.cyclograms is None:
-        raise ParameterError(f"{machine} has no cyclogram", allowed=f"machines with some: {', '.join(timed())}")
-    return tuple(kind.cyclograms(kind.designed(kind.params.read(settings), progress)))
+        raise ParameterError(f"{kind.name} has no cyclogram", allowed=f"machines with some: {', '.join(timed())}")
+    return tuple(kind.cyclograms(kind.designed(params, progress)))
 
 
 def timed() -> list[str]:

@@ -95,23 +95,23 @@ def design_machine(
     outputs: Outputs | None = None,
     progress: Progress = SILENT,
     illustrated: bool = True,
+    drawn: bool = True,
 ) -> DesignResult:
     """Design a machine of the catalogue, report it, and write its workshop files if they are ordered.
 
     settings  values of parameters by name: texts with units, or numbers in SI
     outputs   of the caller, who commits them; default: committed here
-    illustrated  False: the report has no tables and figures, which take longer than all the rest
+    illustrated, drawn  False: the report has no tables and figures, which take longer than all the rest; no figures
     Of a synthesis without a solution no workshop files are written.
     Raises ParameterError for an unknown machine, parameter or tolerance and for a value out of bounds; OutputError,
     before any work, where a file cannot be written; errors of the machine; Cancelled.
     """
     with joined(outputs, progress=progress) as made:
         write = workshop_writer(workshop, made)
-        machine = find_machine(name)
-        params = machine.params.read(settings)
+        machine, params = find_machine(name).ordered(settings)
         designed = machine.with_room(machine.designed(params, progress.part(0.0, 0.6, "design")), params)
         progress.part(0.6, 0.8, "report")
-        report = machine.report(designed, illustrated=illustrated)
+        report = machine.report(designed, illustrated=illustrated, drawn=drawn)
         if report.machine == LOOM:
             report = _with_nearest(report, params, progress.part(0.7, 0.8))
         progress.part(0.8, 1.0, "files")

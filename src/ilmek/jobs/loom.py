@@ -29,9 +29,14 @@ from ilmek.jobs.wishes import Wishes, heads_for_wishes, require_price
 from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.programme import Programme, make_programme
+from ilmek.machines import hand_loom
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, LoomDesign, design, estimated_time
-from ilmek.machines.automated_loom.params import HAND
-from ilmek.params import Setting
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
+from ilmek.machines.automated_loom.report import analyse
+from ilmek.machines.component import AnyComponent
+from ilmek.machines.hand_loom import HandLoom
+from ilmek.machines.weaver_hands import HAND
+from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.report import BUILDABLE, Check, Report, Result, at_most, must
 from ilmek.report.json import Json
@@ -83,6 +88,7 @@ class LoomResult:
     weaving_time       of the programme, or of the weavers [s]; None where there is neither
     row_pitch_left     distance of the rows that the beat leaves [m]; None without a design
     notes    on the use of a loom that exists
+    hand     in the place of the design, where nothing of the loom is driven
     """
 
     report: Report
@@ -93,9 +99,23 @@ class LoomResult:
     row_pitch_left: float | None = None
     weaving_time: float | None = None
     notes: tuple[str, ...] = ()
+    hand: HandLoom | None = None
+
+    @property
+    def made(self) -> LoomDesign | HandLoom | None:
+        """The loom, with drives or without; None where it cannot be designed."""
+        return self.hand or self.design
+
+    @property
+    def cost(self) -> CarpetCost | None:
+        """The cost of the carpet; None without a loom."""
+        if self.hand is not None:
+            return hand_loom.analyse(self.hand).cost
+        return None if self.design is None else analyse(self.design).cost
 
 
 NO_PROGRAMME = "no programme: the weavers tie by the chart and its rows; the loom does the same after each row"
+NO_DRIVES = "no programme: the weavers tie by the chart and its rows; nothing of the loom is driven"
 
 OF_THE_CARPET = {
     "width": "--size",
@@ -215,6 +235,8 @@ def make_loomed(
         return _on_existing(loom_order, loom_order.existing, charted, progress)
     try:
         carpet = CarpetPile(chart, knot_yarns(charted))
+        if (by_hand := MACHINE.variant(params)) is not None:
+            return _by_hand(*by_hand, illustrated=illustrated, assembled=assembled)
         if params.knotting == HAND:
             return _for_weavers(params, reported, progress, assembled=assembled)
         made, choices = heads_for_wishes(params, loom_order.wishes, carpet, progress.part(0.0, 0.7))
@@ -237,6 +259,14 @@ def make_loomed(
     checks = (*colours, *deadline_checks(loom_order.deadline, programme.duration))
     setup = loom_setup(made, carpet, programme)
     return LoomResult(report, checks, made, programme, setup, left, programme.duration)
+
+
+def _by_hand(machine: AnyComponent, params: Params, *, illustrated: bool, assembled: bool) -> LoomResult:
+    """The hand loom: its report has the check of the deadline."""
+    made: HandLoom = machine.designed(params)
+    report = machine.report(made, illustrated=illustrated, assembled=assembled)
+    time, left = made.rows * made.row_time, float(made.beat.row_pitch_left)
+    return LoomResult(report, (), hand=made, row_pitch_left=left, weaving_time=time, notes=(NO_DRIVES,))
 
 
 def _for_weavers(

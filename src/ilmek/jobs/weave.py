@@ -19,6 +19,7 @@ from ilmek.loom.explicit import CompiledProgramme
 from ilmek.loom.programme import Programme
 from ilmek.machines.automated_loom.assembly import LoomAssembly
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.hand_loom import HandLoom
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
 from ilmek.report import NEAREST, Check, Json, Report, declared_results, must, verdict_json
@@ -158,17 +159,17 @@ def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tu
 
 def weave_results(woven: WeaveResult) -> JsonObject:
     """The results of the job by their JSON names, SI; those of the loom are null where it cannot be designed."""
-    programme, made = woven.loomed.programme, woven.loomed.design
+    programme, made, tied = woven.loomed.programme, woven.loomed.design, woven.loomed.made
     of_loom = {result.name: result.value for result in woven.loom.results}
     return {
         "weaves": woven.weaves,
         "row_pitch_left": woven.loomed.row_pitch_left,
-        "nearest": woven.loom[NEAREST] if woven.loom_order.existing is None else [],
+        "nearest": woven.loom[NEAREST] if woven.loom_order.existing is None and woven.loomed.hand is None else [],
         **{name: of_loom.get(name) for name in _OF_THE_PARTS},
         **chart_results(woven.charted),
-        "heads": programme.heads if programme else 0 if made and made.weavers else None,
-        "heads_max": made and made.heads_max,
-        "weavers": made and made.weavers,
+        "heads": programme.heads if programme else 0 if tied and tied.weavers else None,
+        "heads_max": tied and tied.heads_max,
+        "weavers": tied and tied.weavers,
         "weaving_time": woven.loomed.weaving_time,
         "time_bound": programme and programme.bound,
         "time_naive": programme and programme.naive.time,
@@ -177,8 +178,8 @@ def weave_results(woven: WeaveResult) -> JsonObject:
         "colour_changes": programme and int(programme.work.changes.sum()),
         "changes_naive": programme and programme.naive.changes,
         "package_changes": programme and len(programme.tubes.changes),
-        "warps": made and made.warps,
-        "warp_pitch": made and made.task.cloth.warp_pitch,
+        "warps": tied and tied.params.cloth.warps,
+        "warp_pitch": tied and tied.params.cloth.warp_pitch,
     }
 
 
@@ -264,7 +265,7 @@ def _loom_page(woven: WeaveResult) -> LoomPage:
 
 def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
     """Heads or weavers, weaving time and deadline of the loom; none where it cannot be designed."""
-    made, programme, deadline = woven.loomed.design, woven.loomed.programme, woven.loom_order.deadline
+    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
     time = woven.loomed.weaving_time
     if made is None or time is None:
         return ()
@@ -275,7 +276,7 @@ def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
     return (*facts, Fact("Deadline", time_in_words(deadline), "met" if met else "missed", "good" if met else "bad"))
 
 
-def _of_weavers(made: LoomDesign, time: float) -> tuple[Fact, ...]:
+def _of_weavers(made: LoomDesign | HandLoom, time: float) -> tuple[Fact, ...]:
     """Weavers, their days and their wage."""
     return (
         Fact("Weavers", str(made.weavers), f"{made.knotters_max} would fit"),
@@ -284,18 +285,18 @@ def _of_weavers(made: LoomDesign, time: float) -> tuple[Fact, ...]:
     )
 
 
-def days_in_words(made: LoomDesign, time: float) -> str:
+def days_in_words(made: LoomDesign | HandLoom, time: float) -> str:
     """A time of the weavers of a loom [s] in days of their hours."""
     day = made.params.cost.weaver_day
     return f"{time / day:.1f} days of {format_quantity(day, 'h')}"
 
 
-def wage(made: LoomDesign, time: float) -> float:
+def wage(made: LoomDesign | HandLoom, time: float) -> float:
     """What the weavers of a loom are paid for a time of weaving [s]."""
     return made.weavers * made.params.cost.wage * time
 
 
-def _of_heads(made: LoomDesign, programme: Programme) -> tuple[Fact, ...]:
+def _of_heads(made: LoomDesign | HandLoom, programme: Programme) -> tuple[Fact, ...]:
     """Heads, weaving time and stops of a programme."""
     stops = programme.stops
     packages = len(programme.tubes.changes)

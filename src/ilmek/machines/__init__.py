@@ -8,6 +8,7 @@ class Entry:
     """A machine of the catalogue.
 
     part      whether every automated loom has one      beats  names of the kinds of beat that it can be in a loom
+    by_hand   whether a hand loom has one
     knotting  whether it can be in a loom's heads
     """
 
@@ -15,11 +16,12 @@ class Entry:
     part: bool = False
     beats: tuple[str, ...] = ()
     knotting: bool = False
+    by_hand: bool = False
 
     @property
     def in_a_loom(self) -> bool:
         """Whether an automated loom can have one."""
-        return self.part or self.knotting or bool(self.beats)
+        return self.part or self.knotting or self.by_hand or bool(self.beats)
 
 
 ENTRIES = {
@@ -40,6 +42,13 @@ ENTRIES = {
     ),
     "warp-tension": Entry(
         "cylinder that tensions the warps: slope, deflection, torque, reducer and motor, take-up", part=True
+    ),
+    "hand-loom": Entry("the loom without drives: weavers tie, open the shed and beat; cylinders wound by hand"),
+    "hand-shed": Entry(
+        "shed opened by hand: rod, string heddles, levers: forces of the hands, bending, openings", by_hand=True
+    ),
+    "hand-beat": Entry(
+        "comb and tools of a hand loom: energy and number of blows, rows that they leave, times", by_hand=True
     ),
     "tufting": Entry(
         "needle six-bar of a tufting machine: motion, torques of both shafts, forces, friction of the backing"

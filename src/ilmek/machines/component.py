@@ -58,6 +58,10 @@ def _nothing(_item: object) -> tuple[()]:
     return ()
 
 
+def _no_variant(_params: object) -> None:
+    return None
+
+
 def _first(design: D, _params: object) -> D:
     return design
 
@@ -93,6 +97,7 @@ class Component(Generic[P, D, A]):
     self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
                 failed check too, so that such a design is never reported as sound
     tree        design -> its parts in bodies, from which its parts list, its plates and its pieces follow
+    own_tree    design -> the bodies of it that are in none of its children; default: all
     plates, pieces, cam_tables, cyclograms   design -> what is made of it, what its axes follow, its timing
     mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
     parts       design -> lines of the parts list                work     design -> work of its acts
@@ -106,6 +111,7 @@ class Component(Generic[P, D, A]):
     assembly    design -> its parts against each other in space; takes some seconds
     with_room   design, parameters -> the design, or the next choice whose parts have room in space; takes seconds
     verdict     report -> a record with results that follow from all checks, of the machines in it too
+    variant     parameters -> the machine that they name in its place, and the parameters of that; None: itself
     headline    names of results that stand at the top level of the JSON too
     """
 
@@ -122,6 +128,7 @@ class Component(Generic[P, D, A]):
     figures: Callable[[A], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[A], tuple[str, ...]] = _nothing
     tree: Callable[[D], Tree] | None = None
+    own_tree: Callable[[D], Tree] | None = None
     pieces: Callable[[D], tuple[WorkPiece, ...]] = _nothing
     plates: Callable[[D], tuple[Plate, ...]] = _nothing
     cam_tables: Callable[[D], tuple[CamTable, ...]] = _nothing
@@ -140,6 +147,7 @@ class Component(Generic[P, D, A]):
     with_room: Callable[[D, P], D] = _first
     verdict: Callable[[Report], object] | None = None
     headline: tuple[str, ...] = ()
+    variant: Callable[[P], "tuple[AnyComponent, Params] | None"] = _no_variant
     long_design: Callable[[P, Progress], D] | None = None
 
     def __post_init__(self) -> None:
@@ -147,8 +155,9 @@ class Component(Generic[P, D, A]):
             tree = lru_cache(maxsize=8)(self.tree)
             object.__setattr__(self, "tree", tree)
             object.__setattr__(self, "parts", lru_cache(maxsize=8)(lambda design: bill(tree(design))))
-            object.__setattr__(self, "plates", lambda design: plates_of(tree(design)))
-            object.__setattr__(self, "pieces", lambda design: pieces_of(tree(design)))
+            own = self.own_tree or tree
+            object.__setattr__(self, "plates", lambda design: plates_of(own(design)))
+            object.__setattr__(self, "pieces", lambda design: pieces_of(own(design)))
 
     def __repr__(self) -> str:
         return f"<Component {self.name}>"
@@ -158,24 +167,38 @@ class Component(Generic[P, D, A]):
         """One line for `ilmek machines`: that of the catalogue."""
         return ENTRIES[self.name].summary
 
+    def ordered(self, settings: Mapping[str, Setting]) -> "tuple[AnyComponent, Params]":
+        """The machine for settings, itself or a variant, and its parameters. Raises ParameterError, LoomError."""
+        params = self.params.read(settings)
+        return self.variant(params) or (self, params)
+
     def designed(self, params: P, progress: Progress = SILENT) -> D:
         """The design for parameters. Raises any IlmekError, and Cancelled."""
         progress(0.0)
         return self.long_design(params, progress) if self.long_design else self.design(params)
 
-    def report(self, design: D, *, in_a_loom: bool = False, illustrated: bool = True, assembled: bool = True) -> Report:
+    def report(
+        self,
+        design: D,
+        *,
+        in_a_loom: bool = False,
+        illustrated: bool = True,
+        drawn: bool = True,
+        assembled: bool = True,
+    ) -> Report:
         """The report of a design, with those of the machines in it.
 
         A broken invariant is a failed check of it (`ilmek.machines.invariants`).
 
         in_a_loom    True: without the figures that only the machine's own page shows
         illustrated  False: without tables and figures, which take as long as all the rest
+        drawn        False: without figures
         assembled    False: without its parts against each other in space
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
         whole = (self.assembly(design),) if self.assembly and assembled else ()
-        figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated else ((), ())
+        figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated and drawn else ((), ())
         tests = self.self_tests(analysis)
         made = Report(
             machine=self.name,
@@ -197,7 +220,7 @@ class Component(Generic[P, D, A]):
             cam_tables=self.cam_tables(design),
             pieces=self.pieces(design),
             parts=self.parts(design),
-            children=tuple(child.reported(illustrated=illustrated) for child in self.children(design)),
+            children=tuple(child.reported(illustrated=illustrated, drawn=drawn) for child in self.children(design)),
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
@@ -217,7 +240,8 @@ class Component(Generic[P, D, A]):
 
     def report_for(self, settings: Mapping[str, Setting]) -> Report:
         """The report of the design for settings of its parameters, texts with units allowed. Raises any IlmekError."""
-        return self.report(self.design(self.params.read(settings)))
+        machine, params = self.ordered(settings)
+        return machine.report(machine.design(params))
 
 
 AnyComponent: TypeAlias = Component[Any, Any, Any]
@@ -259,12 +283,12 @@ class Child:
         """Work of its acts."""
         return self.component.work(self.design)
 
-    def reported(self, *, illustrated: bool = True) -> Report:
-        """Its report, as a machine in a loom; `illustrated` as in `Component.report`."""
-        return self.made or _report_in_a_loom(self.component, self.design, illustrated)
+    def reported(self, *, illustrated: bool = True, drawn: bool = True) -> Report:
+        """Its report, as a machine in a loom; `illustrated` and `drawn` as in `Component.report`."""
+        return self.made or _report_in_a_loom(self.component, self.design, illustrated, illustrated and drawn)
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool) -> Report:
+def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
-    return component.report(design, in_a_loom=True, illustrated=illustrated)
+    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn)

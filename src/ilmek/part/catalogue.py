@@ -10,7 +10,7 @@ from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
 from ilmek.elements.parallel_keys import KeyedEnd
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
@@ -48,7 +48,7 @@ def motor(  # noqa: PLR0917
         bought = Bought(required, power=torque * speed, drives=together)
         room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
     behind = Sum((Placed(room, (placement(z=-room.length),)),))
-    return Part(name, title, kind, shape=behind, purchase=bought, envelope=True)
+    return bought_part(name, title, kind, behind, bought)
 
 
 def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEnd | None = None) -> Part:
@@ -64,7 +64,7 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
         hollow = abs(corner) + HOLLOW
         face = max(face, 2 * hollow + 2 * WALL)
         room = Prism(Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, end.length))
-    return Part(name, title, "reducer", shape=room, purchase=bought, envelope=True)
+    return bought_part(name, title, "reducer", room, bought)
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:
@@ -99,7 +99,7 @@ def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ..
     """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))
     shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row, holes)))
-    return Part(name, title, "bearing", shape=shape, purchase=Bought(row.name, row.mass), envelope=True)
+    return bought_part(name, title, "bearing", shape, Bought(row.name, row.mass))
 
 
 def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
@@ -113,7 +113,7 @@ def screw(name: str, title: str, row: HexagonScrew, length: float) -> Part:
     shape = stepped((row.across, row.head), (row.diameter, length))
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
     placed = Sum((Placed(shape, (placement(z=-row.head),)),))
-    return Part(name, title, "fastener", shape=placed, purchase=bought, envelope=True)
+    return bought_part(name, title, "fastener", placed, bought)
 
 
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:

@@ -1,7 +1,7 @@
-"""Whether motors move all that is free: the degrees of freedom of a tree, and the axes that its motors drive.
+"""Whether motors and hands move all that is free: the degrees of freedom of a tree, and the axes that are driven.
 
     J dq = 0      what joints and closures require [`part.mobility`]
-    dq_i = 0      at each axis that a motor holds, and at each body that nothing has to drive
+    dq_i = 0      at each axis that a motor or a hand holds, and at each body that nothing has to drive
 
 The degrees of freedom are the coordinates less the rank of the first rows and of those of the bodies that nothing has
 to drive. Motors drive all of them where all rows together have the rank of the number of coordinates; none is in excess
@@ -23,8 +23,9 @@ class DriveBalance:
 
     number    degrees of freedom, without those of the bodies that nothing has to drive
     axes      that the motors drive: their number, over that of those which drive one together
-    driven    degrees of freedom that the motors take
-    undriven  ids of the bodies that move though no motor holds them, each before what follows it
+    driven    degrees of freedom that motors and hands take
+    by_hand   ids of the bodies that the weaver's hands move, once for each place
+    undriven  ids of the bodies that move though nothing holds them, each before what follows it
     excess    ids of the motors that drive what another one drives, or nothing
     passive   ids of the bodies that nothing has to drive, once for each place
     """
@@ -32,6 +33,7 @@ class DriveBalance:
     number: int
     axes: int
     driven: int
+    by_hand: tuple[str, ...]
     undriven: tuple[str, ...]
     excess: tuple[str, ...]
     passive: tuple[str, ...]
@@ -48,17 +50,23 @@ def drive_balance(tree: Tree) -> DriveBalance:
         if part.purchase is not None and part.purchase.drives
     }
     left = dict(motors)
-    axes = tuple(_driven(bodies, left))
+    by_hand = tuple(number for number, body in enumerate(bodies) if body.joint.hand)
+    axes = (*_driven(bodies, left), *by_hand)
     unit, known = np.eye(len(bodies)), mobility.jacobian
     rows = np.concatenate([known, unit[resting], unit[list(axes)]])
     before = len(known) + len(resting)
     needed = set(independent_rows(rows))
     driven = sum(row >= before for row in needed)
-    twice = (bodies[axis].joint.motor for row, axis in enumerate(axes, before) if row not in needed)
+    twice = (
+        bodies[axis].joint.motor or bodies[axis].joint.hand
+        for row, axis in enumerate(axes, before)
+        if row not in needed
+    )
     return DriveBalance(
         number=len(bodies) - len(needed) + driven,
         axes=sum(motors.values()),
         driven=driven,
+        by_hand=tuple(bodies[number].id for number in by_hand),
         undriven=tuple(dict.fromkeys(bodies[column].id for column in left_free(rows))),
         excess=tuple(dict.fromkeys((*twice, *(motor for motor, number in left.items() if number)))),
         passive=tuple(bodies[number].id for number in resting),

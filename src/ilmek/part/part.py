@@ -105,3 +105,8 @@ class Part:
             return self.shape.volume * self.material.density
         assert self.purchase is not None
         return self.purchase.mass
+
+
+def bought_part(name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "") -> Part:
+    """A bought part whose shape is the room that it takes: its form is the maker's, or not designed."""
+    return Part(name, title, process, size, shape, purchase=purchase, envelope=True)

@@ -46,6 +46,7 @@ class Joint:
     seats   seat of the body and seat of the parent, or of a body that moves on the same parent about the same axis,
             that meet in it, each `part id:seat`; none where it is not designed
     motor    id of the part that drives it, directly or by a reducer, belt or screw
+    hand     id of the part by which the weaver's hand moves it, directly or by a reducer
     passive  why nothing has to drive it: what holds it, in words
     """
 
@@ -54,6 +55,7 @@ class Joint:
     motion: SceneMotion | None = None
     seats: tuple[str, ...] = ()
     motor: str = ""
+    hand: str = ""
     passive: str = ""
 
 

@@ -363,5 +363,10 @@ def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundP
     roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
+    return *under_the_fell(radius, wide, roll), roll
+
+
+def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:
+    """Spacer of a radius `wide`, and lower cylinder of another, with the carpet of a radius `roll` on it [m]."""
     under = SPACER_BELOW + 2 * wide + BETWEEN_CYLINDERS + roll
-    return RoundPart(complex(-wide, -SPACER_BELOW - wide), wide), RoundPart(complex(-radius, -under), radius), roll
+    return RoundPart(complex(-wide, -SPACER_BELOW - wide), wide), RoundPart(complex(-radius, -under), radius)

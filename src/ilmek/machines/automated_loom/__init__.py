@@ -6,7 +6,7 @@ the carpet's width, length and quality; timed together by two cyclograms, of a k
 Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing`.
 """
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 from ilmek.loom.production import Production, production_time
 from ilmek.machines.arrangement.side_view import SideView
@@ -36,7 +36,10 @@ from ilmek.machines.automated_loom.report import (
 )
 from ilmek.machines.automated_loom.selection import design, with_room
 from ilmek.machines.beat import BeatDrive
-from ilmek.machines.component import Component
+from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.component import AnyComponent, Component
+from ilmek.machines.weaver_hands import HAND
+from ilmek.params import Params
 from ilmek.part.plates import pieces_of
 from ilmek.report import BUILDABLE
 from ilmek.timing.cyclogram import Cyclogram
@@ -58,6 +61,14 @@ def cyclograms(loom: LoomDesign) -> tuple[Cyclogram, ...]:
     knot, row = loom.cyclograms
     made = tuple(replace(track, locked=track.name in (EVEN, ODD, BEATER)) for track in row.tracks)
     return knot, replace(row, tracks=made)
+
+
+def by_hand(params: AutomatedLoomParams) -> tuple[AnyComponent, Params] | None:
+    """The hand loom and its parameters, where knots, shed and beat are by hand."""
+    if HAND not in (params.shed, params.beat):
+        return None
+    loom = MACHINES["hand-loom"]
+    return loom, loom.params(**{one.name: getattr(params, one.name) for one in fields(params)})
 
 
 MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
@@ -96,4 +107,5 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     with_room=with_room,
     verdict=LoomVerdict,
     headline=("weaves", BUILDABLE, "row_pitch_left"),
+    variant=by_hand,
 )

@@ -20,7 +20,7 @@ from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
 from ilmek.part.drive_balance import drive_balance
-from ilmek.part.tree import JointKind, RigidBody
+from ilmek.part.tree import JointKind, RigidBody, Tree
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Table, at_least, at_most, columns
 from ilmek.units import deg, format_quantity
@@ -144,16 +144,16 @@ def _checks(whole: LoomAssembly) -> tuple[Check, ...]:
             "1",
             "meshes of all parts at the start of a row, within 0.1 mm; more than one: parts that nothing holds",
         ).with_cure("give the parts named supports", *dict.fromkeys(loose)),
-        _joints(whole.loom),
+        joint_check(loom_tree(whole.loom)),
         *drive_checks(loom_tree(whole.loom)),
-        _closed(whole.loom),
+        mesh_check(loom_tree(whole.loom)),
         *_too_near(whole, titles),
     )
 
 
-def _joints(loom: LoomDesign) -> Check:
+def joint_check(tree: Tree) -> Check:
     """Every body is held by a joint, and what moves by one that lets it move."""
-    without = [body for body in loom_tree(loom).bodies if _is_without_joint(body)]
+    without = [body for body in tree.bodies if _is_without_joint(body)]
     parts = (occurrence.part.id for body in without for occurrence in body.occurrences)
     source = ", ".join(body.id for body in without) or "joints of all bodies to what carries them"
     return at_most("bodies without a joint", len(without), 0, "1", source).with_cure(
@@ -166,9 +166,9 @@ def _is_without_joint(body: RigidBody) -> bool:
     return joint.kind == JointKind.MISSING or (joint.kind == JointKind.FIXED and joint.motion is not None)
 
 
-def _closed(loom: LoomDesign) -> Check:
+def mesh_check(tree: Tree) -> Check:
     """That every mesh encloses a volume: what an open one is through could not be seen."""
-    parts = open_parts(loom_tree(loom))
+    parts = open_parts(tree)
     return at_most("parts with an open mesh", len(parts), 0, "1", "edges of one triangle only").with_cure("", *parts)
 
 

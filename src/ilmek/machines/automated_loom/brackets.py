@@ -194,7 +194,7 @@ def _upper(
         nodes,
         ends,
         _radius(loom, moment, ends, max(seat.radius, sides), _over_reducers(loom, nodes)),
-        _bores(seat, np.array([at])),
+        bores_of(seat, np.array([at])),
         seat,
         sum(load for load, *_ in loads),
         moment,
@@ -248,11 +248,11 @@ def _of_seat(  # noqa: PLR0917
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
     outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
     nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
-    bores = _bores(seat, moved)
+    bores = bores_of(seat, moved)
     return Bracket(name, title, far + seat.bearing.width, nodes, ends, radius, bores, seat, force, moment)
 
 
-def _bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
+def bores_of(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
     """The bores of a seat for its shaft and its screws, at its positions [m]: slots where it moves."""
     screw, corners = seat.screws.screw.diameter / 2, seat.corners()
     if len(moved) == 1:

@@ -4,6 +4,7 @@
     sold    = made * (1 + margin)
     annuity = sold * i / (1 - (1 + i)^-n);  sold / n without interest
     carpets a year = hours * availability / (weaving time + changeover)
+    changeover = dressing + 4.5 h, where it is not given
 
     cost = (annuity + upkeep * sold + rent * floor) / carpets a year + wage * persons * hours / carpets a year
            + price of energy * energy + finishing * area
@@ -21,6 +22,9 @@ from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.records import computed, record
 
 YEAR = 365.25 * 86400.0
+
+CUT_OFF = 4.5 * 3600.0
+"""Time between two carpets beside the dressing of the loom [s]: cut off, take down, begin; assumed by this project."""
 
 
 def annuity_factor(interest: float, years: float) -> float:
@@ -63,7 +67,8 @@ def with_control(cost: MachineCost, prices: Mapping[str, PriceRates]) -> Machine
 class CarpetCost:
     """Cost of a carpet of a number of knots and an area [m^2], woven in a time [s] with an energy [J], on a loom.
 
-    floor  that the loom needs, with the aisle round it [m^2]      machine  what the loom costs its maker
+    dressing  of the loom for a carpet [s]      floor  that the loom needs, with the aisle round it [m^2]
+    machine   what the loom costs its maker
     """
 
     rates: CostRates
@@ -71,6 +76,7 @@ class CarpetCost:
     area: float
     time: float
     energy: float
+    dressing: float
     floor: float
     machine: MachineCost
 
@@ -80,7 +86,7 @@ class CarpetCost:
 
     @computed("1", "carpets that the loom weaves in a year")
     def carpets_per_year(self) -> float:
-        return self.rates.hours * self.rates.availability / (self.time + self.rates.changeover)
+        return self.rates.hours * self.rates.availability / (self.time + self.changeover)
 
     @computed("", "cost of a carpet without yarn, by cause")
     def cost_shares(self) -> dict[str, float]:
@@ -110,6 +116,12 @@ class CarpetCost:
     def payback_time(self) -> float | None:
         saving = self.carpets_per_year * (self.hand_cost - sum(self._running.values()))
         return self.sold / saving * YEAR if saving > 0 else None
+
+    @property
+    def changeover(self) -> float:
+        """Time between two carpets [s]: as given, or by the dressing of the loom."""
+        given = self.rates.changeover
+        return self.dressing + CUT_OFF if given is None else given
 
     @property
     def sold(self) -> float:

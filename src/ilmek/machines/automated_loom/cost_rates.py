@@ -21,8 +21,12 @@ class CostRates(Params):
     availability: float = param(
         0.85, unit="%", above=0.0, at_most=1.0, doc="share of the hours in which the loom runs; usual: 60 to 95 %"
     )
-    changeover: float = kind.time(
-        8 * 3600.0, unit="h", at_least=0.0, at_most=1e7, doc="time between two carpets: cut off, warp, dress; 4 to 24 h"
+    changeover: float | None = kind.time(
+        None,
+        unit="h",
+        at_least=0.0,
+        at_most=1e7,
+        doc="time between two carpets, 4 to 24 h; default: dressing of the loom, and 4.5 h to cut off and begin",
     )
     life: float = param(7.0, above=0.0, at_most=100.0, doc="years over which the loom is paid; usual: 5 to 15")
     interest: float = param(0.05, unit="%", at_least=0.0, at_most=1.0, doc="interest a year; usual: 2 to 15 %")

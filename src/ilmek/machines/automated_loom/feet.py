@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from ilmek.elements.columns import STEEL
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.shapes import stepped
 from ilmek.units import MPa, mm
 
@@ -47,7 +47,7 @@ class Foot:
         """The foot, upwards along z from the floor, of the mass of its shape in steel."""
         shape = stepped((self.pad, PAD), (self.screw, SCREW))
         bought = Bought(f"{self.name}, pad {self.pad / mm:g} mm", shape.volume * STEEL.density)
-        return Part(name, "levelling foot", "pin or bush", shape=shape, purchase=bought, envelope=True)
+        return bought_part(name, "levelling foot", "pin or bush", shape, bought)
 
 
 FEET = tuple(

@@ -42,9 +42,9 @@ def figures(loom: LoomDesign) -> tuple[LazyFigure, ...]:
         *(by_grippers if loom.heads and ties_by_grippers(loom) else ()),
         one_knot,
         *(by_heads if loom.heads else ()),
-        scaling,
         cost_over_heads,
         cost_over_carpets,
+        scaling,
     )
     return tuple(partial(make, loom) for make in made)
 

@@ -25,7 +25,6 @@ from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import least_time
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.loom.times import Times
-from ilmek.machines.automated_loom.params import HAND
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
@@ -56,6 +55,7 @@ from ilmek.machines.weaver.sizes import larger_sizes
 from ilmek.machines.weaver.stations import sheet
 from ilmek.machines.weaver.tool_params import ArmsInHead
 from ilmek.machines.weaver.widths import stack_width
+from ilmek.machines.weaver_hands import HAND
 from ilmek.records import record
 from ilmek.report import BillLine, Check
 from ilmek.timing.cyclogram import Cyclogram, Track, TrackEvent, TrackSegment

@@ -8,10 +8,11 @@ s_l, s_w shrinkage in washing. The pile is shorn to its height; what is shorn of
 carpet's width and length are those on the loom. Rates of washing and warping are assumed by this project.
 """
 
-from ilmek.carpet.ground import ground_yarns, selvedge_yarn
+from ilmek.carpet.ground import GroundParams, ground_yarns, selvedge_yarn
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.finish_params import FinishParams
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.records import computed, record
 
 
@@ -19,8 +20,7 @@ from ilmek.records import computed, record
 class OffLoom:
     """A carpet of a width and a length on the loom [m], its warps stretched by a strain, its yarns of a mass [kg].
 
-    warps, crimp  number of warps, and their length in the carpet over its own, less 1
-    ends          of each warp beside the carpet: fringes and what is lost in the loom [m]
+    warps, ground  number of warps, and what lengthens each
     """
 
     finish: FinishParams
@@ -29,8 +29,7 @@ class OffLoom:
     strain: float
     yarns: float
     warps: int
-    crimp: float
-    ends: float
+    ground: GroundParams
 
     @computed("m", "width and length of the carpet off the loom, shorn and washed")
     def size_off_loom(self) -> dict[str, float]:
@@ -47,7 +46,7 @@ class OffLoom:
     warp_cut = computed(
         "m",
         "length of a warp to be wound: carpet, take-up by its crimp, fringes, what is lost in the loom",
-        lambda it: it.length * (1 + it.crimp) + it.ends,
+        lambda it: it.ground.warp_length(it.length),
     )
 
     @computed("h", "preparing, drawing in and winding of all warps")
@@ -58,19 +57,23 @@ class OffLoom:
 
 def off_loom(loom: LoomDesign) -> OffLoom:
     """The loom's carpet off the loom."""
-    params, cloth, ground = loom.params, loom.task.cloth, loom.params.ground
+    of_knot = float(loom.weaver.yarn_in_knot) if loom.heads else loom.params.billed
+    return carpet_off_loom(loom.params, (loom.rows, loom.columns), of_knot)
+
+
+def carpet_off_loom(params: AutomatedLoomParams, grid: tuple[int, int], of_knot: float) -> OffLoom:
+    """A carpet off the loom: rows and knots of a row, pile yarn of a knot [m]."""
+    cloth, ground, (rows, columns) = params.cloth, params.ground, grid
     size, quality, pile = CarpetSize(params.width, params.length), params.quality, cloth.carpet_yarns.pile
-    of_ground = ground_yarns(size, quality, loom.rows, loom.columns, ground)
+    of_ground = ground_yarns(size, quality, rows, columns, ground)
     bound = (*of_ground, selvedge_yarn(size, quality, pile.linear_density, ground))
-    of_knot = float(loom.weaver.yarn_in_knot) if loom.heads else params.billed
-    knots = loom.rows * loom.columns * of_knot * pile.linear_density
+    knots = rows * columns * of_knot * pile.linear_density
     return OffLoom(
         finish=params.finish,
         width=params.width,
         length=params.length,
         strain=cloth.warp_tension / cloth.carpet_yarns.warp.stiffness,
         yarns=knots + sum(one.mass * one.kept for one in bound),
-        warps=loom.warps,
-        crimp=loom.warp_tension.params.crimp,
-        ends=2 * ground.fringe + ground.loom_waste,
+        warps=cloth.warps,
+        ground=ground,
     )

@@ -15,7 +15,7 @@ and `ARMS_REST` of one on cams, until it is designed. A test holds the bounds ag
 
 import contextlib
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
@@ -38,7 +38,7 @@ from ilmek.machines.automated_loom.design import (
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
-from ilmek.machines.automated_loom.params import AUTO, COST, HAND, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
 from ilmek.machines.automated_loom.search import LoomOffer, SearchJournal
@@ -46,6 +46,7 @@ from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.weaver.design import ties_in_time
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver_hands import HAND
 from ilmek.machines.weft.params import SHUTTLE
 from ilmek.records import record
 
@@ -143,23 +144,27 @@ def _looms(ready: ReadyLoom, journal: SearchJournal) -> Mapping[str, LoomDesign]
     return looms
 
 
-def undesigned_arms(branch: HeadBranch, *, designed: bool) -> HeadBranch | None:
-    """The branch of looms by arms, before their heads are designed, from that with cams; None where no arms tie so.
+def undesigned_arms(cams: Sequence[HeadBranch], *, designed: bool) -> tuple[HeadBranch, ...]:
+    """The branches of looms by arms, before their heads are designed, from those with cams; none where no arms tie so.
 
     designed  whether the arms themselves are: else they tie in no time, and have their servos alone
     """
-    assert branch.ready.head.weaver is not None
-    head, own, prices = branch.ready.head.weaver.params, branch.cycles, read_prices(branch.ready.params.prices)
+    ready, own = cams[0].ready, cams[0].cycles
+    assert ready.head.weaver is not None
+    head, prices = ready.head.weaver.params, read_prices(ready.params.prices)
     inside = replace(head.arms, time=1e-3, yarn=0.0)
     arms = MachineCost(ARM_SERVOS * prices["servo"].each, 0, ARM_SERVOS)
     if designed:
         try:
-            inside, parts = arms_for(branch.ready.params)
+            inside, parts = arms_for(ready.params)
         except (LoomError, ParameterError):
-            return None
+            return ()
         arms = machine_cost(parts, prices)
     cycles = _cycles(replace(head, arms=inside)) if len(own) > 1 else own
-    return replace(branch, kind=ARMS, cycles=cycles, head=arms.plus(branch.head.times(ARMS_REST)))
+    heads = (arms.plus(branch.head.times(ARMS_REST)) for branch in cams)
+    return tuple(
+        replace(branch, kind=ARMS, cycles=cycles, head=least) for branch, least in zip(cams, heads, strict=True)
+    )
 
 
 def _cycles(head: WeaverParams) -> tuple[float, ...]:
@@ -232,9 +237,8 @@ class Bounds:
                 continue
             if option.kind not in branch.looms:
                 continue
-            loom, frame = branch.looms[option.kind], self.simplest.frame.times(1 - OTHER_SLACK)
-            if (weft, option.kind) == (self.simplest.offer.weft, self.simplest.offer.beat):
-                frame = frame_cost(loom).times(1 - SLACK)
+            loom, alike = branch.looms[option.kind], (self.simplest.offer.weft, self.simplest.offer.beat)
+            frame = self._frame(loom if (weft, option.kind) == alike else None)
             number = params.heads or (knotters(params, branch.most, ready.head) if ready.head.weaver is None else 0)
             for heads in (number,) if number else range(1, branch.most + 1):
                 cost, floor = self._least(weft, heads, loom, branch.head, frame)
@@ -248,8 +252,15 @@ class Bounds:
 
         loom  with its carrier of the weft and its beat, the slowest knot and the fewest heads
         """
-        cost, floor = self._least(offer.weft, offer.heads, loom, head, frame_cost(loom).times(1 - SLACK))
+        cost, floor = self._least(offer.weft, offer.heads, loom, head, self._frame(loom))
         return replace(offer, price=cost.parts, value=self._value(cost, floor, offer.time))
+
+    def _frame(self, loom: LoomDesign | None) -> MachineCost:
+        """The least cost of a frame, by that of a loom; by the simplest one's where it has none, or no room for it."""
+        with contextlib.suppress(ParameterError):
+            if loom is not None:
+                return frame_cost(loom).times(1 - SLACK)
+        return self.simplest.frame.times(1 - OTHER_SLACK)
 
     def _least(
         self, weft: str, heads: int, loom: LoomDesign, head: MachineCost, frame: MachineCost

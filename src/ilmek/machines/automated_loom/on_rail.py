@@ -25,7 +25,7 @@ from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import carriage_guide, drive_of
 from ilmek.part import catalogue
 from ilmek.part.extents import Corner
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box
@@ -137,14 +137,12 @@ def chain_part(loom: LoomDesign, side: float) -> Part:
     row = chain_under(loom, side)
     filled = sum(line.number * line.line_mass for line in chain_lines(loom) if line.name != CONDUITS)
     long = row.length(share_of(loom))
-    return Part(
+    return bought_part(
         CHAIN,
         "energy chain of a head with its cables",
         "energy chain",
-        "",
         box(row.outer[0], row.loop[0], chain_room(loom, side) - PLAY),
-        purchase=Bought(row.name, (row.line_mass + filled) * long, length=long),
-        envelope=True,
+        Bought(row.name, (row.line_mass + filled) * long, length=long),
     )
 
 

@@ -22,7 +22,7 @@ from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
 from ilmek.part.extents import shape_box
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
@@ -64,14 +64,13 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     low = heads.stroke + room
     if not loom.beat.crank_rockers:
         low = _before_posts(loom, frame, held[0], motor, low)
-    axis = Part(
+    axis = bought_part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
         "linear axis",
-        "belt drive, one at each support of the rail",
         box(RAIL_AXIS, RAIL_AXIS, low + room),
-        purchase=Bought("belt drive", length=heads.stroke),
-        envelope=True,
+        Bought("belt drive", length=heads.stroke),
+        size="belt drive, one at each support of the rail",
     )
     slope, upper = -cmath.phase(RETREAT), placement(z=-room)
     stations = [

@@ -9,13 +9,14 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.finish_params import FinishParams
 from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.weaver_hands import HAND, WeaverHands
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
 from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
 from ilmek.weaving.cloth import Cloth, warp_pitch_of, warp_tension_of
@@ -23,9 +24,6 @@ from ilmek.weaving.cloth import Cloth, warp_pitch_of, warp_tension_of
 QUALITY = 25 / dm
 """Knots per metre where neither density nor pitch is given: the thesis' loom."""
 
-
-HAND = "hand"
-"""What weavers do, in place of a machine."""
 
 AUTO = "auto"
 """The choice of what is left open."""
@@ -132,11 +130,14 @@ class AutomatedLoomParams(Params):
     weft: str = param(
         AUTO, choices=(AUTO, *WEFT_CARRIERS), doc="what lays the weft: shuttles or a rapier; auto: chosen by aim"
     )
+    shed: str = param(
+        "cams", choices=("cams", HAND), doc="what opens the shed: cams, or rod and string heddles by hand (hand loom)"
+    )
     beat: str = param(
         AUTO,
-        choices=(AUTO, *BEATS),
+        choices=(AUTO, *BEATS, HAND),
         doc="what beats the rows: a travelling beater, a comb on crank-rockers, on its own axes or on the guide cams; "
-        "auto: chosen by aim",
+        "hand: a comb by hand (hand loom); auto: chosen by aim",
     )
     row_tolerance: float = kind.ratio(
         0.02, unit="%", at_least=0.0, at_most=0.5, doc="share by which rows may be left farther apart than required"
@@ -182,6 +183,7 @@ class AutomatedLoomParams(Params):
     retreat_acceleration: float = kind.acceleration(
         2.0, at_least=1e-3, at_most=100.0, doc="allowed acceleration of the heads' rail from and to the warps"
     )
+    hands: WeaverHands = nested(WeaverHands, doc="forces, speeds and times of a weaver's hands, where they work")
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     cost: CostRates = nested(CostRates, doc="rates from which the cost of a carpet follows")
@@ -192,7 +194,7 @@ class AutomatedLoomParams(Params):
 
     machines: Overrides = overrides(
         lambda: {name: MACHINES[name].params for name in loom_machines()},
-        without=("cloth",),
+        without=("cloth", "hands"),
         doc="parameters of the machines in the loom, shedding.law, in place of those that the loom derives",
     )
 
@@ -253,7 +255,13 @@ class AutomatedLoomParams(Params):
     def ground(self) -> GroundParams:
         """Warp and wefts of the carpet for its yarn bill: those of the loom."""
         turn = self.machines.of("weft").get("turn", WEFT_TURN)
-        return GroundParams(selvedge_warps=self.selvedge_warps, weft_turn=float(str(turn)), yarns=self.yarns)
+        crimp = self.machines.of("warp-tension").get("crimp", CRIMP)
+        return GroundParams(
+            crimp=float(str(crimp)),
+            selvedge_warps=self.selvedge_warps,
+            weft_turn=float(str(turn)),
+            yarns=self.yarns,
+        )
 
     @property
     def hand_knot(self) -> float:
@@ -263,6 +271,7 @@ class AutomatedLoomParams(Params):
     def check_together(self) -> None:
         """Raise LoomError where the warp pitch does not give the knots across, and for heads where weavers tie."""
         self._check_knotting()
+        self._check_hands()
         gives = 0.5 / self._pitch
         if abs(self.quality.across / gives - 1) > _SAME:
             wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
@@ -282,9 +291,18 @@ class AutomatedLoomParams(Params):
         if self.knotting != HAND and self.weavers is not None:
             raise LoomError(f"weavers={self.weavers} with knotting={self.knotting}", do="set knotting=hand, or heads=")
 
+    def _check_hands(self) -> None:
+        """Raise LoomError where shed or beat are by hand, and not all that a hand loom's weavers do."""
+        given = {"knotting": self.knotting, "shed": self.shed, "beat": self.beat}
+        if HAND in (self.shed, self.beat) and set(given.values()) != {HAND}:
+            shown = ", ".join(f"{name}={kind}" for name, kind in given.items())
+            allowed = "a hand loom: knotting, shed and beat by hand; a drive for the shed or the beat needs both"
+            raise LoomError(shown, allowed=allowed, do="set all three to hand, or shed=cams and another beat")
+
 
 _OF_HEADS = ("heads", "head_width", "head_mass", "tubes", "knot_cycle")
 """Parameters that only a loom with heads has; all are open by default."""
+
 
 _SAME = 5e-3
 """A pitch within half a percent is the quality's: dealers allow ten."""

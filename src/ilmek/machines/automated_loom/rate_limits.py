@@ -43,7 +43,8 @@ def rate_limits(chosen: CarpetCost, others: Sequence[CarpetCost]) -> tuple[RateL
 
 
 def _limits(chosen: CarpetCost, others: Sequence[CarpetCost], rate: Parameter) -> RateLimits:
-    now = float(getattr(chosen.rates, rate.name))
+    given = getattr(chosen.rates, rate.name)
+    now = float(getattr(chosen, rate.name) if given is None else given)  # what is not given follows from the loom
     least = _LEAST * now if rate.at_least is None else rate.at_least
     most = now if rate.at_most is None else rate.at_most
     below, above = (_nearest(chosen, others, rate.name, now, end) for end in (least, most))

@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
-from ilmek.machines.automated_loom.params import AUTO, HAND, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, TIME, AutomatedLoomParams
+from ilmek.machines.weaver_hands import HAND
 from ilmek.records import record
 from ilmek.report import Check, Choice, Json
 from ilmek.report.choice import failing

@@ -32,10 +32,11 @@ from ilmek.machines.automated_loom.offers import (
     undesigned_arms,
     value_of,
 )
-from ilmek.machines.automated_loom.params import AUTO, HAND, PRICE, TIME, AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.report import all_checks, analyse
 from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch, SearchJournal
+from ilmek.machines.weaver_hands import HAND
 from ilmek.records import record
 from ilmek.report import Check
 from ilmek.report.verdict import weight
@@ -52,9 +53,12 @@ def design(params: AutomatedLoomParams) -> LoomDesign:
 
     The last looms are kept: commands and reports that begin with the same parameters share the design.
 
-    Raises LoomError where more heads or weavers are given than fit, or the shed leaves no time for the weft;
-    CarpetError for a carpet without knots; the errors of the machines where their parameters contradict each other.
+    Raises LoomError for a shed by hand, where more heads or weavers are given than fit, or the shed leaves no time for
+    the weft; CarpetError for a carpet without knots; the errors of the machines where their parameters contradict each
+    other.
     """
+    if params.shed == HAND:
+        raise LoomError("a loom whose shed is opened by hand", allowed="a loom with drives", do="set shed=cams")
     return _chosen(params, _ALL)
 
 
@@ -191,8 +195,8 @@ class _Search:
         """The looms by arms, which are designed only where none with a head on cams is better than their bound: first
         the arms alone, then their heads.
         """
-        arms = [undesigned_arms(branch, designed=designed) for branch in cams]
-        self.closed = [offer for branch in arms if branch for offer in self.bounds.offers(branch)]
+        arms = undesigned_arms(cams, designed=designed)
+        self.closed = [offer for branch in arms for offer in self.bounds.offers(branch)]
         if self.closed:
             best = min(self.closed, key=lambda offer: offer.value)
             opens = self._open if designed else partial(self.postpone, cams, designed=True)

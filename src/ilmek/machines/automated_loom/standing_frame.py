@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
@@ -186,15 +186,14 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
     inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
     sides = Prism(Profile(rectangle(wide, high), (inside,)), deep)
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
-    control = Part(part_id("control"), "control", "control", shape=shape, purchase=Bought("cabinet"), envelope=True)
-    module = Part(
+    control = bought_part(part_id("control"), "control", "control", shape, Bought("cabinet"))
+    module = bought_part(
         AMPLIFIER,
         "axis of the control",
         "axis of the control",
-        "amplifier, cable, switch",
         box(*_MODULE),
-        purchase=Bought("amplifier"),
-        envelope=True,
+        Bought("amplifier"),
+        size="amplifier, cable, switch",
     )
     rear = loom.side.column - frame.column.side / 2 - frame.task.depth
     x, y = made.face + frame.column.side - wide / 2, loom.side.floor + high / 2

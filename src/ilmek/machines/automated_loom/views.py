@@ -50,10 +50,10 @@ def side(loom: LoomDesign) -> Drawing:
     strokes = (
         Stroke(floor, "ground"),
         *_cloth(view),
-        *_drawn(seen),
+        *drawn(seen),
         *_warp_lines(view),
         *_heights(view, left),
-        *_names(seen, box),
+        *named(seen),
     )
     note = "every part but creel and guards, where it stands at the start of a row; the even shed is open"
     return Drawing("loom-side", "The loom from the side", strokes, (Dot(0j, "fell", "point"),), "m", note)
@@ -80,7 +80,7 @@ def room(loom: LoomDesign) -> Drawing:
     strokes = (
         *_sheets(loom.side),
         Stroke(_carpet(loom.side, low), "yarn", "carpet", closed=True, filled=True),
-        *_drawn(still),
+        *drawn(still),
         *(Stroke(curve, "construction", closed=True) for one in beaten for curve in one.curves),
         *_room_dimensions(loom, low),
     )
@@ -117,18 +117,19 @@ def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
     across = np.array([-half, half]) + 1j * (low - 0.06 * (high - low))
     lines = _upright_warps(loom) if view is View.FRONT else ()
     strokes = (
-        *_drawn(outline for outline in seen if outline.near <= 0),
+        *drawn(outline for outline in seen if outline.near <= 0),
         *lines,
-        *_drawn(outline for outline in seen if outline.near > 0),
+        *drawn(outline for outline in seen if outline.near > 0),
         Stroke(across, "dimension", format_quantity(2 * half, "m")),
-        *_names(seen, box),
+        *named(seen),
     )
     pitch = format_quantity(loom.task.cloth.warp_pitch, "mm", 4)
     note = f"{loom.warps} warps at {pitch}; every part where it stands at the start of a row"
     return Drawing(name, title, strokes, (), "m", note)
 
 
-def _drawn(seen: Iterable[PieceOutline]) -> tuple[Stroke, ...]:
+def drawn(seen: Iterable[PieceOutline]) -> tuple[Stroke, ...]:
+    """What is seen of parts, dashed where it is a room."""
     return tuple(
         Stroke(curve, "construction" if outline.part.envelope else "outline", closed=True, filled=True)
         for outline in seen
@@ -142,8 +143,9 @@ def _box(seen: Iterable[PieceOutline]) -> ComplexArray:
     return np.array([complex(every.real.min(), every.imag.min()), complex(every.real.max(), every.imag.max())])
 
 
-def _names(seen: tuple[PieceOutline, ...], box: ComplexArray) -> tuple[Stroke, ...]:
+def named(seen: tuple[PieceOutline, ...]) -> tuple[Stroke, ...]:
     """Leaders from the bodies to their names at the right, in the order of their heights."""
+    box = _box(seen)
     largest: dict[str, PieceOutline] = {}
     for outline in sorted(seen, key=_extent, reverse=True):
         largest.setdefault(_name(outline.body), outline)

@@ -22,7 +22,7 @@ from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.parts import pin_part
 from ilmek.machines.link_tree import PIN_STEEL
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import placement
 from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, bar, box, stepped
@@ -160,7 +160,7 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> t
     title = "belt and pulleys of a crank"
     band = Prism(drilled(ring, [Hole(axis, end.shaft / 2)]), BELT_WIDTH)
     bought = Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley)
-    belt = Part("beat-up/shared-belt", title, "belt and pulleys", shape=band, purchase=bought, envelope=True)
+    belt = bought_part("beat-up/shared-belt", title, "belt and pulleys", band, bought)
     places = tuple(placement(z=station + belt_begin) for station in stations)
     return Occurrence(shared, (placement(axis.real, axis.imag, begin),)), Occurrence(belt, places)
 
@@ -212,11 +212,10 @@ def slide_block() -> Part:
     return _BLOCK
 
 
-_BLOCK = Part(
+_BLOCK = bought_part(
     "beat-up/slide-carriage",
     "carriage of the slide",
     "guide carriage",
-    shape=box(AXIS_SIDE, BLOCK_HEIGHT, BLOCK_LENGTH),
-    purchase=Bought("carriage of the belt axis", BLOCK_MASS),
-    envelope=True,
+    box(AXIS_SIDE, BLOCK_HEIGHT, BLOCK_LENGTH),
+    Bought("carriage of the belt axis", BLOCK_MASS),
 )

@@ -31,7 +31,7 @@ from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import STARTS, CrankStartParams
 from ilmek.part import catalogue
 from ilmek.part.bill import line_of
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import Placed, Sum, Turned, bar, tube
 from ilmek.records import computed, record, result
@@ -180,7 +180,7 @@ def _coupled(start: CrankStart) -> Iterator[Part]:
     wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
     bought = Bought(format_quantity(size, "Nm"), mass)
     name = "clutch and brake"
-    yield Part(CLUTCH, f"{name} of the beat-up", name, "", bar(wide, wide / 2), purchase=bought, envelope=True)
+    yield bought_part(CLUTCH, f"{name} of the beat-up", name, bar(wide, wide / 2), bought)
     if start.start_flywheel > 0:
         wheel = _wheel(start.start_flywheel)
         size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"

@@ -28,7 +28,7 @@ from ilmek.machines.beat_up.crank_start import stroke_time
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.use_params import TravelParams
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.shapes import box
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most, must
@@ -187,7 +187,7 @@ def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     shape = box(AXIS_SIDE, AXIS_SIDE, length)
     bought = Bought("belt axis", length=length)
     return (
-        Part(AXIS, "slide of the beater", "linear axis", size, shape, purchase=bought, envelope=True),
+        bought_part(AXIS, "slide of the beater", "linear axis", shape, bought, size=size),
         *reducers,
         catalogue.motor(MOTOR, "motor of the slide", row, found.thrust * PULLEY, speed),
     )

@@ -19,7 +19,7 @@ from ilmek.machines.cam.animation import pivot_of, swings, upright
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, hub_notes, outline_angles, rim_radius, zero_mark
 from ilmek.machines.cam.round_cams import flanked, solid_plate
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, disc, tube
@@ -208,22 +208,19 @@ def _on_follower(design: CamDesign, middles: ComplexArray) -> Iterator[Occurrenc
     places = [_roller_place(design, complex(middle), at * apart) for at, middle in enumerate(middles)]
     if row is not None:
         shape, bought = tube(row.diameter, (row.diameter - row.stud) / 2, row.width), Bought(row.name, row.mass)
-        roller = Part(
-            "cam/roller", "roller of the follower", "bearing", row.name, shape, purchase=bought, envelope=True
-        )
+        roller = bought_part("cam/roller", "roller of the follower", "bearing", shape, bought, size=row.name)
         weighed = row.mass * len(places)
         yield Occurrence(roller, tuple(places))
     side = max(STEM, row.stud if row else 0.0)
     length = abs(complex(middles[0])) if swings(design) else 2 * design.params.lift + 4 * side
     mass = max(design.params.mass - weighed, 0.0)
-    stem = Part(
+    stem = bought_part(
         "cam/follower",
         "arm of the follower" if swings(design) else "stem of the follower",
         "machined link",
-        "not designed",
         box(side, side, length),
-        purchase=Bought("to design", mass),
-        envelope=True,
+        Bought("to design", mass),
+        size="not designed",
     )
     yield Occurrence(stem, (_stem_place(design, complex(middles[0]), side),))
 

@@ -25,7 +25,7 @@ from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.link_tree import GAP
 from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box
@@ -195,20 +195,19 @@ def _on_axes(hammer: Hammer) -> Tree:
     params, (*geared, motor) = hammer.params, _driving(hammer)
     number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
     shape, bought = box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT), Bought(params.axis, length=params.stroke)
-    axis = Part("hammer/axis", "vertical axis", "linear axis", params.axis, shape, purchase=bought, envelope=True)
+    axis = bought_part("hammer/axis", "vertical axis", "linear axis", shape, bought, size=params.axis)
     edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     deep = _before_axes(hammer) - before
     front, end = before + deep + AXIS_SIDE / 2, low + params.stroke + BLOCK_HEIGHT
     top = end + (depth_of(geared[0]) if geared else 0.0)
-    block = Part(
+    block = bought_part(
         "hammer/carriage",
         "carriage of a vertical axis",
         "guide carriage",
-        shape=box(deep, low + BLOCK_HEIGHT - (params.depth - BLOCK_HEIGHT), AXIS_SIDE),
-        purchase=Bought("carriage of the vertical axis", CARRIAGE_MASS),
-        envelope=True,
+        box(deep, low + BLOCK_HEIGHT - (params.depth - BLOCK_HEIGHT), AXIS_SIDE),
+        Bought("carriage of the vertical axis", CARRIAGE_MASS),
     )
     middle = (low + params.depth) / 2
     blocks = tuple(placement(before + deep / 2, middle, float(z) - AXIS_SIDE / 2) for z in stations)

@@ -12,7 +12,7 @@ import math
 
 from ilmek.elements.cam_rollers import ROLLERS, Roller
 from ilmek.machines.shedding.cam_shaft import CamShaft
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import Placed, Sum, bar, box
 from ilmek.part.tree import Occurrence
@@ -71,7 +71,7 @@ class Steady:
             )
         )
         bought = Bought(f"2 {self.roller.name} in a block")
-        return Part(name, title, "bearing", shape=shape, purchase=bought, envelope=True)
+        return bought_part(name, title, "bearing", shape, bought)
 
 
 def steady_of(shaft: CamShaft) -> Steady | None:

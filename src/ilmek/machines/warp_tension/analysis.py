@@ -2,7 +2,7 @@
 
 With w the carpet woven between two take-ups and c the crimp, the upper cylinder of radius R releases w c beyond what
 the lower one winds: the correction, w c / R of its angle. A full step of the stepper rotates the cylinder by 1.8
-degrees over the ratio: the smallest change that the motor can set.
+degrees over the ratio: the smallest change that the motor can set; a hand sets its crank to 15 degrees, assumed here.
 """
 
 from ilmek.arrays import FloatArray
@@ -15,6 +15,9 @@ from ilmek.report.json import Json
 from ilmek.units import turn
 from ilmek.weaving.tension import TakeUpTension, tension_history
 
+HAND_STEPS = 24
+"""Positions in a turn to which a hand sets its crank; assumed by this project."""
+
 
 @record
 class WarpTension:
@@ -25,7 +28,9 @@ class WarpTension:
     stiffness: float = result("kN", "force over strain of a warp", name="warp_stiffness")
     breaking: float = result("N", "breaking force of a warp", name="tension_breaking")
     correction: float = result("deg", "release of the upper cylinder beyond the lower one", name="correction_angle")
-    step: float = result("N", "change of tension for a full step of the motor", name="tension_step")
+    step: float = result(
+        "N", "change of tension for a full step of the motor, or 15 deg of the crank", name="tension_step"
+    )
 
     tension_woven = computed("N", "tension before the take-up: crimp tightens the warps", lambda it: it.over.woven)
     tension_row = computed("N", "change of it over a row", lambda it: (it.over.woven - it.over.rest) / it.rows_between)
@@ -36,14 +41,14 @@ class WarpTension:
 def tension_of(design: WarpTensionDesign) -> WarpTension:
     """The warps' tensions over the rows between two take-ups."""
     params, over = design.params, tensions_of(design.params)
-    warp = params.cloth.carpet_yarns.warp
+    warp, steps = params.cloth.carpet_yarns.warp, HAND_STEPS if params.by_hand else FULL_STEPS
     return WarpTension(
         over,
         params.rows_between,
         warp.stiffness,
         warp.breaking_force,
         params.rows_between * params.cloth.row_distance * params.crimp / design.outer_radius,
-        over.rate * design.outer_radius * turn / FULL_STEPS / design.reducer.ratio,
+        over.rate * design.outer_radius * turn / steps / design.reducer.ratio,
     )
 
 

@@ -45,6 +45,8 @@ def _choices(design: WarpTensionDesign) -> Iterator[Choice]:
         yield choose(
             "bearing", [Alternative(one.name, bearing_checks(params, one, *given)) for one in bearings_offered()]
         )[1]
+    if params.by_hand:
+        return
     if params.motor_torque is None:
         by_power = sorted(MOTORS, key=lambda motor: motor.power)
         yield choose("motor", [Alternative(one.name, motor_checks(design, one)) for one in by_power])[1]

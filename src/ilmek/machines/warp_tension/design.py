@@ -73,8 +73,8 @@ class WarpTensionDesign:
     torque_full: float = result("Nm", "torque of all warps with the carpet wound on")
     holding_torque: float = result("Nm", "torque that the reducer holds in the worst case, the carpet wound on")
     reducer: Reducer
-    motor_torque: float = result("Nm", "required torque of the motor")
-    motor_speed: float = result("rpm", "largest speed of the motor while a row is taken up")
+    motor_torque: float = result("Nm", "required torque of the motor, or of the hand at its crank")
+    motor_speed: float = result("rpm", "largest speed of the motor while a row is taken up, or of the crank")
     motor: Motor | None
     motor_limit: float
 
@@ -141,7 +141,7 @@ def design(params: WarpTensionParams) -> WarpTensionDesign:
         motor_torque=reducer.motor_torque(pull * roll),
         motor_speed=speed,
         motor=motor,
-        motor_limit=params.motor_torque or (motor.torque if motor else most_torque(speed)),
+        motor_limit=_most_torque(params, motor, speed),
     )
 
 
@@ -215,14 +215,29 @@ def lightest_tube(params: WarpTensionParams, tubes: Iterable[Tube]) -> Tube:
 def _drive(params: WarpTensionParams, torque: float, rate: float) -> tuple[Reducer, Motor | None, float]:
     """Reducer, the motor chosen and its speed [rad/s], for a torque [N m] and a speed [rad/s] at the cylinder.
 
-    Where the ratio is free, it is the least of those with the motor of least power.
+    Where the ratio is free, it is the least of those with the motor of least power, or that a hand can turn.
     """
     ratios = RATIOS if params.ratio is None else (params.ratio,)
     reducers = [Reducer(ratio, params.efficiency) for ratio in ratios]
+    if params.by_hand:
+        light = (one for one in reducers if one.motor_torque(torque) <= hand_torque(params))
+        return next(light, reducers[-1]), None, params.hands.crank_speed
     if params.motor_torque is not None:
         return reducers[0], None, reducers[0].ratio * rate
     motor, reducer = geared_motor(torque, rate, reducers) or (None, reducers[-1])
     return reducer, motor, reducer.ratio * rate
+
+
+def hand_torque(params: WarpTensionParams) -> float:
+    """Torque of a hand on its crank [N m]."""
+    return params.crank * params.hands.pull
+
+
+def _most_torque(params: WarpTensionParams, motor: Motor | None, speed: float) -> float:
+    """Torque [N m] of the motor at its speed [rad/s], or of the hand."""
+    if params.by_hand:
+        return hand_torque(params)
+    return params.motor_torque or (motor.torque if motor else most_torque(speed))
 
 
 def outer_radii_min(params: WarpTensionParams, inner_radius: float) -> tuple[float, float]:

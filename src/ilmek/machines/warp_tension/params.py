@@ -2,14 +2,18 @@
 
 from dataclasses import dataclass
 
-from ilmek.elements.carpet_yarns import CarpetYarnParams
+from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
-from ilmek.params import Params, kind, nested
+from ilmek.machines.weaver_hands import CRANK, HAND, WeaverHands
+from ilmek.params import Params, kind, nested, param
 from ilmek.units import MPa, deg, format_quantity, m, mm, ms, s
 from ilmek.weaving.cloth import Cloth
 
 STEEL = MATERIALS["structural steel"]
+
+MOTOR = "motor"
+"""A motor behind each reducer."""
 
 THESIS_CLOTH = Cloth(yarns=CarpetYarnParams(friction=0.2))
 """The thesis' warps; their friction on the spacer is assumed by this project."""
@@ -45,6 +49,14 @@ class WarpTensionParams(Params):
     strength: float = kind.pressure(STEEL.strength, at_least=1 * MPa, at_most=1e10, doc="yield strength of the tube")
     slope_limit: float = kind.angle(0.004, unit="rad", at_least=1e-9, below=0.5, doc="allowed slope at the bearings")
     deflection_limit: float = kind.length(1 * mm, at_least=1e-9, at_most=0.1, doc="allowed deflection")
+    winding: str = param(
+        MOTOR, choices=(MOTOR, HAND), doc="what winds: a motor behind each reducer, or the weaver's hand at its crank"
+    )
+    crank: float = kind.length(CRANK, at_least=50 * mm, at_most=0.6, doc="radius of the crank, where a hand winds")
+    crank_shaft: float = kind.length(
+        60 * mm, at_least=5 * mm, at_most=1.0, doc="from the reducer to the hand wheel, where a hand winds"
+    )
+    hands: WeaverHands = nested(WeaverHands, doc="forces and speeds of the hands, where a hand winds")
     ratio: float | None = kind.ratio(
         None, at_least=1e-3, at_most=1e5, doc="ratio of the reducer; default: of 100 and more that of the least motor"
     )
@@ -85,7 +97,7 @@ class WarpTensionParams(Params):
     free_length: float = kind.length(
         1.5 * m, unit="m", at_least=10 * mm, at_most=100.0, doc="warp between the cylinders"
     )
-    crimp: float = kind.ratio(0.03, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
+    crimp: float = kind.ratio(CRIMP, at_least=0.0, at_most=1.0, doc="warp in the carpet over its length, less 1")
     shed_lift: float = kind.length(60 * mm, at_least=0.0, at_most=0.5, doc="lift of a warp for the shed; 0: none")
     shed_span: float = kind.length(
         170 * mm, at_least=1 * mm, at_most=2.0, doc="shedding cam to the holds on both sides"
@@ -106,6 +118,11 @@ class WarpTensionParams(Params):
         None, at_least=1, at_most=100_000, doc="warps that are beaten at once; default: all"
     )
     rows_between: int = kind.count(1, at_least=1, at_most=1000, doc="rows between two take-ups")
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether a hand winds."""
+        return self.winding == HAND
 
     @property
     def span(self) -> float:

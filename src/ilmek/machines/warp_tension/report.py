@@ -55,9 +55,18 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
             TUBE_CURE, *_CYLINDER
         ),
         *((locks,) if params.self_locking else ()),
-        at_most("motor torque", design.motor_torque, design.motor_limit, "Nm", f"{THESIS}, eq. 3.8").with_cure(
-            "set a larger ratio or a longer take_up_time", part_id("motor"), part_id("reducer")
-        ),
+        _torque_check(design),
+    )
+
+
+def _torque_check(design: WarpTensionDesign) -> Check:
+    """The torque at the reducer against that of what turns it."""
+    given = design.motor_torque, design.motor_limit, "Nm"
+    if design.params.by_hand:
+        source, cure = "hands.pull at the crank; thesis, eq. 3.8", "set a larger ratio or crank, or a narrower loom"
+        return at_most("torque of a hand wheel", *given, source).with_cure(cure, part_id("hand-wheel"))
+    return at_most("motor torque", *given, f"{THESIS}, eq. 3.8").with_cure(
+        "set a larger ratio or a longer take_up_time", part_id("motor"), part_id("reducer")
     )
 
 
@@ -136,9 +145,13 @@ def _warp_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
         at_most("tension at the beat", analysis.design.loads.beat, tension.breaking, "N", breaks).with_cure(
             "set a lower tension, or thicker warps"
         ),
-        at_most("tension of a motor's step", tension.step, step, "N", "a twentieth of the tension").with_cure(
-            "set a larger ratio, or a longer warp"
-        ),
+        at_most(
+            f"tension of a {'hand wheel' if params.by_hand else 'motor'}'s step",
+            tension.step,
+            step,
+            "N",
+            "a twentieth of the tension",
+        ).with_cure("set a larger ratio, or a longer warp"),
     )
 
 
@@ -152,7 +165,7 @@ def warnings(analysis: WarpTensionAnalysis) -> tuple[str, ...]:
             f"a reducer of efficiency {efficiency} does not lock itself: one that does (at most {LOCKING:g}) "
             f"requires {needed} or more of the motor; or set self_locking=no and hold the warps by a brake"
         )
-    if params.motor_torque is None and design.motor is None:
+    if not params.by_hand and params.motor_torque is None and design.motor is None:
         made.append(no_motor(design.motor_torque, design.motor_speed))
     return tuple(made)
 

@@ -3,6 +3,7 @@
 Each cylinder has its own axes: z along it, 0 in the middle of its width, the drive at +z.
 """
 
+import cmath
 import math
 from dataclasses import replace
 
@@ -17,16 +18,21 @@ from ilmek.machines.warp_tension.slot import slotted
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
-from ilmek.part.shapes import Placed, Shape, Sum, stepped
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, mm, round_size, turn
 
 PLUG, PLAY = 20 * mm, 1 * mm
 """Length of a shaft end's plug in its tube, and its play there [m]: the weld of its flange holds it; assumed."""
 
 RIM = 8 * mm
 """Thickness of a shaft end's flange on its tube [m]; assumed by this project."""
+
+WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
+"""Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
 
 UPPER, LOWER, SPACER = "upper", "lower", "spacer"
 
@@ -37,12 +43,12 @@ def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = Non
     positions  of each cylinder's axes by its name; default: all in one, as the machine has no side view of its own
     """
     where, shells = positions or {}, _shells(design)
-    geared = _drive_parts(design)
+    drive = _drive_parts(design)
     return Tree(
         tuple(
             body
             for cylinder, shell in zip(cylinders(design), shells, strict=True)
-            for body in _bodies(design.params, cylinder, (shell, *geared), where.get(cylinder.name, IDENTITY))
+            for body in _bodies(design.params, cylinder, shell, drive, where.get(cylinder.name, IDENTITY))
         )
     )
 
@@ -59,53 +65,83 @@ def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:
 
 
 def _bodies(
-    params: WarpTensionParams, cylinder: Cylinder, common: tuple[Part, Part, Part], position: Placement
+    params: WarpTensionParams, cylinder: Cylinder, shell: Part, drive: tuple[Part, ...], position: Placement
 ) -> tuple[RigidBody, ...]:
-    """A cylinder with its ends, its bearings on the frame's brackets, and its drive; common: tube, reducer, motor.
+    """A cylinder with its ends, its bearings on the frame's brackets, and its drive: reducer, then what turns it.
 
     A shaft end is a plug with play in the tube, a flange that is welded to the tube's end, and a journal that reaches
-    through bearing and bracket; on the driven side it goes on into the reducer, with a key.
+    through bearing and bracket; on the driven side it goes on into the reducer, with a key. Where a hand winds, the
+    warps turn the spacer.
     """
-    name, seat = cylinder.name, cylinder.seat
-    shell, geared, driving = common
+    name, seat, driven = cylinder.name, cylinder.seat, not (params.by_hand and cylinder.name == SPACER)
     plain = (Occurrence(shell, (placement(z=-params.span / 2),)),)
     shells = plain if name == SPACER else on_cylinder(cylinder, shell, params)
-    far = params.span / 2 + params.stub
-    rim, journal = min(RIM, params.stub / 2), seat.bearing.bore
-    steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
-    shape = stepped(*(step for step in steps if min(step) > 0), (journal, params.stub - rim + seat.through))
+    far, inside = params.span / 2 + params.stub, params.span / 2 - PLUG
+    left, right = _side(z=inside, flipped=True), placement(z=inside)
+    shape = _end_shape(params, cylinder)
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
-    keyed, outer = cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
-    grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
-    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, "", STUB)
-    inside = params.span / 2 - PLUG
-    own = part_id(f"{name}-key"), f"key of the {name} cylinder"
-    keys = catalogue.keys(*own, keyed, placement(z=inside + outer))
+    ends = (
+        (*_driven_end(cylinder, shape, right), Occurrence(end, (left,)))
+        if driven
+        else (Occurrence(end, (left, right)),)
+    )
     seats = tuple(_side(z=far, flipped=flipped) for flipped in (False, True))
     ids = part_id(f"{name}-bearing"), part_id(f"{name}-housing")
-    return (
-        RigidBody(
-            part_id(f"{name} cylinder"),
-            (
-                *shells,
-                Occurrence(driven, (placement(z=inside),)),
-                Occurrence(end, (_side(z=inside, flipped=True),)),
-                keys,
-            ),
-            GROUND,
-            Joint(JointKind.PIN, seats=(f"{end.id}:journal", f"{ids[0]}:bore"), motor=driving.id),
-            (position,),
-        ),
+    met = (f"{end.id}:journal", f"{ids[0]}:bore")
+    turns = _turned_by(params, drive, Joint(JointKind.PIN, seats=met), driven=driven)
+    bodies = (
+        RigidBody(part_id(f"{name} cylinder"), (*shells, *ends), GROUND, turns, (position,)),
         RigidBody(
             part_id(f"{name} bearings"),
             seat.occurrences(ids, f"bearing of the {name} cylinder", seats),
             positions=(position,),
         ),
-        RigidBody(
-            part_id(f"{name} drive"),
-            tuple(Occurrence(part, (_flange(geared, far + seat.through),)) for part in (geared, driving)),
-            positions=(position,),
-        ),
+    )
+    if not driven:
+        return bodies
+    carried = _on_bracket(params, drive, far + seat.through)
+    return (*bodies, RigidBody(part_id(f"{name} drive"), carried, positions=(position,)))
+
+
+def _turned_by(params: WarpTensionParams, drive: tuple[Part, ...], joint: Joint, *, driven: bool) -> Joint:
+    """The joint of a cylinder with what turns it: the last part of its drive."""
+    if not driven:
+        return replace(joint, passive="the warps turn it")
+    return replace(joint, hand=drive[-1].id) if params.by_hand else replace(joint, motor=drive[-1].id)
+
+
+def _end_shape(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
+    """Plug, flange and journal of a shaft end, about z from z = 0."""
+    rim, journal = min(RIM, params.stub / 2), cylinder.seat.bearing.bore
+    steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
+    length = params.stub - rim + cylinder.seat.through
+    return stepped(*(one for one in steps if min(one) > 0), (journal, length))
+
+
+def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple[Occurrence, Occurrence]:
+    """The shaft end that goes on into the reducer, and its key."""
+    name, keyed, outer = cylinder.name, cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
+    grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
+    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, "", STUB)
+    own = part_id(f"{name}-key"), f"key of the {name} cylinder"
+    return Occurrence(driven, (position,)), catalogue.keys(*own, keyed, position.after(placement(z=outer)))
+
+
+def _on_bracket(params: WarpTensionParams, drive: tuple[Part, ...], far: float) -> tuple[Occurrence, ...]:
+    """Reducer and motor, or reducer, shaft, wheel and handle one after the other, beyond the bracket's outer face [m].
+
+    Reducer and motor meet in their flanges, the reducer towards the cylinder.
+    """
+    flange = placement(z=far + catalogue.length_of(drive[0]), about=(1.0, 0.0, 0.0), angle=math.pi)
+    if not params.by_hand:
+        return tuple(Occurrence(part, (flange,)) for part in drive)
+    geared, shaft, wheel, handle = drive
+    outside = -params.crank_shaft
+    return (
+        Occurrence(geared, (flange,)),
+        Occurrence(shaft, (flange.after(placement(z=outside)),)),
+        Occurrence(wheel, (flange.after(placement(z=outside - WHEEL)),)),
+        Occurrence(handle, (flange.after(placement(params.crank, z=outside - WHEEL - HANDLE)),)),
     )
 
 
@@ -117,17 +153,35 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     return plain, plain, _made("spacer", "spacer cylinder", "steel tube", spacer.shell, _size(spacer), steel)
 
 
-def _drive_parts(design: WarpTensionDesign) -> tuple[Part, Part]:
-    """Reducer and motor: one of each for each of the three cylinders [thesis 3.1]."""
+def winding_reducer(design: WarpTensionDesign) -> Part:
+    """The reducer of a cylinder."""
+    return _drive_parts(design)[0]
+
+
+def _drive_parts(design: WarpTensionDesign) -> tuple[Part, ...]:
+    """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle."""
     end = max((cylinder.driven_end for cylinder in cylinders(design)), key=lambda one: (one.diameter, one.length))
     geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor, end)
+    if design.params.by_hand:
+        return (geared, *_crank(design.params, catalogue.face_of(geared)))
     torque, speed = design.motor_torque, design.motor_speed
     return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)
 
 
-def _flange(geared: Part, far: float) -> Placement:
-    """Where reducer and motor meet, beyond the bracket's outer face [m]: the reducer towards the cylinder."""
-    return placement(z=far + catalogue.length_of(geared), about=(1.0, 0.0, 0.0), angle=math.pi)
+def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
+    """Shaft, wheel and handle by which a hand turns a reducer; face  of the reducer, which the shaft's flange is on."""
+    steel, rim = MATERIALS["structural steel"], params.crank + HANDLE_SIZE
+    window = (rim - CRANK_SHAFT) / 4
+    windows = (circle(cmath.rect((rim + CRANK_SHAFT) / 2, turn * (k + 0.5) / 6), window) for k in range(6))
+    wheel = Prism(Profile(circle(0j, rim), tuple(windows)), WHEEL)
+    rim_of_shaft = min(RIM, params.crank_shaft / 2)
+    shaft = stepped((CRANK_SHAFT, params.crank_shaft - rim_of_shaft), (face, rim_of_shaft))
+    handle = bar(HANDLE_SIZE, HANDLE)
+    return (
+        _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, round_size(CRANK_SHAFT), STUB),
+        _made("hand-wheel", "hand wheel of a cylinder", "laser-cut part", wheel, round_size(2 * rim), steel),
+        _made("handle", "handle of a hand wheel", "turned part", handle, round_size(HANDLE_SIZE), steel),
+    )
 
 
 def _side(*, z: float, flipped: bool) -> Placement:

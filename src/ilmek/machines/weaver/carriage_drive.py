@@ -22,7 +22,7 @@ from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, stepped, tube
@@ -142,9 +142,7 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     )
     bought = Bought(name, ROLLER_MASS)
     yield Occurrence(
-        Part(
-            part_id("belt-roller"), "roller of the heads' belt", "bearing", shape=ring, purchase=bought, envelope=True
-        ),
+        bought_part(part_id("belt-roller"), "roller of the heads' belt", "bearing", ring, bought),
         aside,
     )
     axle = Part(

@@ -162,8 +162,8 @@ def _cross_bar(weaver: Weaver, track: str, holes: tuple[complex, ...]) -> Part:
         bores.append(
             polygon(rectangle(2 * weaver.params.finger, 2 * weaver.params.finger).points + 1j * _centre_height(weaver))
         )
-    shape = Prism(Profile(polygon(np.array(corners)), tuple(bores)), BAR)
-    return Part(part_id("cross-bar"), "cross bar of the side carriage", "machined link", in_mm(BAR), shape, ALUMINIUM)
+    section = Profile(polygon(np.array(corners)), tuple(bores))
+    return _plate("cross-bar", "cross bar of the side carriage", section, BAR)
 
 
 def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
@@ -182,11 +182,8 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     ]
     finger = weaver.params.finger
     bore = polygon(rectangle(finger, finger).points + 1j * height)
-    block = Prism(Profile(polygon(np.array(corners)), (bore,)), CENTRE_BAR)
-    part = Part(
-        part_id("centre-block"), "carriage of the centre gripper", "machined link", in_mm(CENTRE_BAR), block, ALUMINIUM
-    )
-    yield _at(part, 0j, front)
+    section = Profile(polygon(np.array(corners)), (bore,))
+    yield _at(_plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR), 0j, front)
     yield from drawbar(weaver, CENTRE_MOTION, front)
     begin = weaver.shape.partition - NUT
     rod = _made("centre-rod", "rod of the centre gripper's carriage", bar(ROD, front - begin))
@@ -264,15 +261,7 @@ def _partition(weaver: Weaver) -> Occurrence:
     plate = GuideHole(complex(beside, low), complex(inner, top))
     within = [guide for guide in apart(guides) if guide.within(plate) or guide.round]
     section = Profile(polygon(np.array(corners)), tuple(guide.contour for guide in within))
-    part = Part(
-        part_id("partition"),
-        "plate across behind the carriages",
-        "machined link",
-        in_mm(PARTITION),
-        Prism(section, PARTITION),
-        ALUMINIUM,
-    )
-    return _at(part, 0j, shape.partition)
+    return _at(_plate("partition", "plate across behind the carriages", section, PARTITION), 0j, shape.partition)
 
 
 def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
@@ -284,14 +273,7 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
     end = (tool.corner + tool.size).real
     outline = rectangle(SLEY_BLOCK, right - left).points + complex(SLEY_BLOCK / 2, (left + right) / 2)
     section = Profile(polygon(outline), (circle(complex(SLEY_BLOCK / 2, side), ROD / 2),))
-    part = Part(
-        part_id("sley-block"),
-        "block of the sley",
-        "machined link",
-        in_mm(SLEY_HEIGHT),
-        Prism(section, SLEY_HEIGHT),
-        ALUMINIUM,
-    )
+    part = _plate("sley-block", "block of the sley", section, SLEY_HEIGHT)
     yield Occurrence(part, (placement(0.0, tool.corner.imag, end).after(UPRIGHT),))
     pin = complex(end + SLEY_BLOCK + SLEY_PIN, tool.corner.imag + SLEY_HEIGHT / 2)
     yield from pinned(weaver, SLEY, pin, -SLEY_PIN)
@@ -309,9 +291,8 @@ def _sley_rod(weaver: Weaver) -> Iterator[Occurrence]:
         (placement(side, foot, depth).after(UPRIGHT),),
     )
     right = side + weaver.params.cam_thickness / 2
-    plate = Prism(Profile(rectangle(SLEY_BLOCK, right + inner)), SUPPORT)
-    support = Part(
-        part_id("sley-support"), "support of the sley's rod", "machined link", in_mm(SUPPORT), plate, ALUMINIUM
+    support = _plate(
+        "sley-support", "support of the sley's rod", Profile(rectangle(SLEY_BLOCK, right + inner)), SUPPORT
     )
     yield Occurrence(support, (placement((right - inner) / 2, foot - SUPPORT, depth).after(UPRIGHT),))
     if (spring := spring_part(weaver, SLEY)) is not None:
@@ -347,6 +328,11 @@ def _at(part: Part, at: complex, depth: float) -> Occurrence:
 
 def _several(part: Part, places: tuple[complex, ...], depth: float) -> Occurrence:
     return Occurrence(part, tuple(placement(at.real, at.imag, depth) for at in places))
+
+
+def _plate(name: str, title: str, section: Profile, thickness: float) -> Part:
+    """A plate of aluminium."""
+    return Part(part_id(name), title, "machined link", in_mm(thickness), Prism(section, thickness), ALUMINIUM)
 
 
 def _made(name: str, title: str, shape: Shape) -> Part:

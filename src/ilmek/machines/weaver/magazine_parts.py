@@ -15,7 +15,7 @@ from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, 
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, placement
 from ilmek.part.shapes import bar, box, tube
 from ilmek.part.tree import Occurrence
@@ -41,14 +41,13 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     pitch, flat = magazine.pitch, magazine.tubes_at
     depth = (shape.magazine + shape.magazine_size / 2).real
     low = (shape.magazine + shape.magazine_size / 2).imag - magazine.tiers * pitch / 2
-    part = Part(
+    part = bought_part(
         TUBE,
         "yarn tube",
         "yarn tube",
-        "one for each colour, with its share of the slide",
         tube(TUBE_OUTER * pitch, (TUBE_OUTER - TUBE_BORE) / 2 * pitch, pitch),
-        purchase=Bought("yarn tube", weaver.params.tube_mass),
-        envelope=True,
+        Bought("yarn tube", weaver.params.tube_mass),
+        size="one for each colour, with its share of the slide",
     )
     cells = (divmod(cell, magazine.per_tier) for cell in range(magazine.tubes))
     positions = tuple(
@@ -81,9 +80,7 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
     depth, foot = (shape.magazine + shape.magazine_size / 2).real + at.imag, shape.rail + RAIL_AXIS / 2
     begin = shape.magazine.imag - CARRIER - FLAG[1] - SENSING - long
     bought = Bought(INDUCTIVE.name, INDUCTIVE.mass)
-    sensor = Part(
-        INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, shape=bar(side, long), purchase=bought, envelope=True
-    )
+    sensor = bought_part(INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, bar(side, long), bought)
     yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
     stand = Part(INDEX_STAND, "stand of the tubes' index", "pin or bush", "", bar(side, begin - foot), STEEL)
     yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))

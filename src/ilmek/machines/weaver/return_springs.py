@@ -13,7 +13,7 @@ from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import SPRING
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.shapes import tube
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
@@ -104,7 +104,7 @@ def spring_part(weaver: Weaver, track: str) -> Part | None:
     mass = spring.mass * (spring.coils + 2) / spring.coils
     room = tube(coil + wire, wire, shortest(weaver, track))
     title, size = f"return spring of the {track}", f"{spring.wire}, wire x coil x length in mm"
-    return Part(spring_id(track), title, "spring", size, room, purchase=Bought(row, mass), envelope=True)
+    return bought_part(spring_id(track), title, "spring", room, Bought(row, mass), size=size)
 
 
 def stress_of(weaver: Weaver, track: str) -> tuple[float, float] | None:

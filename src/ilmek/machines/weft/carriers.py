@@ -11,11 +11,11 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.materials import BEECH, CARBON, NEODYMIUM
 from ilmek.machines.weft.bobbin import BobbinSize
 from ilmek.machines.weft.coupling import magnet_sides
-from ilmek.machines.weft.materials import BEECH, CARBON, NEODYMIUM
 from ilmek.machines.weft.params import WeftParams
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, bar, box, rectangle
@@ -86,7 +86,7 @@ def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placemen
     title = "eye and brake of a shuttle"
     shape = bar(_eye(size), params.wall)
     bought = Bought("eye and brake", params.fittings / 2)
-    part = Part(FITTINGS, title, "pin or bush", "one in each end wall", shape, purchase=bought, envelope=True)
+    part = bought_part(FITTINGS, title, "pin or bush", shape, bought, size="one in each end wall")
     end = size.length / 2
     return part, (along(end), along(-end - params.wall))
 

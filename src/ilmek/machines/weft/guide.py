@@ -17,7 +17,7 @@ from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, bar, box, rectangle
@@ -218,7 +218,7 @@ class ShuttleGuide:
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
         shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch)
-        slide = Part(part_id("box-slide"), "slide of a box", "linear axis", shape=shape, purchase=bought, envelope=True)
+        slide = bought_part(part_id("box-slide"), "slide of a box", "linear axis", shape, bought)
         x = self.box_end + SLIDE / 2
         yield Occurrence(slide, tuple(placement(side * x, (low + high) / 2, self.front) for side in (-1, 1)))
         force = (self.box().mass + 2 * self.made.full) * GRAVITY

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from ilmek.carpet.ground import SELVEDGE_WARPS, WEFT_TURN
+from ilmek.elements.materials import BEECH, CARBON
 from ilmek.machines import WEFT_CARRIERS
-from ilmek.machines.weft.materials import BEECH, CARBON
 from ilmek.params import Params, kind, nested
 from ilmek.timing.s_curve import AxisLimits
 from ilmek.units import deg, mm

@@ -15,9 +15,9 @@ from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import CLAMP, Rapier
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, Placement, placement
-from ilmek.part.shapes import Shape, box
+from ilmek.part.shapes import box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
@@ -82,18 +82,11 @@ class RapierSide:
         """The rapier from the left, its tip at rest before the cloth, clamped at its far end; axis and devices."""
         params, made = self.params, self.made
         far = -made.gripper - made.length
-        jaws = _bought(
-            (GRIPPER, "gripper of the rapier", "two jaws"),
-            "machined link",
-            box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper),
-            Bought("gripper", params.gripper_mass),
-        )
-        clamp = _bought(
-            (CARRIAGE, "carriage of the rapier", "with clamp"),
-            "machined link",
-            box(SIDE, SIDE, CLAMP),
-            Bought("carriage", params.carriage_mass),
-        )
+        gripper = box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper)
+        weighed = Bought("gripper", params.gripper_mass), Bought("carriage", params.carriage_mass)
+        jaws = bought_part(GRIPPER, "gripper of the rapier", "machined link", gripper, weighed[0], size="two jaws")
+        held = box(SIDE, SIDE, CLAMP)
+        clamp = bought_part(CARRIAGE, "carriage of the rapier", "machined link", held, weighed[1], size="with clamp")
         parts = (
             Occurrence(rapier_tube(params, made.tube, made.length), (along(far),)),
             Occurrence(jaws, (along(-made.gripper),)),
@@ -109,12 +102,9 @@ class RapierSide:
         """The belt axis, and its drive upright below its far end."""
         axis, carrier, (left, right) = self.axis, self.params.carrier, self.run
         wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
-        belt = _bought(
-            (AXIS, f"axis of the {carrier}", f"belt {axis.belt.belt.name}, {wide}"),
-            "linear axis",
-            box(SIDE, SIDE, right - left),
-            Bought("belt axis", length=self.passage.stroke),
-        )
+        room, bought = box(SIDE, SIDE, right - left), Bought("belt axis", length=self.passage.stroke)
+        size = f"belt {axis.belt.belt.name}, {wide}"
+        belt = bought_part(AXIS, f"axis of the {carrier}", "linear axis", room, bought, size=size)
         yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
         row, low = axis.drive.motor if axis.drive else None, self.low
         if axis.drive is not None and axis.drive.reducer.ratio != 1:
@@ -129,7 +119,8 @@ class RapierSide:
         size = box(SIDE, SIDE, SIDE)
 
         def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *stations: Station) -> RigidBody:
-            part = _bought(names, "machined link", size, Bought(names[1], mass))
+            name, title, text = names
+            part = bought_part(name, title, "machined link", size, Bought(title, mass), size=text)
             return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*stations))
 
         shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)
@@ -145,12 +136,9 @@ class RapierSide:
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
         motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
-        slide = _bought(
-            (part_id("needle-axis"), "axis of a tuck-in needle", "along the edge"),
-            "linear axis",
-            box(SIDE, SIDE, long),
-            Bought("slide", length=2 * self.params.turn),
-        )
+        room, bought = box(SIDE, SIDE, long), Bought("slide", length=2 * self.params.turn)
+        name, title = part_id("needle-axis"), "axis of a tuck-in needle"
+        slide = bought_part(name, title, "linear axis", room, bought, size="along the edge")
         yield Occurrence(slide, self._beside((-1, 2), (1, 2), high=SIDE / 2 - long))
         stations = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
         yield Occurrence(motor, self._beside(*stations, depth=row.face if row else catalogue.SPECIAL_FACE))
@@ -170,12 +158,6 @@ class RapierSide:
         part = Part(part_id("edge-plate"), title, "laser-cut part", size, shape, MATERIALS["structural steel"])
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
-
-
-def _bought(names: tuple[str, str, str], process: str, room: Shape, bought: Bought) -> Part:
-    """A part of which the room alone is known; names: id, title, size."""
-    name, title, size = names
-    return Part(name, title, process, size, room, purchase=bought, envelope=True)
 
 
 def _upright(x: float, y: float, z: float = 0.0) -> Placement:

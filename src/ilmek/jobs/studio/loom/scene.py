@@ -148,7 +148,10 @@ def _of_machine(path: str, _digest: str) -> ProjectLoom:
     order = read_machine_order(path, {})
     if order.machine != MACHINE.name:
         raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=_NO_LOOM)
-    design = MACHINE.designed(MACHINE.params.read(order.settings))
+    params = MACHINE.params.read(order.settings)
+    if MACHINE.variant(params) is not None:
+        raise ParameterError(f"{Path(path).name} is the file of a hand loom", allowed=_NO_LOOM)
+    design = MACHINE.designed(params)
     return ProjectLoom(design, MACHINE.report(design, illustrated=False, assembled=False))
 
 
@@ -164,6 +167,8 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
         charted = make_charted(order, progress.part(0.0, 0.5, "picture"))
         part = progress.part(0.5, 1.0, "loom")
         loomed = make_loomed(read_loom_order(order), charted, part, illustrated=False, assembled=False)
+        if loomed.hand is not None:
+            raise ParameterError(f"{Path(path).name} is woven on a hand loom", allowed=_NO_LOOM)
         if loomed.design is None:
             reason = next((check for check in loomed.report.checks if not check.ok), None)
             raise ParameterError(

@@ -122,15 +122,14 @@ def nearest(request: DesignRequest, context: Context) -> NearestTasks:
 
 def judged(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
     """The parameters of a machine for settings, and the report of its design as of `report_for`."""
-    params = find_machine(name).params.read(settings)
-    return params, report_for(name, params, progress)
+    machine, params = find_machine(name).ordered(settings)
+    return params, report_for(machine.name, params, progress)
 
 
 def whole(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
     """The same with its parts against each other in space."""
-    machine = find_machine(name)
-    params = machine.params.read(settings)
-    return params, machine.report(designed(name, params, progress), illustrated=False)
+    machine, params = find_machine(name).ordered(settings)
+    return params, machine.report(designed(machine.name, params, progress), illustrated=False)
 
 
 def report_for(name: str, params: Params, progress: Progress = SILENT) -> Report:

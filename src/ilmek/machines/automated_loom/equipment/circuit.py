@@ -15,7 +15,7 @@ from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, surrou
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.standing_frame import WALL
 from ilmek.part.extents import Extent
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
@@ -76,7 +76,7 @@ def _rail(long: float) -> Part:
     bought = Bought("TH 35-7.5", RAIL_MASS * long, length=long)
     size = format_quantity(long, "mm")
     shape = box(*RAIL, long)
-    return Part(part_id("mounting-rail"), "mounting rail", "mounting rail", size, shape, purchase=bought, envelope=True)
+    return bought_part(part_id("mounting-rail"), "mounting rail", "mounting rail", shape, bought, size=size)
 
 
 def _rails(control: Extent, *, both: bool) -> Iterator[Placement]:

@@ -31,7 +31,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, box, tube
@@ -65,10 +65,9 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     peg = Part(PEG, "peg of a package", "pin or bush", "", bar(CORE - PLAY, long), STEEL)
     winding = tube(creel.size, (creel.size - CORE) / 2, long)
     full = format_quantity(loom.params.package_mass, "kg", 3)
-    package = Part(
-        PACKAGE, "package of pile yarn", "yarn package", shape=winding, purchase=Bought(full, loom.params.package_mass),
-        envelope=True,
-    )  # fmt: skip
+    package = bought_part(
+        PACKAGE, "package of pile yarn", "yarn package", winding, Bought(full, loom.params.package_mass)
+    )
     brake, sensor = (
         device(BRAKE_ID, "yarn brake", BRAKE),
         device(signals.YARN_STOP, "stop motion of a yarn", YARN_SENSOR),
@@ -118,14 +117,13 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         yield Occurrence(stand, (placement(middle, float(foot.high[1]), depth).after(UPRIGHT),))
     within = side - 2 * WALL
     each = yarn_path(loom).conduit
-    bundle = Part(
+    bundle = bought_part(
         CONDUIT,
         "bundle of the yarns' conduits",
         "conduit",
-        f"{creel.number} tubes of PTFE, {format_quantity(CONDUIT_SIZE, 'mm')}",
         box(within, 0.8 * within, long),
-        purchase=Bought("PTFE", CONDUIT_MASS * creel.number * each, length=creel.number * each),
-        envelope=True,
+        Bought("PTFE", CONDUIT_MASS * creel.number * each, length=creel.number * each),
+        size=f"{creel.number} tubes of PTFE, {format_quantity(CONDUIT_SIZE, 'mm')}",
     )
     yield Occurrence(bundle, (placement(left, height - 0.1 * within, depth).after(ACROSS),))
 

@@ -1,7 +1,7 @@
 """Parts of the field devices of a loom, each by its row of the catalogue."""
 
 from ilmek.elements.field_devices import FieldDevice
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
 from ilmek.units import turn
@@ -10,7 +10,7 @@ from ilmek.units import turn
 def device(name: str, title: str, row: FieldDevice) -> Part:
     """A device with the room that it takes: width along x, height along y, from z = 0 along z."""
     shape, bought = box(*row.size), Bought(row.name, row.mass)
-    return Part(name, title, row.kind, shape=shape, purchase=bought, envelope=True)
+    return bought_part(name, title, row.kind, shape, bought)
 
 
 TO_THE_BACK = placement(about=(0.0, 1.0, 0.0), angle=turn / 2)

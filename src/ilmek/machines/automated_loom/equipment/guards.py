@@ -100,7 +100,7 @@ def fence_of(loom: LoomDesign) -> Fence:
     encoders = behind + ENCODER.size[2] + GAP
     right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
-    inside = 0.0 if loom.heads else station_of(loom).rear
+    inside = 0.0 if loom.heads else station_of(loom).bench.rear
     front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(loom, stopping))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)

@@ -1,0 +1,146 @@
+"""Design of the hand loom: cylinders that are wound by hand, shed and beat by hand, a frame; nothing is driven.
+
+    row = knots / weavers * t_knot + 2 t_shed + wefts * t_weft + t_blows + t_wound w / advance
+
+t_knot by the knots of a weaver's day, which count all that she does for them; two changes of the shed a row, each moves
+the rod and the levers and locks or unlocks them; t_wound: the carpet is wound on after it has grown by `advance`.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+from typing import Any
+
+from ilmek.machines.automated_loom.design import knotters
+from ilmek.machines.automated_loom.knotting import KnottingHead
+from ilmek.machines.catalogue import MACHINES
+from ilmek.machines.component import Child
+from ilmek.machines.hand_beat import HandBeat, HandBeatParams
+from ilmek.machines.hand_loom.layout import HandLoomLayout, laid_out
+from ilmek.machines.hand_loom.params import HandLoomParams
+from ilmek.machines.hand_shed import HandShed, HandShedParams
+from ilmek.machines.loom_task import LoomTask, P
+from ilmek.machines.warp_tension import WarpTensionDesign, WarpTensionParams
+from ilmek.machines.warp_tension.design import USUAL
+from ilmek.machines.weaver_hands import HAND
+from ilmek.records import record
+
+ACTS = 3
+"""Acts of a change of the shed: rod, levers, locks."""
+
+WOUND = 6
+"""Acts of winding the carpet on beside the turning of the wheels: locks, rod, both wheels, tension by feel; assumed."""
+
+
+@record
+class HandLoom:
+    """A hand loom for one carpet: weavers, and the most that find room; its machines by name, its layout."""
+
+    params: HandLoomParams
+    rows: int
+    columns: int
+    weavers: int
+    knotters_max: int
+    machines: Mapping[str, Child]
+    layout: HandLoomLayout
+
+    @property
+    def heads_max(self) -> int:
+        """Knotting heads that it can have: none."""
+        return 0
+
+    @property
+    def children(self) -> tuple[Child, ...]:
+        """Every machine in the loom."""
+        return tuple(self.machines.values())
+
+    @property
+    def winding(self) -> WarpTensionDesign:
+        """The cylinders."""
+        return self.machines["warp-tension"].design_as(WarpTensionDesign)
+
+    @property
+    def shed(self) -> HandShed:
+        """Rod, heddles and levers."""
+        return self.machines["hand-shed"].design_as(HandShed)
+
+    @property
+    def beat(self) -> HandBeat:
+        """Comb and tools."""
+        return self.machines["hand-beat"].design_as(HandBeat)
+
+    @property
+    def row_acts(self) -> dict[str, float]:
+        """Time of each act of a row [s]."""
+        params, beat = self.params, self.beat
+        hands = params.hands
+        return {
+            "knots": math.ceil(self.columns / self.weavers) * params.hand_knot,
+            "shed": beat.params.passes * ACTS * hands.act_time,
+            "wefts": beat.params.passes * beat.weft_time,
+            "blows": beat.beat_time,
+            "winding": self.winding_time * self.winding.params.cloth.row_distance / hands.advance,
+        }
+
+    @property
+    def winding_time(self) -> float:
+        """Time to wind the carpet on once [s]: both wheels one after the other."""
+        winding, hands = self.winding, self.params.hands
+        turned = winding.reducer.ratio * hands.advance / winding.outer_radius
+        return 2 * turned / hands.crank_speed + WOUND * hands.act_time
+
+    @property
+    def row_time(self) -> float:
+        """Time of a row [s]."""
+        return sum(self.row_acts.values())
+
+
+@lru_cache(maxsize=8)
+def design(params: HandLoomParams) -> HandLoom:
+    """The hand loom for a carpet. Raises CarpetError for a carpet without knots; the errors of its machines."""
+    (rows, columns), cloth = params.knot_grid, params.cloth
+    tying = KnottingHead(HAND, None, {}, ())
+    most = tying.most(columns, cloth.knot_pitch)
+    weavers = knotters(params, most, tying)
+    task, machines = LoomTask(params, rows, columns, cloth, {}), dict[str, Child]()
+    hands = params.hands
+    shed: HandShed = _made(
+        "hand-shed", task, HandShedParams(cloth=cloth, hands=hands, weavers=weavers, clearance=params.clearance)
+    )
+    long = shed.params.free_length
+    beat: HandBeat = _made(
+        "hand-beat", task, HandBeatParams(cloth=cloth, hands=hands, weavers=weavers, warp_length=long)
+    )
+    pressed = beat.fabric.warp_rate * float(beat.fabric.fell(beat.beat_force_needed))
+    wound = WarpTensionParams(
+        cloth=cloth,
+        width=task.width,
+        winding=HAND,
+        hands=hands,
+        carpet_length=params.length,
+        free_length=long,
+        shed_lift=shed.params.opening,
+        shed_span=shed.params.heddle_height,
+        tension_shed=shed.rear.tension,
+        tension_shed_low=shed.front.tension,
+        tension_beat=cloth.warp_tension + pressed,
+        warps_beaten=min(beat.warps * weavers, cloth.warps),
+        rows_between=max(1, round(hands.advance / cloth.row_distance)),
+        tube=USUAL,
+    )
+    winding: WarpTensionDesign = _made("warp-tension", task, wound)
+    safety = params.column_safety, params.buckling_safety, params.column_bow
+    thickness = params.pile.pile_height + 3 * cloth.carpet_yarns.warp.diameter
+    layout = laid_out(winding, shed, thickness, safety)
+    winding = _made("warp-tension", task, replace(wound, crank_shaft=layout.column.side))
+    machines = {
+        name: Child(MACHINES[name], own)
+        for name, own in (("hand-shed", shed), ("hand-beat", beat), ("warp-tension", winding))
+    }
+    return HandLoom(params, rows, columns, weavers, most, machines, layout)
+
+
+def _made(name: str, task: LoomTask, derived: P) -> Any:
+    """A machine for the task, with what the user set for it."""
+    return MACHINES[name].design(task.parameters(name, derived))

@@ -1,0 +1,130 @@
+"""The frame of a hand loom: two columns on feet, beams between them, brackets of the cylinders, the weavers' bench."""
+
+from collections.abc import Iterator
+from functools import lru_cache
+
+from ilmek.elements.columns import STEEL
+from ilmek.elements.materials import GRAVITY
+from ilmek.machines.automated_loom.equipment.bench import (
+    BOARD,
+    ELBOW,
+    LEAST_SEAT,
+    SECTION,
+    WEIGHT,
+    Bench,
+    bench_for,
+    bench_parts,
+)
+from ilmek.machines.automated_loom.feet import FOOT, Foot, foot_for
+from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.hand_beat.report import tree as tools_tree
+from ilmek.machines.hand_beat.tools import shelf_length
+from ilmek.machines.hand_loom.design import HandLoom
+from ilmek.machines.hand_loom.layout import CylinderBracket
+from ilmek.machines.hand_shed.tree import tree as shed_tree
+from ilmek.machines.warp_tension.tree import tree as winding_tree
+from ilmek.part.part import Part
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, placement
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.units import format_quantity, mm
+
+SHELF_LEVEL = 0.45
+"""Shelf of the tools above the fell [m]; assumed by this project."""
+
+BENCH_BEFORE = 0.3
+"""Front edge of the bench before the warps [m]; assumed by this project."""
+
+_LEAST = 0.05 * mm
+
+
+@lru_cache(maxsize=4)
+def tree(loom: HandLoom) -> Tree:
+    """Every body of the loom, in the axes of the scene."""
+    return _whole(loom, foot_of(loom))
+
+
+def own_tree(loom: HandLoom) -> Tree:
+    """The bodies that are in none of its machines: frame and bench."""
+    return Tree(tree(loom).bodies[:1])
+
+
+def _whole(loom: HandLoom, foot: Foot | None) -> Tree:
+    """The bodies, with a levelling foot or without."""
+    layout, beat = loom.layout, loom.beat
+    over = layout.floor + FOOT + layout.base.side  # the feet
+    axes = {"upper": layout.upper.at, "lower": layout.lower.at, "spacer": layout.spacer.at}
+    positions = {name: placement(0.0, at.imag, at.real).after(ALONG_WIDTH) for name, at in axes.items()}
+    aside = layout.face + shelf_length(beat.params, beat.warps) / 2
+    shelf = placement(aside, SHELF_LEVEL, layout.depth + layout.column.side / 2)
+    parts = (
+        *_standing(loom, foot),
+        *(occurrence for own in layout.brackets for occurrence in _bracket(loom, own)),
+        *bench_parts(bench_of(loom), over, over),
+    )
+    machines = (
+        winding_tree(loom.winding, positions),
+        shed_tree(loom.shed, layout.depth, layout.face),
+        tools_tree(beat, shelf),
+    )
+    return Tree((RigidBody(part_id("frame"), parts), *(body for own in machines for body in own.bodies)))
+
+
+@lru_cache(maxsize=4)
+def foot_of(loom: HandLoom) -> Foot:
+    """The levelling foot."""
+    return foot_for(foot_load(loom))
+
+
+@lru_cache(maxsize=4)
+def foot_load(loom: HandLoom) -> float:
+    """Load of a levelling foot where two bear the loom, on an uneven floor, with all weavers on its bench [N]."""
+    return (_whole(loom, None).mass + loom.weavers * WEIGHT) * GRAVITY / 2
+
+
+def _standing(loom: HandLoom, foot: Foot | None) -> Iterator[Occurrence]:
+    """Columns, beams between them at the floor and at the top, feet."""
+    layout, section, base = loom.layout, loom.layout.column, loom.layout.base
+    half, x, low = section.side / 2, layout.face + section.side / 2, layout.floor + FOOT
+    column = member("column", "column of the frame", section, layout.top - low)
+    yield Occurrence(column, tuple(placement(side, low, layout.depth).after(UPRIGHT) for side in (-x, x)))
+    for name, title, own, y in (
+        ("beam", "beam across", section, layout.top - half),
+        ("floor-beam", "beam across at the floor", base, low + base.side / 2),
+    ):
+        beam = member(name, title, own, 2 * layout.face)
+        yield Occurrence(beam, (placement(-layout.face, y, layout.depth).after(ALONG_WIDTH),))
+    front, rear = BENCH_BEFORE + BOARD[0], layout.depth - layout.reach
+    for name, title, begin, end in (
+        ("front-foot", "front foot of the frame", layout.depth + half, front),
+        ("rear-foot", "rear foot of the frame", rear, layout.depth - half),
+    ):
+        lies = member(name, title, base, end - begin)
+        yield Occurrence(lies, tuple(placement(side, low + base.side / 2, begin) for side in (-x, x)))
+    if foot is not None:
+        ends = (rear + foot.pad / 2, front - foot.pad / 2)
+        pads = tuple(placement(side, layout.floor, z).after(UPRIGHT) for side in (-x, x) for z in ends)
+        yield Occurrence(foot.part(part_id("levelling-foot")), pads)
+
+
+def _bracket(loom: HandLoom, own: CylinderBracket) -> Iterator[Occurrence]:
+    """A bracket on both sides, and its spacers to the columns."""
+    layout, name = loom.layout, own.cylinder.name
+    title = f"bracket of the {name} cylinder"
+    size = f"plate {format_quantity(own.outer - own.inner, 'mm')}"
+    plate = Part(part_id(f"{name}-bracket"), title, "laser-cut part", size, own.plate, STEEL)
+    yield Occurrence(plate, tuple(placement(x).after(IN_SIDE_VIEW) for x in (-own.inner, own.outer)))
+    gap = layout.face - own.outer
+    if gap > _LEAST:
+        spacer = member(f"{name}-bracket-spacer", f"spacer of the {title}", layout.column, gap)
+        yield Occurrence(
+            spacer, tuple(placement(x, own.at.imag, layout.depth).after(ALONG_WIDTH) for x in (own.outer, -layout.face))
+        )
+
+
+@lru_cache(maxsize=4)
+def bench_of(loom: HandLoom) -> Bench:
+    """The bench: elbows of a weaver at the middle of what she weaves before it is wound on; it stands on the feet."""
+    layout = loom.layout
+    seat = max(loom.params.hands.advance / 2 - ELBOW - layout.floor, LEAST_SEAT)
+    half = layout.face + (layout.column.side + SECTION.side) / 2
+    return bench_for(BENCH_BEFORE, seat, layout.floor, half, loom.weavers)

@@ -1,0 +1,254 @@
+"""What is reported of a hand loom: times, hands, frame, cost, its parts in space, and what it does not have."""
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+
+from ilmek.carpet.pile import pile_check
+from ilmek.elements.columns import STEEL, HollowSquare
+from ilmek.elements.materials import GRAVITY
+from ilmek.elements.prices import price_of, read_prices
+from ilmek.machines.automated_loom.assembly import joint_check, mesh_check
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
+from ilmek.machines.automated_loom.choice import deadline_check
+from ilmek.machines.automated_loom.cost import machine_cost
+from ilmek.machines.automated_loom.drives import drive_checks
+from ilmek.machines.automated_loom.frame import column_checks, part_id
+from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
+from ilmek.machines.hand_loom.design import HandLoom
+from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
+from ilmek.machines.hand_loom.layout import CylinderBracket
+from ilmek.machines.hand_shed.tree import BEAM, SHED, half_width
+from ilmek.part.bill import bill
+from ilmek.part.clearances import Approach, approaches
+from ilmek.part.contacts import Contacts, contacts
+from ilmek.part.drive_balance import DriveBalance, drive_balance
+from ilmek.part.extents import around, extents
+from ilmek.records import computed, record
+from ilmek.report import BillLine, Check, Table, at_least, at_most, columns
+
+TIPPING = 1.5
+"""Weight's moment over that of the hands at least; assumed by this project."""
+
+ABSENT = (
+    ("cyclogram, programme", "nothing is driven: the weaver is the order of the acts"),
+    ("cabinet, amplifiers, sensors, list of signals", "nothing is driven, nothing is measured"),
+    ("guards, emergency stop", "nothing moves but by the hand that is at it"),
+    ("energy", "of the weavers alone"),
+    ("back rest, tension compensator", "strings pull half of the warps by so little that these bear it"),
+    ("shuttle or rapier", "the weft's bobbin goes from hand to hand"),
+)
+"""What an automated loom has and a hand loom has not, and why."""
+
+
+@record
+class HandLoomAnalysis:
+    """A hand loom with its parts and its cost."""
+
+    loom: HandLoom
+    lines: tuple[BillLine, ...]
+    cost: CarpetCost
+
+    weaving_time = computed("h", "the carpet, estimated", lambda it: it.loom.rows * it.loom.row_time)
+    row_time = computed("s", "a row with its knots, estimated", lambda it: it.loom.row_time)
+    row_acts = computed("s", "where the time of a row goes", lambda it: it.loom.row_acts)
+    winding_time = computed("s", "time to wind the carpet on once", lambda it: it.loom.winding_time)
+    weavers = computed("1", "weavers who tie beside each other", lambda it: it.loom.weavers)
+    rows = computed("1", "rows of knots", lambda it: it.loom.rows)
+    columns = computed("1", "knots of a row", lambda it: it.loom.columns)
+    knots = computed("1", "knots of the carpet", lambda it: it.loom.rows * it.loom.columns)
+    warps = computed("1", "warps: two for each knot of a row", lambda it: it.loom.params.cloth.warps)
+    knots_per_minute = computed(
+        "1", "of all weavers, wefts included, estimated", lambda it: 60 * it.loom.columns / it.loom.row_time
+    )
+    driven_axes = computed("1", "axes that motors drive", lambda it: drive_balance(tree(it.loom)).axes)
+    moved_by_hand = computed("", "bodies that hands move", lambda it: list(dict.fromkeys(it.balance.by_hand)))
+    fell_height = computed("m", "fell above the floor", lambda it: -it.loom.layout.floor)
+    loom_height = computed("m", "height of the frame's columns", lambda it: it.loom.layout.top - it.loom.layout.floor)
+    frame_column = computed("", "square hollow section of the columns", lambda it: it.loom.layout.column.name)
+    foot_load = computed("N", "load of a levelling foot, where two bear the loom", lambda it: foot_load(it.loom))
+    mass = computed("kg", "mass of all parts but the reducers", lambda it: sum(line.mass_all for line in it.lines))
+    price = computed("", "price of all parts by the table of prices", lambda it: it.cost.machine.parts)
+
+    @property
+    def balance(self) -> DriveBalance:
+        """Degrees of freedom beside what moves them."""
+        return drive_balance(tree(self.loom))
+
+
+@record
+class HandAssembly:
+    """The parts of a hand loom against each other: what touches, and what comes near while the shed is changed."""
+
+    loom: HandLoom
+    contacts: Contacts
+    nearest: tuple[Approach, ...]
+
+    buildable = computed(
+        "",
+        "no part through another, all in one group, each held by a joint",
+        lambda it: all(c.ok for c in it.checks),
+    )
+    assembly_clashes = computed("1", "pairs of parts that are through each other", lambda it: len(it.through))
+    assembly_groups = computed(
+        "1", "groups of parts that touch: 1 where each is held", lambda it: len(it.contacts.groups)
+    )
+    degrees_of_freedom = computed(
+        "1",
+        "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
+        lambda it: drive_balance(tree(it.loom)).number,
+    )
+
+    @property
+    def through(self) -> tuple[Approach, ...]:
+        """Parts through each other, standing or in the change of the shed."""
+        return (*self.contacts.through, *(near for near in self.nearest if near.distance < 0))
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Parts through each other, in the air, without a joint or without a hand."""
+        return (
+            at_most("parts through each other", len(self.through), 0, "1", _worst(self.through)).with_cure(
+                "set other heights of the shed", *dict.fromkeys(part for one in self.through for part in one.parts)
+            ),
+            at_most("groups of parts that touch", len(self.contacts.groups), 1, "1", "meshes of all parts").with_cure(
+                "give the parts named supports",
+                *dict.fromkeys(part for group in self.contacts.groups[1:] for part in group.parts),
+            ),
+            joint_check(tree(self.loom)),
+            *drive_checks(tree(self.loom)),
+            mesh_check(tree(self.loom)),
+        )
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """The pairs that come nearest while the shed is changed."""
+        rows = tuple((*near.parts, near.distance) for near in self.nearest[:_NEAREST])
+        return (Table("hand-loom-nearest-parts", "Nearest parts", columns("part", "and", "least [mm]"), rows),)
+
+
+_NEAREST, _HORIZON = 10, 20e-3
+
+
+@lru_cache(maxsize=4)
+def assembly(loom: HandLoom) -> HandAssembly:
+    """The parts of a loom against each other."""
+    whole = tree(loom)
+    return HandAssembly(loom, contacts(whole), approaches(whole, SHED, _HORIZON))
+
+
+def _worst(through: tuple[Approach, ...]) -> str:
+    return "; ".join(" in ".join(one.parts) for one in through[:3]) or "meshes of all parts over a change of the shed"
+
+
+@lru_cache(maxsize=4)
+def analyse(loom: HandLoom) -> HandLoomAnalysis:
+    """Parts and cost of a loom. Raises ParameterError for unreadable prices."""
+    lines, params = bill(tree(loom)), loom.params
+    rates = replace(params.cost, persons=float(loom.weavers), commissioning=0.0)
+    low, high = around(extents(tree(loom), (SHED,)))
+    aisle = 2 * rates.aisle
+    whole = CarpetCost(
+        rates=rates,
+        knots=loom.rows * loom.columns,
+        area=params.width * params.length,
+        time=loom.rows * loom.row_time,
+        energy=0.0,
+        dressing=float(off_loom_of(loom).dressing_time),
+        floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
+        machine=machine_cost(lines, read_prices(params.prices)),
+    )
+    return HandLoomAnalysis(loom, lines, whole)
+
+
+def results(found: HandLoomAnalysis) -> tuple[object, ...]:
+    """The records whose results are reported, in order."""
+    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom)
+
+
+def off_loom_of(loom: HandLoom) -> OffLoom:
+    """The loom's carpet off the loom."""
+    params = loom.params
+    return carpet_off_loom(params, (loom.rows, loom.columns), params.billed)
+
+
+def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:
+    """Deadline, pile, columns, brackets, and whether the loom stands while hands pull at it."""
+    loom, params = found.loom, found.loom.params
+    layout, limit = loom.layout, STEEL.strength / params.column_safety
+    cure = "set a lower tension, or a narrower carpet"
+    late = () if params.deadline is None else (_deadline(found, params.deadline),)
+    return (
+        *late,
+        pile_check(params.cloth.carpet_yarns.pile, params.quality),
+        *column_checks(layout.task, layout.column, 1),
+        *(check for one in layout.brackets for check in _bracket_checks(one, layout.column, limit)),
+        at_most(
+            "stress of a beam of the hand shed", beam_stress(loom), limit, "MPa", "yield of S235 over column_safety"
+        ).with_cure(cure, "hand-shed/beam"),
+        at_least(
+            "loom stands: weight over the hands' pull", tipping(loom, found.lines), TIPPING, "1", "moments; assumed"
+        ).with_cure("set a smaller hands.pull", part_id("front-foot")),
+        at_most("load of a levelling foot", foot_load(loom), foot_of(loom).rating, "N", "its pad and screw").with_cure(
+            cure, part_id("levelling-foot")
+        ),
+        *bench_of(loom).checks("set a shorter carpet"),
+    )
+
+
+def _bracket_checks(own: CylinderBracket, column: HollowSquare, limit: float) -> tuple[Check, ...]:
+    """Stress of a cylinder's bracket, its weld, and the screws of the bearing on it."""
+    part, cure = part_id(f"{own.cylinder.name}-bracket"), "set a lower tension, or a narrower carpet"
+    title, source = f"bracket of the {own.cylinder.name} cylinder", "yield of S235 over column_safety"
+    stress = at_most(f"frame: stress of the {title}", own.stress, limit, "MPa", source).with_cure(cure, part)
+    return stress, own.seam(column).check, own.seat.check(f"frame: bearing on the {title}", cure, part)
+
+
+def beam_stress(loom: HandLoom) -> float:
+    """Stress of a beam of the hand shed [Pa]: half of the forces of bar and rod on the side plate beside its column.
+
+    One of the two beams counts as if it bore all; it bends about its column: M = F / 2 * distance.
+    """
+    shed, face = loom.shed, loom.layout.face
+    force = (float(shed.heddle_force) + shed.rod_load) / 2
+    return force * (face - half_width(shed)) * BEAM.side / 2 / BEAM.inertia
+
+
+def tipping(loom: HandLoom, lines: tuple[BillLine, ...]) -> float:
+    """Moment of the loom's weight about the rear ends of its feet, over that of all hands at the upper cylinder."""
+    layout, hands = loom.layout, loom.params.hands
+    weight = sum(line.mass_all for line in lines) * GRAVITY
+    pull = 2 * loom.weavers * hands.pull * (layout.upper.at.imag - layout.floor)
+    return weight * layout.reach / pull
+
+
+def _deadline(found: HandLoomAnalysis, deadline: float) -> Check:
+    """The deadline: no weaver is quicker, so that persons are missing, not speed."""
+    loom = found.loom
+    needed = math.ceil(loom.weavers * loom.rows * loom.row_time / deadline)
+    check = deadline_check(deadline, loom.rows * loom.row_time)
+    return check.with_cure(f"{needed} weavers would keep it, {loom.weavers} find room: set a later deadline, or heads")
+
+
+def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
+    """Acts of a row, parts, and what the loom does not have."""
+    prices = read_prices(found.loom.params.prices)
+    acts = tuple(found.loom.row_acts.items())
+    parts = tuple(
+        (
+            line.name,
+            line.number,
+            line.description,
+            line.material,
+            line.mass,
+            line.number * line.mass,
+            price_of(line, prices),
+        )
+        for line in found.lines
+    )
+    heads = columns("part | number | description | material | mass of one [kg] 3 | mass of all [kg] | price of all")
+    return (
+        Table("hand-loom-row", "Time of a row by its acts", columns("act", "time [s]"), acts),
+        Table("loom-parts", "Parts of the loom", heads, parts),
+        Table("hand-loom-absent", "What a hand loom does not have", columns("not there", "why"), ABSENT),
+    )
