@@ -211,7 +211,7 @@ def test_weavers_weave_by_the_chart_with_no_programme(tmp_path: Path, picture: P
     assert designed.weaving_time == pytest.approx(135 * row + stops)
     file = tmp_path / "hand.json"
     file.write_text(json.dumps(MACHINE.report(designed.design).as_json()))
-    half = made(file, picture, size="60x45cm", deadline="7h")
+    half = made(file, picture, size="60x45cm", deadline="6h")
     assert (half.programme, half.notes, failed(half)) == (None, designed.notes, {"weaving time"})
     assert half.weaving_time is not None
     assert designed.weaving_time == pytest.approx(2 * half.weaving_time, rel=0.01)
