@@ -8,6 +8,7 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.carpet_summary import carpet_pairs
+from ilmek.cli.loom_summary import loom_pairs
 from ilmek.cli.options import force_option, json_option, rates_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
@@ -18,11 +19,8 @@ from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
 from ilmek.jobs.recipe import saved_recipe
-from ilmek.jobs.weave import WeaveResult, days_in_words, order_in_words, time_in_words, wage, weave, weave_json
-from ilmek.machines.automated_loom.carpet_cost import YEAR, CarpetCost
+from ilmek.jobs.weave import WeaveResult, weave, weave_json
 from ilmek.machines.automated_loom.params import AIMS
-from ilmek.machines.automated_loom.search import LoomSearch
-from ilmek.units import format_number
 
 EXAMPLES = """\b
 Examples:
@@ -123,54 +121,9 @@ def show_woven(woven: WeaveResult) -> None:
     show_pairs(
         [
             *carpet_pairs(woven.charted),
-            *_loom_pairs(woven),
+            *loom_pairs(woven),
             ("checks", f"{len(checks) - failed} passed, {failed} failed"),
             ("report", woven.files[0]),
         ]
     )
     show_proposed(woven.charted.chart)
-
-
-def cost_in_words(cost: CarpetCost, yarn: float | None) -> str:
-    """What a carpet costs, on the loom and by hand; yarn: price of the yarn to buy."""
-    of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
-    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}; tied by hand {cost.hand_cost:,.2f}"
-
-
-def price_in_words(cost: CarpetCost) -> str:
-    """What the loom costs, how much it weaves, and when it has earned its price."""
-    paid = cost.payback_time
-    earned = "never paid back" if paid is None else f"paid back in {format_number(paid / YEAR, 2)} years"
-    price, year = cost.machine_price["sold"], cost.carpets_per_year
-    return f"{price:,.0f}; {year:,.0f} carpets a year; {earned} against weavers by hand"
-
-
-def rival_in_words(search: LoomSearch) -> str:
-    """The next best loom, why it lost, and how many were looked at."""
-    rival = f"{search.label(search.rival)}: {search.why}; " if search.rival else ""
-    return f"{rival}the best of {len(search.offers)} looms"
-
-
-def _loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
-    """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
-    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
-    time, cost = woven.loomed.weaving_time, woven.loomed.cost
-    if made is None or time is None or cost is None:
-        return []
-    within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
-    if programme is None:
-        how = days_in_words(made, time)
-        of_knots = ("weavers", f"{made.weavers} (of {made.knotters_max} that fit), wage {wage(made, time):,.0f}")
-    else:
-        how = order_in_words(programme)
-        of_knots = ("heads", f"{programme.heads} (of {made.heads_max} that fit)")
-    search = woven.loomed.design and woven.loomed.design.search
-    chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
-    return [
-        ("weaving time", f"{time_in_words(time)}{within}; {how}"),
-        of_knots,
-        ("cost", cost_in_words(cost, woven.charted.bill.price)),
-        ("loom", price_in_words(cost)),
-        *([("chosen", "; ".join(chosen))] if chosen else []),
-        *([("next best", rival_in_words(search))] if search else []),
-    ]
