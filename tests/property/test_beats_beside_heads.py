@@ -5,6 +5,7 @@ the heads, their magazine and the rail as it is built, while they knot and all a
 by circles about its pins, from the bar of the comb.
 """
 
+import math
 from collections.abc import Iterator
 from functools import cache
 
@@ -14,6 +15,7 @@ import pytest
 from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
+from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.beat import stroke_needed
 from ilmek.machines.beat_up.carriage import shaft
@@ -117,6 +119,20 @@ def test_a_longer_linkage_is_as_long_as_heads_and_bar_require() -> None:
     assert linkage_of(made).params.ground > 1.05 * needed
     gap = min(gap_of_rocker(made), gap_of_plate(made), gap_of_coupler(made))
     assert gap == pytest.approx(1.5 * made.params.clearance, abs=1 * mm)  # the length grows in steps
+
+
+def test_a_comb_under_a_reed_swings_less_on_longer_links_and_stays_below_its_baulks() -> None:
+    """Baulks by their parts' boxes; the comb at rest by its corners."""
+    made = loom((("beat", "linkage"), ("knots_across", "46/dm"), ("heads", "1"), ("width", "2.6m"), ("length", "2.6m")))
+    baulks = surroundings(made).of("shedding/reed-baulk")
+    front, low = max(one.high[2] for one in baulks), min(one.low[1] for one in baulks)
+    path = made.beat.path
+    assert path is not None
+    assert path.tip[0].imag >= stroke_needed(made.task)
+    leaf, bar, *_ = path.at_rest
+    assert leaf.imag.max() < low
+    assert bar.real.min() > front or bar.imag.max() < low
+    assert linkage_of(made).swing < math.radians(29)
 
 
 def test_a_ground_that_is_set_is_kept_and_fails_beside_the_heads() -> None:

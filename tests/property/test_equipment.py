@@ -253,6 +253,19 @@ def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
     assert apart >= creel_of(loom).size + 50 * mm
 
 
+@pytest.mark.parametrize("weft", ["shuttle", "rapier"])
+def test_the_creel_stands_where_no_rapier_runs_out(weft: str) -> None:
+    """So the duct is no longer than the fence is away from the feet there."""
+    loom = _loom(weft=weft, width=1.5, length=1.5)
+    creel, fence, near = creel_of(loom), fence_of(loom), surroundings(loom)
+    feet = near.of("automated-loom/front-foot")
+    ways = {-1: float(feet[0].low[0]) - fence.left, 1: fence.right - float(feet[-1].high[0])}
+    assert ways[creel.hand] == min(ways.values())
+    assert abs(creel.duct_end - creel.mouth[0]) < ways[creel.hand] + 0.3
+    assert creel.hand * creel.inner > creel.hand * (fence.left, fence.right)[creel.hand > 0]
+    assert creel.hand * creel.base > creel.hand * creel.inner + creel.size
+
+
 @given(st.sampled_from(ENERGY_CHAINS), st.integers(1, 40), st.floats(3e-3, 14e-3))
 def test_lines_of_a_chain_have_their_room_on_shelves(row, number: int, diameter: float) -> None:
     """They are laid one by one, from the bottom shelf up, then beside these."""

@@ -5,12 +5,16 @@ from functools import cache
 import pytest
 from default_machines import loom_report
 
+from ilmek.elements.motors import smallest_motor
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.knotting import CAMS
 from ilmek.machines.automated_loom.own_parts import RETREAT_MOTOR
+from ilmek.machines.weaver.carriage_belt import RADIUS
+from ilmek.machines.weaver.carriage_drive import PULLEY_AT
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.machines.weaver.sizes import PLATES
+from ilmek.machines.weaver.tree import drive_of
 from ilmek.units import dm
 
 SIZES = ("cam_thickness", "cam_gap", "cam_belt", "tool_mass", "sley_stroke")
@@ -31,6 +35,19 @@ def test_cams_tie_coarse_knots_within_all_limits(knots: float) -> None:
     made = loom(knots)
     assert made.head.kind == CAMS
     assert failed(made) == []
+
+
+def test_a_heavy_head_steps_more_slowly_so_that_its_motor_has_room_behind_the_drum() -> None:
+    wide = {"width": "2.7m", "beat": "guide-cams", "weft.room": "7m", "tension": "20N"}
+    made = loom(18, colours="23", heads="3", **wide).weaver
+    usual, drive = WeaverParams().carriage_acceleration, drive_of(made)
+    assert made.params.carriage_acceleration < usual
+    assert drive.motor is not None
+    assert drive.motor.face / 2 < PULLEY_AT + made.shape.front - (made.shape.magazine + made.shape.magazine_size).real
+    quick = drive.force * usual / made.params.carriage_acceleration * RADIUS
+    wider = smallest_motor(quick)
+    assert wider is not None
+    assert wider.face > drive.motor.face
 
 
 def test_the_head_of_the_usual_quality_keeps_its_usual_sizes() -> None:

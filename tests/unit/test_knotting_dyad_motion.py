@@ -10,7 +10,7 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
-from ilmek.machines.knotting_dyad.arms import inertias
+from ilmek.machines.knotting_dyad.arms import blade_part, inertias
 from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion
 from ilmek.machines.knotting_dyad.figures import cyclogram, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
@@ -213,6 +213,7 @@ def test_figures_cover_the_cycle() -> None:
 
 def test_parts_and_work_of_the_arms_of_a_head() -> None:
     made_ = design(KnottingDyadParams())
+    blade_part.cache_clear()  # after other heads: arms and centre gripper share one blade
     parts = {part.name: part for part in MACHINE.parts(made_)}
     assert made_.head is not None
     one, two = inertias(made_.params, made_.head, head_motion(made_.params, made_.head).hole).values()

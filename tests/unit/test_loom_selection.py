@@ -1,5 +1,6 @@
 """What a loom chooses: kinds of beat until the parts have room in space, columns until the frame is stiff, motors."""
 
+import math
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -11,6 +12,7 @@ from ilmek.elements.motors import MOTORS, find_motor
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom import MACHINE, LoomDesign, selection
 from ilmek.machines.automated_loom.equipment.energy_chain import energy_chain
+from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.frame_modes import frame_modes, sway_checks
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.on_rail import share_of
@@ -18,6 +20,7 @@ from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.shaking import least_frequency
 from ilmek.machines.weaver import head_mass
 from ilmek.report import Check, at_most
 from ilmek.timing.track import peak_acceleration
@@ -79,7 +82,23 @@ def test_the_columns_are_the_first_that_are_stiff_enough(settings: dict[str, str
     assert frame_modes(loom, frame).across == sway_checks(loom, frame)[0].value
     (choice,) = (one for one in frame.choices if one.name == "frame_columns")
     assert choice.failed
-    assert all(check.ok for own in rail_supports(loom, frame) for check in own.checks)
+    supported = rail_supports(loom, frame)
+    assert all(check.ok for own in supported for check in own.checks)
+    assert loom.side.heads is not None
+    assert frame.guide[0].side <= loom.side.heads.rail_side  # for which the beat has room
+    least, mass = 2 * least_frequency(loom), supported[0].load / 9.80665
+    assert math.sqrt(3 * 2.1e11 * supported[0].post.inertia / mass / supported[0].height ** 3) >= 2 * math.pi * least
+
+
+def test_of_heads_that_shake_the_frame_there_are_so_many_that_it_bears() -> None:
+    """More heads that tie as quickly shake it too much; they would weave in less time."""
+    wide = {"width": "2.6m", "length": "2.6m", "knots_across": "31/dm", "beat": "travelling", "knotting": "cams"}
+    loom = designed(aim="time", **wide)
+    frame = parts_of_loom(loom).frame
+    assert all(check.ok for check in frame_modes(loom, frame).checks)
+    more = designed(heads=str(loom.heads_max), knot_cycle=f"{loom.params.knot_cycle}s", **wide)
+    assert estimated_time(more) < estimated_time(loom)
+    assert not all(check.ok for check in frame_modes(more, parts_of_loom(more).frame).checks)
 
 
 @pytest.mark.parametrize("heads", ["1", "4", "7"])

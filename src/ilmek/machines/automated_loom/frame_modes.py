@@ -6,9 +6,7 @@ are plane frames [`elements.plane_frame`]; cylinders, cams and all else that the
 of their axes. Brackets are taken as rigid, the heads as masses in the middle of a span of their rail, what beats as a
 mass in the middle of its beam [`elements.whirl`].
 
-A drive shakes the frame at most once a stroke of the beat, once a knot of each head in turn, once a pick. The frame is
-stiff for it where every natural frequency is DISTANCE times higher: at a ratio r = 1 / DISTANCE the amplitude is
-1 / (1 - r²) of that at rest.                                                       [Rao, Mechanical Vibrations, 3.3]
+What they keep their distance from: `shaking`.
 """
 
 import math
@@ -24,15 +22,13 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id, rail_frequency
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.shaking import DISTANCE, drive_frequencies
 from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.automated_loom.steady_posts import cam_beam
 from ilmek.machines.automated_loom.supports import base_section, beat_beam, floor_top, post_depth, supports
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least
 from ilmek.units import turn
-
-DISTANCE = 2.0
-"""Least natural frequency over the greatest frequency of a drive; assumed by this project."""
 
 _NEAR = 1e-6
 _HINGED = True, True, False
@@ -80,11 +76,6 @@ def sway_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
     return _sway_checks(drive_frequencies(loom), _across(loom, frame), _along(loom, frame))
 
 
-def least_frequency(loom: LoomDesign) -> float:
-    """Least natural frequency that the drives of a loom allow [Hz]."""
-    return DISTANCE * max(drive_frequencies(loom).values())
-
-
 def _sway_checks(drives: Mapping[str, float], across: float, along: float) -> tuple[Check, ...]:
     return (
         _frequency_check("frame: sway across the width", across, drives, "column"),
@@ -101,17 +92,6 @@ def _frequency_check(title: str, value: float, drives: Mapping[str, float], part
         "Hz",
         f"{DISTANCE:g} times the {name}, {drives[name]:.3g} Hz; assumed by this project",
     ).with_cure("set a slower beat, fewer heads, or a narrower carpet", part_id(part))
-
-
-def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:
-    """Strokes of the beat, turns of its crank, knots of all heads in turn, picks: frequency of each [Hz]."""
-    crank = {"crank of the beat": loom.params.beat_speed / turn} if loom.beat.crank_rockers else {}
-    return {
-        "strokes of the beat": loom.beat.beat.strokes / loom.beat.beat.time,
-        **crank,
-        **({"knots of the heads": loom.heads / loom.times.knot} if loom.heads else {}),
-        "picks of the weft": 1 / loom.weft.passage.time,
-    }
 
 
 @lru_cache(maxsize=4)

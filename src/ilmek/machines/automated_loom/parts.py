@@ -12,11 +12,12 @@ from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, bel
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, RailTask, frame_for
-from ilmek.machines.automated_loom.frame_modes import least_frequency, sway_checks
+from ilmek.machines.automated_loom.frame_modes import sway_checks
 from ilmek.machines.automated_loom.joints import TIPPING, tipping
 from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
+from ilmek.machines.automated_loom.shaking import least_frequency
 from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS

@@ -13,7 +13,7 @@ and an arm of the length l has sigma = R l c / I and sinks by R l³ / (3 E I).
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.materials import GRAVITY
@@ -29,6 +29,7 @@ from ilmek.machines.automated_loom.frame import (
     rail_ahead,
     rail_support_load,
 )
+from ilmek.machines.automated_loom.shaking import stiff_post
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, rail_middle
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
@@ -104,6 +105,8 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
     axis, near, bottom = rail_middle(loom), task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
     beside = frame.beside(brackets_of(loom).face)[0]
     load = rail_support_load(task, rail, spans=1)
+    # To the front, away from the motors on the upper ends of the axes; to the back where a post of the beat is there.
+    away = -1 if 0 < post_depth(loom, frame) - axis.real < RAIL_POST else 1
 
     def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
         return RailSupport(
@@ -116,12 +119,12 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             push=_push(loom, load) * RETREAT.real,
             post=post,
             arm=arm,
-            depth=axis.real + RAIL_AXIS / 2 - post.side / 2,
+            depth=axis.real + away * (post.side - RAIL_AXIS) / 2,
             axis=axis,
             stations=(near - RAIL_AXIS / 2, RAIL_AXIS / 2 - near),
         )
 
-    return _lightest(chosen, math.inf)
+    return _lightest(chosen, math.inf, lambda strong: stiff_post(loom, strong, axis.imag - bottom, load / GRAVITY))
 
 
 def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
@@ -147,7 +150,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             stations=tuple((k / spans - 0.5) * wide + RAIL_AXIS for k in range(1, spans)),
         )
 
-    return _lightest(chosen, RAIL_POST)
+    return _lightest(chosen, RAIL_POST, lambda strong: strong[0] if strong else None)
 
 
 def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
@@ -169,11 +172,15 @@ def _push(loom: LoomDesign, load: float) -> float:
     return load / GRAVITY * peak_acceleration(row.track(HEADS), row.period)
 
 
-def _lightest(chosen: Callable[[HollowSquare, HollowSquare], RailSupport], most: float) -> RailSupport:
-    """The support of the lightest sections that keep its checks; of the largest that have room where none does."""
+def _lightest(
+    chosen: Callable[[HollowSquare, HollowSquare], RailSupport],
+    most: float,
+    stiff: Callable[[Sequence[HollowSquare]], HollowSquare | None],
+) -> RailSupport:
+    """The support of the lightest sections that keep its checks, of stiff posts; of the largest where none does."""
     posts = [one for one in ascending() if RAIL_AXIS <= one.side <= most]
     arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
-    post = next((one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))), posts[-1])
+    post = stiff([one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))]) or posts[-1]
     arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])
     return chosen(post, arm)
 

@@ -76,16 +76,20 @@ class RapierSupport:
         return max(above, self.section.side) if above > 0 else 0.0
 
     @property
+    def bearing(self) -> tuple[Check, Check]:
+        """Deflection of arms and beams, buckling of the post."""
+        return _checks(self.section, self.weight, self.inertia, self.reach + self.drop, self.height)
+
+    @property
     def checks(self) -> tuple[Check, ...]:
-        """Deflection of arms and beams, buckling of the post, room before the brackets of the cam shafts."""
-        bearing = _checks(self.section, self.weight, self.inertia, self.reach + self.drop, self.height)
+        """What bears, and room before the brackets of the cam shafts."""
         if self.gap is None:
-            return bearing
+            return self.bearing
         source = "parameter clearance; the axis begins beside the cloth, before the brackets"
         room = at_least(
             "clearance: brackets of the cam shafts and axis of the rapier", self.gap, self.clearance, "mm", source
         ).with_cure("set weft=shuttle with another beat, or a larger lift", AXIS)
-        return (*bearing, room)
+        return (*self.bearing, room)
 
 
 def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSupport:
@@ -98,18 +102,21 @@ def rapier_support(loom: LoomDesign, face: float, column: float) -> RapierSuppor
     weight, inertia = bodies.tree.mass * GRAVITY, loom.weft.axis.mass * loom.weft.passage.acceleration
     reach = middle.real + rapier.plate_back - front + face + column / 2 - rapier.edge
     height = middle.imag + rapier.low - loom.side.floor - SOLE[1]
-    sections = ascending()
-    bearing = (one for one in sections if all(c.ok for c in _checks(one, weight, inertia, reach, height)))
-    section = next(bearing, sections[-1])
     # Brackets that let the cams sink reach down to the axis.
     _, _, *of_cams = brackets_of(loom).shafts
     before = middle.real - SIDE / 2 - max(float(own.nodes.real.max()) + own.radius for own in of_cams)
     gap, clearance, lowest = None, loom.params.clearance, math.inf
     if loom.params.beat == GUIDED:
         gap, lowest = before, _lowest_drive(loom)
-    return RapierSupport(
-        rapier, middle, section, weight, inertia, reach, height, face, front, column, gap, clearance, lowest
-    )
+
+    def made(section: HollowSquare) -> RapierSupport:
+        return RapierSupport(
+            rapier, middle, section, weight, inertia, reach, height, face, front, column, gap, clearance, lowest
+        )
+
+    sections = ascending()
+    supports = map(made, sections)
+    return next((own for own in supports if all(check.ok for check in own.bearing)), made(sections[-1]))
 
 
 def _lowest_drive(loom: LoomDesign) -> float:

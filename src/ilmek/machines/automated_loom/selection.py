@@ -43,8 +43,10 @@ from ilmek.report.verdict import weight
 
 _ALL: Mapping[str, tuple[Check, ...]] = MappingProxyType({})
 
-MOST_REFUSED = 8
-"""Whole looms that are designed and refused before the search ends with the one that misses its limits least."""
+MOST_REFUSED, MOST_LIMITS = 8, 16
+"""Whole looms that are designed and refused before the search ends with the one that misses its limits least; and how
+many more where each shuts out others.
+"""
 
 
 @lru_cache(maxsize=8)
@@ -214,7 +216,7 @@ class _Search:
 
     def run(self) -> LoomDesign | None:
         """The best loom that keeps every limit; else that which misses them least, or None where there is no offer."""
-        while self.heap and len(self.tried) < MOST_REFUSED:
+        while self.heap and len(self.tried) - min(len(self.limits), MOST_LIMITS) < MOST_REFUSED:
             value, _, _, entry = heapq.heappop(self.heap)
             if entry.opens is not None:
                 entry.opens()

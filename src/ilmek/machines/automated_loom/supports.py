@@ -19,6 +19,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
+from ilmek.machines.automated_loom.shaking import stiff_post
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -115,13 +116,13 @@ class LoomSupports:
 
 @lru_cache(maxsize=4)
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
-    """The lightest sections that keep their checks; the largest where none does."""
+    """The lightest sections that keep their checks, of the posts one that is stiff too; the largest where none does."""
     made, (beam, corner) = loom.weft.carried, beat_beam(loom)
     height, across = corner.imag - floor_top(loom, frame), loom.beat.crank_rockers > 0
     # The axes of a comb press along the posts; their beam counts half of what is spread over it.
     force = beam.carried / 2 if across else beam.carried
-    posts = (one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across)))
-    post = next(posts, ascending()[-1])
+    strong = [one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across))]
+    post = stiff_post(loom, strong, height, sum(part.mass_all for part in loom.beat.parts) / 2) or ascending()[-1]
     if not isinstance(made, Shuttle):
         rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
         return LoomSupports(post, height, force, across, None, None, rapier)

@@ -15,7 +15,7 @@ All lengths of the linkage grow with its ground, so that the least P gives the l
 
 import cmath
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -26,6 +26,7 @@ from ilmek.machines.arrangement.side_view import RETREAT, SideView
 from ilmek.machines.beat_up.carriage import PLATE, shaft
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS
+from ilmek.machines.shedding.stack import DENT_TAB
 from ilmek.report import Check, at_least
 from ilmek.units import turn
 
@@ -58,6 +59,20 @@ def ground_beside_heads(
         return free and _before_cams(linkage, side, scale) >= clearance
 
     return ground * next((one for one in (grown * np.arange(1.0, _LARGEST, _STEP)).tolist() if clear(one)), grown)
+
+
+def room_under_baulks(outlines: Sequence[ComplexArray], side: SideView) -> float:
+    """Least room of polygons in the side view under the baulks of reeds [m]; inf where there is none over them."""
+    edges = np.concatenate(
+        [one + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (np.roll(one, 1) - one) for one in outlines]
+    )
+    rooms = [math.inf]
+    for cam in side.cams:
+        thick = cam.front - cam.guide_radius
+        under = np.abs(edges.real - cam.at.real - cam.guide_radius - thick / 2) < thick
+        if thick > 0 and under.any():
+            rooms.append(cam.at.imag - DENT_TAB[1] / 2 - thick - float(edges.imag.max(where=under, initial=-math.inf)))
+    return min(rooms)
 
 
 def checks_beside_heads(

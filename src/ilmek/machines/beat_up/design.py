@@ -297,18 +297,18 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
 
 
 @lru_cache(maxsize=8)
-def _rise_of_a_metre(hand: str) -> float:
+def _rise_of_a_metre(hand: str, swing: float | None) -> float:
     """Height that the beater of a linkage with a ground of 1 m rises above the fell [m]; hand: its positions."""
-    params = BeatUpParams(ground=1.0, hand=hand)
+    params = BeatUpParams(ground=1.0, hand=hand, swing=swing)
     return lengths_of(params, _links(params, 0.0))["beater"] * math.sin(params.rocker_swing)
 
 
-def ground_for(rise: float, hand: str = HAND) -> float:
+def ground_for(rise: float, hand: str = HAND, swing: float | None = None) -> float:
     """Distance of the pivots [m] of a linkage whose beater rises to a height above the fell [m].
 
-    hand  its positions; default: the paper's
+    hand  its positions; default: the paper's      swing  of its rocker [rad]; default: about these positions
     """
-    return rise / _rise_of_a_metre(hand)
+    return rise / _rise_of_a_metre(hand, swing)
 
 
 def _links(params: BeatUpParams, hole: float) -> LinkRatios:

@@ -16,7 +16,7 @@ from ilmek.machines import beat_up
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import GUIDED, Beat, BeatDrive, BeatPath, stroke_needed
 from ilmek.machines.beat_up.beam import POST
-from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
+from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads, room_under_baulks
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
 from ilmek.machines.fell_of_loom import USUAL_WARP_LENGTH
@@ -34,12 +34,17 @@ from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.part.bill import bill
 from ilmek.records import record
 from ilmek.report import Check, Choice, Work, at_least, at_most, must
-from ilmek.units import mm, turn
+from ilmek.units import deg, mm, turn
 
 ABOVE_SIGHT = 400 * mm
 """Of what crosses the loom before weavers, over the fell [m]: they see the fell below it; assumed by this project."""
 
 _SHARES = 181
+
+SWINGS = (None, 21 * deg, 18 * deg, 15 * deg)
+"""Swings of a crank-rocker that are tried: the paper's, or such with which a longer one rises as high, its bar before
+the reeds.
+"""
 
 _ROUNDS = 4
 """In which links and ground are made for each other, at most."""
@@ -61,7 +66,7 @@ def _in_the_row(params: HammerParams, task: LoomTask, beat: Beat, kind: str) -> 
     )
 
 
-def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
+def _of_carpet(task: LoomTask, kind: str, swing: float | None = None) -> HammerParams:
     """The comb for the loom's warps and rows; what depends on the row's time is left as it is."""
     params, stroke = task.params, stroke_needed(task)
     return HammerParams(
@@ -70,17 +75,18 @@ def _of_carpet(task: LoomTask, kind: str) -> HammerParams:
         warp_length=task.side.warp_length if task.side else USUAL_WARP_LENGTH,
         stroke=stroke,
         shed_speed=params.cam_speed,
-        ground=beat_up.ground_for(stroke + SPARE * params.clearance),
+        ground=beat_up.ground_for(stroke + SPARE * params.clearance, swing=swing),
+        swing=swing,
         beam_length=task.rail_length + 2 * POST,
         stack_mass=0.0 if kind == "comb" else None,
-        leaf_reach=_before_reeds(task, kind),
+        leaf_reach=_before_reeds(task) if kind != "linkage" or swing else None,
         axes_height=ABOVE_SIGHT if task.weaver is None else None,
     )
 
 
-def _before_reeds(task: LoomTask, kind: str) -> float | None:
-    """Reach of leaves whose bar goes up before the reeds [m]; None where the usual one does, and on crank-rockers."""
-    if task.side is None or kind == "linkage":
+def _before_reeds(task: LoomTask) -> float | None:
+    """Reach of leaves whose bar goes up before the reeds [m]; None where the usual one does."""
+    if task.side is None:
         return None
     least = task.side.cam_front + SPARE * task.params.clearance
     return least if least > HammerParams().reach else None
@@ -195,14 +201,27 @@ def planned_beat(task: LoomTask, kind: str) -> CombBeat:
     params = task.parameters("hammer", _of_carpet(task, kind))
     if params.drive != "linkage":
         return CombBeat(params, task.params.comb_acceleration, kind, None)
+    rockers = (_rockers(task, kind, swing) for swing in ((params.swing,) if params.swing else SWINGS))
+    first = next(rockers)
+    return next((made for made in (first, *rockers) if _under_reeds(made, task)), first)
+
+
+def _rockers(task: LoomTask, kind: str, swing: float | None) -> CombBeat:
+    """The comb on crank-rockers of a swing [rad], as long as heads and cams need."""
+    params = task.parameters("hammer", _of_carpet(task, kind, swing))
     fabric, clearance = params.fabric, SPARE * task.params.clearance
     needed = float(fabric.resistance(params.cloth.row_distance))
     chosen, linkage, choices = chosen_linkage(params, fabric, needed)
     for _ in range(_ROUNDS):
         # A longer linkage may need other links, and these more room.
         ground = ground_beside_heads(linkage.one, task.side, clearance, outline(chosen)[1])
-        params = task.parameters("hammer", replace(_of_carpet(task, kind), ground=ground))
+        params = task.parameters("hammer", replace(_of_carpet(task, kind, swing), ground=ground))
         if params.ground == chosen.ground:
             break
         chosen, linkage, choices = chosen_linkage(params, fabric, needed)
     return CombBeat(chosen, task.params.comb_acceleration, kind, linkage.start, choices)
+
+
+def _under_reeds(made: CombBeat, task: LoomTask) -> bool:
+    """Whether the comb at rest keeps clear of the baulks of reeds above it: a longer linkage rises more."""
+    return task.side is None or room_under_baulks(made.path.at_rest, task.side) >= SPARE * task.params.clearance

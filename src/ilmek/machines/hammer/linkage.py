@@ -158,7 +158,7 @@ def _ranked(options: tuple[tuple[HammerParams, float], ...], fabric: Fabric, nee
 
 def _options(params: HammerParams, fabric: Fabric, needed: float) -> Iterator[tuple[HammerParams, float]]:
     """Each number of crank-rockers and speed, with ballast, and the share of the comb of each crank-rocker [kg]."""
-    acceleration = force_at_beat(_unit(params.ground))
+    acceleration = force_at_beat(_unit(params.ground, params.swing))
     most = params.rockers if params.beaters else min(params.rockers + MORE_BEATERS - 1, MOST_BEATERS)
     for number in range(params.rockers, most + 1):
         shared = with_depth(replace(params, beaters=number), fabric, params.force or needed)
@@ -175,12 +175,14 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
     Where none does, the largest.
     """
     speed = params.beat_speed or 1.0
-    lengths, enough = _unit(params.ground).lengths, False
+    lengths, enough = _unit(params.ground, params.swing).lengths, False
     for width, thickness in _offered(params):
         links = width * thickness * params.links.of_links.density
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
-        loads = _unit(params.ground).loads.scaled(share + own, speed, turn / speed / (params.turn_time / 2))
+        loads = _unit(params.ground, params.swing).loads.scaled(
+            share + own, speed, turn / speed / (params.turn_time / 2)
+        )
         sections = dict.fromkeys(POINTS, (width, thickness))
         if not pins_bear(loads, params.links, sections):
             continue
@@ -199,16 +201,16 @@ def _offered(params: HammerParams) -> tuple[tuple[float, float], ...]:
 
 
 @lru_cache(maxsize=32)
-def _unit(ground: float) -> beat_up.BeatUp:
+def _unit(ground: float, swing: float | None) -> beat_up.BeatUp:
     """The crank-rocker with a beater of 1 kg at 1 rad/s, its links almost without mass."""
-    light = beat_up.BeatUpParams(ground=ground, speed=1.0, beater_mass=1.0, link_mass="bars", density=1e-3)
+    light = beat_up.BeatUpParams(ground=ground, swing=swing, speed=1.0, beater_mass=1.0, link_mass="bars", density=1e-3)
     return beat_up.design(light)
 
 
 def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     """Price of what differs between the options, roughly: comb, ballast, links, and the cheaper of both starts."""
     speed, number = params.beat_speed or 1.0, params.rockers
-    unit, steel, link = _unit(params.ground), PRICES["steel bar"], PRICES["machined link"]
+    unit, steel, link = _unit(params.ground, params.swing), PRICES["steel bar"], PRICES["machined link"]
     comb, ballast = comb_mass(params), params.ballast or 0.0
     section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.links.of_links.density
     links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
@@ -229,6 +231,7 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
     number, speed, ballast = params.rockers, params.beat_speed or 1.0, params.ballast or 0.0
     links = beat_up.BeatUpParams(
         ground=params.ground,
+        swing=params.swing,
         speed=speed,
         beat_force=0.0,
         width=params.link_width or FLAT_BARS[0][0],

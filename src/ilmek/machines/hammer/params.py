@@ -177,6 +177,9 @@ class HammerParams(Params):
         doc="crank-rockers; default: one per 1.5 m of width, or more if that is cheaper",
     )
     ground: float = kind.length(0.3, at_least=1 * mm, at_most=10.0, doc="distance of the pivots of crank and rocker")
+    swing: float | None = kind.angle(
+        None, at_least=5 * deg, at_most=60 * deg, doc="swing of the rocker; default: 30 deg, less where a reed needs it"
+    )
     link_width: float | None = kind.length(
         None, at_least=1 * mm, at_most=1.0, doc="width of the links, in their plane; default: the least of stock"
     )

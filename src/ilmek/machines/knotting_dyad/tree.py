@@ -30,7 +30,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     standing_drives,
     standing_servos,
 )
-from ilmek.machines.knotting_dyad.arms import SERVOS, arm_mechanism, arm_parts, blade_part, carried, edgewise, levels_of
+from ilmek.machines.knotting_dyad.arms import SERVOS, arm_mechanism, arm_parts, carried, edgewise, levels_of
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head
@@ -71,14 +71,15 @@ def tree(dyad: KnottingDyad) -> Tree:
     loads = carried(params, head, motion.hole)
     bottom = needle_level(dyad)
     levels = drive_levels(params, arm.levels.bottoms)
+    centre = _centre(dyad, head, bottom, loads["link 2"][0].part)
     others = {
         **loads,
         **{other(body): occurrences for body, occurrences in loads.items()},
-        CENTRE: _centre(dyad, head, bottom),
+        CENTRE: centre,
         GROUND: (
             *standing_drives(params, head, levels, motion),
             *_servos(dyad, head, motion, levels.plate),
-            *_axis(dyad, head, bottom, levels.plate),
+            *_axis(dyad, head, centre, bottom, levels.plate),
         ),
     }
     if params.elbow_drive == "direct":
@@ -170,8 +171,10 @@ def _both(arm: LinkageParts) -> LinkageParts:
     return LinkageParts(arm.machine, Levels(bodies, sizes), plates, pins)
 
 
-def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, ...]:
-    """Blade and bar of the centre gripper, from its tip back onto its axis, about a height of the planes [m]."""
+def _centre(dyad: KnottingDyad, head: Head, middle: float, blade: Part) -> tuple[Occurrence, ...]:
+    """Bar and blade, one of an arm's, of the centre gripper, from its tip back onto its axis, about a height of the
+    planes [m].
+    """
     params, section = dyad.params, head.section
     begin = section.front + section.needle_length
     size, length = params.strength.of_links, params.room.depth + head.centre_stroke - begin
@@ -185,11 +188,13 @@ def _centre(dyad: KnottingDyad, head: Head, middle: float) -> tuple[Occurrence, 
         replace(size, density=params.density),
     )
     upright = placement(y=section.needle_length + length / 2, z=middle - params.link_thickness / 2)
-    blade = _ALONG.after(edgewise(params, section.needle_length / 2, middle))
-    return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade_part(params, head), (blade,))
+    along = _ALONG.after(edgewise(params, section.needle_length / 2, middle))
+    return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade, (along,))
 
 
-def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterator[Occurrence]:
+def _axis(
+    dyad: KnottingDyad, head: Head, centre: tuple[Occurrence, ...], middle: float, level: float
+) -> Iterator[Occurrence]:
     """The axis of the centre gripper under its bar, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
     under, long = middle + params.link_thickness / 2, 2 * head.centre_stroke
@@ -197,7 +202,7 @@ def _axis(dyad: KnottingDyad, head: Head, middle: float, level: float) -> Iterat
     axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
     begin = params.room.depth - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))
-    moved = RigidBody(CENTRE, _centre(dyad, head, middle)).moments.zeroth
+    moved = RigidBody(CENTRE, centre).moments.zeroth
     torque, turning = moved * (params.centre_acceleration + GRAVITY) * PULLEY, params.centre_speed / PULLEY
     chosen = smallest_motor(torque, turning, "servo")
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)

@@ -14,12 +14,12 @@ from collections.abc import Iterator
 
 from ilmek.elements.columns import STEEL
 from ilmek.elements.linear_guides import LinearGuide
-from ilmek.elements.motors import Motor, smallest_motor
+from ilmek.elements.motors import MOTORS, Motor, smallest_motor
 from ilmek.machines.weaver.carriage_belt import ASIDE, BELT, CLAMP, LOOP, RADIUS, ROLLER, TEETH, loop
 from ilmek.machines.weaver.carriage_guide import carriages, guide_load
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.head_shape import BEFORE_MAGAZINE, RAIL_AXIS
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
@@ -60,6 +60,9 @@ PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
 
 GRIP = 5 * mm
 """Thickness of a clamp's plate [m]."""
+
+ROUNDED, SLOWEST = 0.98, 0.1
+"""Share of an acceleration with which a narrower motor would be enough, and least share of the given one; assumed."""
 
 ROLLER_MASS = 0.04
 """Of a roller with its ball bearing [kg]; makers differ by some grams."""
@@ -187,6 +190,17 @@ def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float) -> Iterator[Occu
     ):
         places = (placement(x, (foot + under) / 2, at).after(ALONG_WIDTH) for x in starts)
         yield _made(name, title, box(under - foot, GRIP, CLAMP), *places)
+
+
+def slower(weaver: Weaver, drive: CarriageDrive) -> float:
+    """Acceleration of the carriage [m/s²] with which its motor has room behind the magazine: the given one, or less."""
+    params = weaver.params
+    if drive.motor is not None and drive.motor.face / 2 <= PULLEY_AT + BEFORE_MAGAZINE - params.clearance:
+        return params.carriage_acceleration
+    narrow = [own for own in MOTORS if own.face / 2 <= PULLEY_AT + BEFORE_MAGAZINE - params.clearance]
+    strong = [own.torque for own in narrow if own.speed >= params.carriage_speed / RADIUS]
+    left = max(strong, default=0.0) / RADIUS / drive.force  # drag falls with the acceleration, so this is enough
+    return max(ROUNDED * left, SLOWEST) * params.carriage_acceleration
 
 
 def drive_checks(weaver: Weaver, drive: CarriageDrive) -> tuple[Check, ...]:

@@ -61,6 +61,11 @@ def drive_front(weaver: Weaver) -> float:
     return reducer_at(weaver).real + _face(weaver) / 2
 
 
+def reducer_left(weaver: Weaver) -> float:
+    """The x of the reducer's left side, beside the belt [m]."""
+    return belt_station(weaver) - 0.5 * mm - _face(weaver)
+
+
 def shaft_pulley(weaver: Weaver) -> Occurrence:
     """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
     radius = weaver.belt.radii[0] - TEETH - ON_PULLEY
@@ -74,7 +79,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     shape, at, face, begin = weaver.shape, reducer_at(weaver), _face(weaver), belt_station(weaver)
     servo, drive = weaver.drive.servo, weaver.drive
     motor = servo.motor if servo else None
-    long, middle = catalogue.REDUCER_LENGTH * face, begin - 0.5 * mm - face / 2
+    long, middle = catalogue.REDUCER_LENGTH * face, reducer_left(weaver) + face / 2
     low = at.imag - long / 2
     if servo is not None:
         geared = catalogue.reducer(part_id("reducer"), "angle reducer of a head", servo.reducer.ratio, motor)

@@ -1,7 +1,8 @@
 """Sizes of a head by its loads: room of the opener, cams with their levers, forks and belt, the masses that they move.
 
 A stress falls as the size that bears it grows. So a size that bears too little is multiplied by the use of its limit,
-and rounded up to what is made. A larger part weighs more, so sizes are repeated until all are enough.
+and rounded up to what is made. A larger part weighs more, so sizes are repeated until all are enough. A head whose
+carriage needs a wider motor than has room steps more slowly.
 """
 
 import math
@@ -12,11 +13,13 @@ from typing import Any
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT
 from ilmek.elements.duty import MARGIN
 from ilmek.machines.weaver.cam_belt import PROFILE
+from ilmek.machines.weaver.carriage_drive import slower
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.followers import FORK_STRESS, fork_stress
 from ilmek.machines.weaver.lever_parts import LEVER_STRESS, lever_stress
 from ilmek.machines.weaver.moved import moved_mass
 from ilmek.machines.weaver.opener_checks import tools_height
+from ilmek.machines.weaver.tree import drive_of
 from ilmek.machines.weaver.widths import STATIONS
 from ilmek.units import g, mm
 
@@ -54,6 +57,8 @@ def larger_sizes(weaver: Weaver) -> Mapping[str, Any]:
     if height > own.height:
         back = max(own.back_span + own.height - height, own.front_span)
         more["opener"] = replace(own, height=height, back_span=back)
+    if not more and (quick := slower(weaver, drive_of(weaver))) < params.carriage_acceleration:
+        more["carriage_acceleration"] = quick
     return more
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from ilmek.elements.columns import STEEL
 from ilmek.elements.energy_chains import GLIDING, EnergyChain, bend_needed, width_needed
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import (
     ARM_DEPTH,
@@ -24,6 +24,7 @@ from ilmek.machines.automated_loom.on_rail import (
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.supports import rail_middle
+from ilmek.machines.weaver.drive_parts import drive_front, reducer_left
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.extents import Corner
@@ -67,7 +68,10 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     toe = Placed(box(ARM[0], *TOE), (placement(y=-(ARM[1] + TOE[0]) / 2),))
     bent = Sum((Placed(box(*ARM, top - end)), toe))
     arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", bent, STEEL)
-    upright = placement(0.0, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
+    # Where the head's drive reaches so far to the front, to the left of it.
+    beside = drive_front(loom.weaver) > shape.front - ARM[1] - ROOM
+    x = min(0.0, reducer_left(loom.weaver) - ROOM - ARM[0] / 2) if beside else 0.0
+    upright = placement(x, end, shape.front - ARM[1] / 2, about=(1.0, 0.0, 0.0), angle=-turn / 4)
     body = RigidBody(CHAIN_ARM, (Occurrence(arm, (upright,)),))
     yield MachineTree("automated-loom", Tree((body,)), parent=HEAD)
 

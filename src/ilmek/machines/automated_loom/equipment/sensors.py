@@ -136,7 +136,7 @@ def _barriers(loom: LoomDesign, near: Surroundings) -> MountedSensor:
     part, upper = device(signals.WARP_STOP, "light barrier for broken warps", BARRIER), brackets_of(loom).upper
     begin, end = loom.side.upper.at, loom.side.back_rest.at
     lower = np.arange(0.0, upper.radius - BARRIER.size[1] / 2, _STEP).tolist()
-    places = (begin + share * (end - begin) - 1j * y for y in lower for share in np.linspace(0.2, 0.9, 15).tolist())
+    places = (begin + share * (end - begin) - 1j * y for y in lower for share in np.linspace(0.2, 0.9, 71).tolist())
     offered = (
         (placed(-upper.inner, at.imag, at.real, TO_THE_RIGHT), placed(upper.inner, at.imag, at.real, TO_THE_LEFT))
         for at in places
