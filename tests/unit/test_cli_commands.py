@@ -121,7 +121,7 @@ def test_weave_shows_a_short_table_and_the_report(tmp_path: Path) -> None:
         assert re.search(rf"^{name} ", shown, re.MULTILINE), shown
     assert shown.endswith(f" {tmp_path / 'out' / 'report.html'}\n")
     assert re.match(r"weaves: (yes|NO, \d+ reason)", shown)
-    assert len([line for line in shown.splitlines() if not line.startswith("  ")]) <= 18
+    assert len([line for line in shown.splitlines() if not line.startswith("  ")]) <= 19
 
 
 @pytest.mark.usefixtures("plain_page")
