@@ -109,6 +109,10 @@ HANDS = complex(200 * mm, 120 * mm)
 """Room of weavers' hands that tie: before the warps, and over the fell [m]; assumed by this project."""
 
 
+_STEPS, _MORE = 65, 1e-4
+"""Positions on the heads' retreat, and share of a distance squared that they miss between."""
+
+
 @record
 class HeadsView:
     """The heads in the side view while they knot.
@@ -262,6 +266,8 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     radius = cylinder.outer_radius if cylinder else room.tube
     comb = _comb(room, spans, path)
     spacer, lower, roll = _lower_cylinders(task, radius)
+    heads = _heads(task, head, room.clearance + below(path)) if head else None
+    lower = _out_of_reach(heads, lower, roll + room.clearance) if heads else lower
     # A wider spacer leaves the columns their room; the warps count as shorter by that, which stretches them more.
     behind, rest = cylinder_offset(room) + spacer.radius - radius, complex(-room.back_rest, spans.back_rest)
     return SideView(
@@ -288,7 +294,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         lower=lower,
         roll=roll,
         pile=head.drawn / 2 if head else pile_leg(task),
-        heads=_heads(task, head, room.clearance + below(path)) if head else None,
+        heads=heads,
     )
 
 
@@ -364,6 +370,16 @@ def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundP
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
     return *under_the_fell(radius, wide, roll), roll
+
+
+def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart:
+    """The lower cylinder, so low that rear corners of the retreating heads keep a distance from its axis [m]."""
+    boxes = heads.shape.body, heads.shape.magazine, *(tool.corner for tool in heads.shape.tools)
+    corners = np.array(boxes)[:, None] + heads.retreated * np.linspace(0.0, 1.0, _STEPS)
+    aside = corners.real - lower.at.real
+    over = np.sqrt(np.maximum((1 + _MORE) * reach**2 - aside**2, 0.0))
+    free = (corners.imag - over)[np.abs(aside) < reach]
+    return RoundPart(complex(lower.at.real, min(lower.at.imag, *free.tolist())), lower.radius)
 
 
 def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:
