@@ -28,7 +28,7 @@ NEAREST_PARTS = "ilmek.machines.automated_loom.nearest_parts"
 
 @cache
 def loom() -> LoomDesign:
-    return design(AutomatedLoomParams())
+    return design(AutomatedLoomParams(aim="price"))
 
 
 def with_occurrences(change: Callable[[Occurrence], tuple[Occurrence, ...]]) -> Tree:

@@ -14,7 +14,7 @@ from ilmek.cli import main
 from ilmek.errors import OutputError
 from ilmek.machines import SUMMARIES
 from ilmek.machines.automated_loom import MACHINE
-from ilmek.machines.automated_loom.figures import time_against_pitch, time_of_one_head
+from ilmek.machines.automated_loom.figures import time_against_pitch, time_of_one_knotter
 from ilmek.machines.catalogue import find_machine
 from ilmek.progress import Cancelled
 from ilmek.report import Axis, Plot
@@ -111,4 +111,4 @@ def test_the_scaling_of_the_largest_carpets_is_drawn() -> None:
     assert 0.9 * MOST_KNOTS < loom.rows * loom.columns <= MOST_KNOTS
     assert len(time_against_pitch(loom).series) == 3
     narrow = {"width": "2cm", "length": "50m", "knots_across": "500/dm", "knots_along": "500/dm", "beat": "comb"}
-    assert len(time_of_one_head(MACHINE.design(MACHINE.params.read(narrow))).series[0].x) == 33
+    assert len(time_of_one_knotter(MACHINE.design(MACHINE.params.read(narrow))).series[0].x) == 33

@@ -49,14 +49,14 @@ def number_of(part: str) -> int:
 
 def energy(share: str) -> float:
     """Energy of the loom's whole carpet that goes to one of its acts [J]: its mean power over the weaving time."""
-    found = results("automated-loom")
+    found = results("automated-loom", weft="shuttle")
     return found["power_shares"][share] * found["energy"] / found["power_mean"]
 
 
 def shuttle_passages() -> float:
     """Two passages and an empty run a row: energy of motion at the greatest speed, found by differences, and drag."""
     loom = find_machine("automated-loom")
-    made = loom.design(loom.params.read({}))
+    made = loom.design(loom.params.read({"weft": "shuttle"}))
     weft, passage = made.weft, made.weft.passage
     time = np.linspace(0.0, passage.time, 200_001)
     speed = np.gradient(passage.at(time)[0], time[1])

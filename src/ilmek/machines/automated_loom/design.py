@@ -22,7 +22,7 @@ from ilmek.machines.automated_loom.cyclogram import (
     timed,
     weavers_row,
 )
-from ilmek.machines.automated_loom.knotting import KnottingHead, arms_alone, knotting_head
+from ilmek.machines.automated_loom.knotting import KnottingHead, arms_alone, knotting_head, require_knot
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.search import LoomSearch, SearchJournal
 from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
@@ -207,6 +207,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     Raises LoomError where the shed leaves no time for the weft; CarpetError for a carpet without knots; the errors of
     the machines where their parameters contradict each other.
     """
+    require_knot(params)
     laid, task = _laid(params)
     knotting = knotting_head(task)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}

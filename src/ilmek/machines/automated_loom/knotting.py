@@ -15,7 +15,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import TypeVar
 
 import numpy as np
 
@@ -25,6 +24,7 @@ from ilmek.loom.bobbins import Bobbin
 from ilmek.loom.programme import least_time
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.loom.times import Times
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.knotting_dyad import KnottingDyad, KnottingDyadParams
@@ -73,7 +73,6 @@ _SAME = 1e-9
 ROUNDS = 6
 """Of sizes by loads: each is larger than the one before, or the last."""
 
-H = TypeVar("H", WeaverParams, KnottingDyadParams)
 
 ARM_LAW = LAWS["3-4-5"]
 """Law by which the arms' motions are drawn; their own is the quickest that the drives allow [`timing.path_speed`]."""
@@ -186,7 +185,7 @@ def _room(weaver: Weaver, arms: KnottingDyad) -> ArmRoom:
 def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
     """The parameters of a head for the loom's knot: the user's, and of those left open as large as its loads need."""
     for _ in range(ROUNDS):
-        params = _of_the_knot(WEAVER, task.parameters(WEAVER, derived), task)
+        params = task.parameters(WEAVER, derived)
         if stretches(params) and _weaver(params).cycle > params.cycle * (1 + _SAME):
             derived = replace(derived, optimise=True)
             params = task.parameters(WEAVER, derived)
@@ -230,15 +229,16 @@ def _arms(task: LoomTask) -> KnottingDyad:
     component = MACHINES[DYAD]
     assert component.fit is not None
     params: KnottingDyadParams = task.parameters(DYAD, component.fit(task))
-    return _designed(_of_the_knot(DYAD, params, task))
+    return _designed(params)
 
 
-def _of_the_knot(name: str, params: H, task: LoomTask) -> H:
-    """The parameters of a machine that ties the loom's knot. Raises LoomError where they have another one."""
-    if params.knot != task.params.knot:
-        given = f"{name}.knot={params.knot} in a loom for {task.params.knot} knots"
-        raise LoomError(given, do=f"leave it out, and set knot={params.knot}")
-    return params
+def require_knot(params: AutomatedLoomParams) -> None:
+    """Raise LoomError where a machine that ties is set to another knot than that of the loom."""
+    for name in (WEAVER, DYAD):
+        knot = params.machines.of(name).get("knot", params.knot)
+        if knot != params.knot:
+            given = f"{name}.knot={knot} in a loom for {params.knot} knots"
+            raise LoomError(given, do=f"leave it out, and set knot={knot}")
 
 
 @lru_cache(maxsize=32)

@@ -63,7 +63,7 @@ class WarpInShed:
     def force(self, point: int) -> float:
         """Force on what deflects it at a point of the chain, the first beyond the fell is 1 [N]; to the rear above 0.
 
-        >>> WarpInShed(10.0, (0.1, -0.2)).force(1)
+        >>> round(WarpInShed(10.0, (0.1, -0.2)).force(1), 9)
         3.0
         """
         return self.tension * (self.sines[point - 1] - self.sines[point])
