@@ -1,7 +1,9 @@
 """The pictures of the loom in the documentation: the whole loom, its standard views, and one knot in twelve steps.
 
     PYTHONPATH=src:tests/support .venv/bin/python -m loom_pictures build/medallion/loom.html docs/_static
+    PYTHONPATH=src:tests/support .venv/bin/python -m loom_pictures build/by-hand/loom.html docs/_static hand-loom
 
+The second, of a loom of weavers, takes the whole loom alone, under a name of its own.
 They are taken from the page that `ilmek weave` writes, by Chromium without a graphics card.
 """
 
@@ -32,6 +34,9 @@ def main() -> None:
         page.goto(page_file.as_uri())
         page.add_style_tag(content="nav { display: none !important }")
         page.get_by_role("button", name="Show the loom in space").click()
+        if sys.argv[3:]:
+            _view(page, VIEWS[0]).save(folder / f"{sys.argv[3]}.webp", quality=82)
+            return
         views = [(name, _view(page, name)) for name in VIEWS]
         page.set_viewport_size({"width": 1040, "height": 720})
         page.get_by_role("button", name="Head", exact=True).click()

@@ -60,7 +60,7 @@ def test_every_node_has_one_parent_or_is_a_root() -> None:
     roots = found["scenes"][0]["nodes"]
     assert sorted([*children, *roots]) == list(range(len(found["nodes"])))
     cams = [node for node in found["nodes"] if node.get("extras", {}).get("part") == "shedding/shedding-cam"]
-    assert len(cams) == _scene().warps.x.size
+    assert len(cams) == sum(sheet.across.size for sheet in _scene().warps)
     assert len({node["mesh"] for node in cams}) == 1
 
 

@@ -19,6 +19,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.hand_beat.design import blow_forces
 from ilmek.machines.hand_loom import HandLoom, HandLoomParams
 from ilmek.machines.hand_loom.frame import tree
+from ilmek.machines.hand_loom.scene import scene
 from ilmek.machines.hand_shed import HandShed, HandShedParams
 from ilmek.machines.hand_shed.design import on_foundation, sag_of, warp_in_shed
 from ilmek.machines.warp_tension import WarpTensionParams
@@ -147,6 +148,25 @@ def test_the_hand_loom_is_one_machine_that_only_hands_move(report: Report) -> No
     assert not [part for part, _ in tree(made).occurrences() if part.purchase is not None and part.purchase.drives]
 
 
+def test_in_the_picture_rod_and_strings_move_with_the_warps(report: Report) -> None:
+    """Judge: the rod's own solid, moved by its frame, lies between the sheets; a string ends on the warp it pulls."""
+    seen = scene(loom(), report)
+    frame = next(own for own in seen.frames if own.name == "hand-shed/shed rod")
+    rod = next(part for part in seen.parts if part.ids[0] == "hand-shed/rod").solids[0].points
+    rear, front = seen.warps
+    assert frame.motion is not None
+    for number, angle in enumerate(rear.angle):
+        y = frame.origins[0, 1] + np.interp(angle, frame.motion.angle, frame.motion.shift[:, 1])
+        z = [float(np.interp(y, *sheet.points[number, :4, 1:].T)) for sheet in (rear, front)]
+        assert z == pytest.approx([rod[:, 2].min(), rod[:, 2].max()], abs=1e-5)
+    strings = seen.yarns[0].points
+    assert strings[:, 1] == pytest.approx(rear.points[:, 1])
+    across = np.sort(np.concatenate([rear.across, front.across]))
+    assert np.diff(across) == pytest.approx(loom().params.cloth.warp_pitch)
+    assert {one.machine for one in seen.parts} == {"hand-loom", "hand-shed", "hand-beat", "warp-tension"}
+    assert seen.nearest
+
+
 def test_a_body_that_no_hand_moves_is_found() -> None:
     made = tree(loom())
     lost = tuple(
@@ -199,6 +219,7 @@ def test_a_carpet_is_woven_on_a_hand_loom_with_chart_time_and_wage_and_no_progra
     assert woven.weaves
     assert not (tmp_path / "woven" / "programme.ilmek").exists()
     assert (tmp_path / "woven" / "rows.pdf").exists()
+    assert "loom-in-space" in (tmp_path / "woven" / "loom.html").read_text(encoding="utf-8")
     results = weave_results(woven)
     assert (results["heads"], results["weavers"]) == (0, 1)
     assert results["weaving_time"] == pytest.approx(woven.loom["weaving_time"])

@@ -286,3 +286,16 @@ def test_the_tools_that_tie_are_frames_of_the_scene_and_their_motions_are_named(
     tracks = {(phase.drive, phase.track) for phase in found.phases}
     assert {("knot", SIDE_MOTION), ("row", EVEN)} <= tracks
     assert set(found.dyed) <= {part.ids[0] for part in found.parts}
+
+
+def test_warps_are_lifted_by_their_track_at_the_height_of_their_cams_and_straight_from_the_fell() -> None:
+    loom, found = _made()
+    even = loom.row_cyclogram.track(EVEN)
+    assert sum(sheet.across.size for sheet in found.warps) == loom.warps
+    for sheet in found.warps[::2]:
+        cam = loom.side.cams[found.warps.index(sheet) // 2]
+        own = int(np.argmin(np.abs(sheet.points[0, :, 1] - cam.at.imag)))
+        share = sample(even, sheet.angle).position / loom.row_timing.lift
+        assert sheet.points[:, own, 2] == pytest.approx(share * cam.lift)
+        steps = np.diff(sheet.points[:, : own + 1], axis=1)
+        assert np.ptp(steps[..., 2] / steps[..., 1], axis=1) == pytest.approx(0.0, abs=1e-12)

@@ -58,7 +58,7 @@ def test_the_numbers_of_a_scene_are_those_of_its_parts(project: Path) -> None:
         (first, count), (begin, number) = part["solids"][0]["points"], part["solids"][0]["triangles"]
         assert np.allclose(reals[first : first + count].reshape(-1, 3), solid.solids[0].points, atol=1e-6)
         assert np.array_equal(wholes[begin : begin + number].reshape(-1, 3), solid.solids[0].triangles)
-    assert about["warps"]["x"][1] == len(made.warps.x)
+    assert [sheet["across"][1] for sheet in about["warps"]] == [sheet.across.size for sheet in made.warps]
 
 
 def test_samples_that_are_left_out_lie_on_a_line(project: Path) -> None:
@@ -137,6 +137,17 @@ def test_the_page_of_a_loom_has_its_scene_and_the_client(project: Path, monkeypa
     page = loom_page(LoomPage("Loom", "1 m", "report.html", space=found))
     assert all(text in page for text in (found.client, found.data, 'id="show-loom"'))
     assert "show-loom" not in loom_page(LoomPage("Loom", "1 m", "report.html"))
+
+
+def test_a_hand_loom_is_shown_with_the_change_of_its_shed(project: Path) -> None:
+    text = 'machine = "automated-loom"\n\n[settings]\nknotting = "hand"\nshed = "hand"\nbeat = "hand"\n'
+    (project / "machines" / "hand.toml").write_text(text)
+    about, _ = _read(scene(LoomRequest("machines/hand.toml"), Context(str(project))))
+    assert list(about["periods"]) == ["shed"]
+    assert {phase["drive"] for phase in about["phases"]} == {"shed"}
+    assert (about["nearest"], about["heads"], about["guards"]) == (None, "", [])
+    held = about["bodies"]["hand-shed/heddles"]
+    assert (held["drive"], held["motor"]) == ("shed", "hand lever of the heddles")
 
 
 def test_a_large_chart_is_shown_by_fewer_knots(project: Path) -> None:

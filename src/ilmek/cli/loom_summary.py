@@ -11,18 +11,21 @@ FEWER = 1 / 2, 1 / 10
 """Shares of the carpets that a loom can weave, for which the cheapest loom is named."""
 
 
-def cost_in_words(cost: CarpetCost, yarn: float | None) -> str:
-    """What a carpet costs, on the loom and by hand; yarn: price of the yarn to buy."""
+def cost_in_words(cost: CarpetCost, yarn: float | None, *, driven: bool) -> str:
+    """What a carpet costs, on the loom and, where this is driven, by hand; yarn: price of the yarn to buy."""
     of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
-    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}; tied by hand {cost.hand_cost:,.2f}"
+    by_hand = f"; tied by hand {cost.hand_cost:,.2f}" if driven else ""
+    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}{by_hand}"
 
 
-def price_in_words(cost: CarpetCost) -> str:
-    """What the loom costs, how much it weaves, and when it has earned its price."""
+def price_in_words(cost: CarpetCost, *, driven: bool) -> str:
+    """What the loom costs, how much it weaves, and, where it is driven, when it has earned its price."""
+    woven = f"{cost.machine_price['sold']:,.0f}; {cost.carpets_per_year:,.0f} carpets a year"
+    if not driven:
+        return woven
     paid = cost.payback_time
     earned = "never paid back" if paid is None else f"paid back in {format_number(paid / YEAR, 2)} years"
-    price, year = cost.machine_price["sold"], cost.carpets_per_year
-    return f"{price:,.0f}; {year:,.0f} carpets a year; {earned} against weavers by hand"
+    return f"{woven}; {earned} against weavers by hand"
 
 
 def rival_in_words(search: LoomSearch) -> str:
@@ -50,7 +53,7 @@ def fewer_in_words(loom: LoomDesign) -> str:
 def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
     made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
-    time, cost = woven.loomed.weaving_time, woven.loomed.cost
+    time, cost, driven = woven.loomed.weaving_time, woven.loomed.cost, woven.loomed.hand is None
     if made is None or time is None or cost is None:
         return []
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
@@ -66,8 +69,8 @@ def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     return [
         ("weaving time", f"{time_in_words(time)}{within}; {how}"),
         of_knots,
-        ("cost", cost_in_words(cost, woven.charted.bill.price)),
-        ("loom", price_in_words(cost)),
+        ("cost", cost_in_words(cost, woven.charted.bill.price, driven=driven)),
+        ("loom", price_in_words(cost, driven=driven)),
         *([("chosen", "; ".join(chosen))] if chosen else []),
         *([("next best", rival_in_words(search))] if search else []),
         *([("fewer", fewer_in_words(design))] if design and design.heads and search else []),

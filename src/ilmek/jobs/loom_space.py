@@ -12,6 +12,8 @@ from ilmek.jobs.machine_space import bodies_file
 from ilmek.jobs.studio.answers import Binary, packed
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of, scene
+from ilmek.machines.hand_loom import HandLoom
+from ilmek.machines.hand_loom.scene import scene as hand_scene
 from ilmek.report import Json, Report
 from ilmek.report.scene import Scene
 from ilmek.viz.loom_page import LoomInSpace
@@ -58,12 +60,17 @@ def scene_answer(made: Scene, chart: Chart | None, *, most: int | None = None) -
     return packed({**data.about, "chart": shown, "lengths": lengths}, data.floats, data.integers, knots.tobytes())
 
 
-def loom_in_space(loom: LoomDesign, report: Report, chart: Chart | None) -> LoomInSpace | None:
+def loom_scene(loom: LoomDesign | HandLoom, report: Report) -> Scene:
+    """A loom in space, with drives or without."""
+    return hand_scene(loom, report) if isinstance(loom, HandLoom) else scene(loom, report)
+
+
+def loom_in_space(loom: LoomDesign | HandLoom, report: Report, chart: Chart | None) -> LoomInSpace | None:
     """The picture of a loom for its page; None where the package has no client, as in its sources before a build."""
     client = files("ilmek").joinpath(CLIENT)
     if not client.is_file():
         return None
-    data = scene_answer(scene(loom, report), chart, most=MOST_KNOTS)
+    data = scene_answer(loom_scene(loom, report), chart, most=MOST_KNOTS)
     return LoomInSpace(_compressed(client.read_bytes()), _compressed(data.body))
 
 

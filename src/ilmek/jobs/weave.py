@@ -248,7 +248,7 @@ def _carpet_page(woven: WeaveResult, drawn: DrawnCarpet | None) -> CarpetPage:
 
 
 def _loom_page(woven: WeaveResult) -> LoomPage:
-    chart, design = woven.charted.chart, woven.loomed.design
+    chart, made = woven.charted.chart, woven.loomed.made
     of_machines = {check.name for report in (woven.loom.own(), *woven.loom.children) for check in report.checks}
     return LoomPage(
         title=f"Loom for {woven.charted.order.order.picture.stem}",
@@ -259,7 +259,7 @@ def _loom_page(woven: WeaveResult) -> LoomPage:
         warnings=woven.loomed.notes,
         choices=woven.loom.all_choices,
         nearest=woven.loom.nearest,
-        space=None if design is None else loom_in_space(design, woven.loom, chart),
+        space=None if made is None else loom_in_space(made, woven.loom, chart),
     )
 
 

@@ -8,6 +8,7 @@ where the weaver stands. A frame lies in its parent and is made several times; a
 
 import math
 from collections.abc import Mapping
+from dataclasses import field
 
 import numpy as np
 
@@ -101,7 +102,8 @@ class SceneBody:
     """What moves as one, what holds it, and what moves it against that.
 
     parent   the body that holds it, "" for the floor       joint    by which it is held
-    drive    "" where none moves it                         motor    title of the motor at its joint; "": none
+    drive    "" where none moves it
+    motor    title of the motor at its joint, or of what a hand holds; "": none
     follows  ids of the bodies that move it by touch, belt or magnet, where it has no motor
     passive  what else holds it, in words
     """
@@ -126,30 +128,11 @@ class ScenePhase:
 
 
 @record
-class SceneWarps:
-    """The warps: their x [m], and in the side view the line of one that is lifted by shares of its track.
-
-    x, shaft  position across [m], and number of the cam shaft, of each warp       odd  whether it is an odd one
-    line      at rest, from the carpet to the upper cylinder, (points, 2): z and y [m]
-    lifted    number of the point of the line that each cam shaft lifts            lifts  to the front, fully lifted [m]
-    angle, even, odd_share   shares of the lift of even and odd warps over the angle of a row [rad]
-    """
-
-    x: FloatArray
-    shaft: Int[np.ndarray, " warps"]
-    odd: Int[np.ndarray, " warps"]
-    line: Float[np.ndarray, "points 2"]
-    lifted: tuple[int, ...]
-    lifts: tuple[float, ...]
-    angle: FloatArray
-    even: FloatArray
-    odd_share: FloatArray
-    diameter: float
-
-
-@record
 class SceneYarn:
-    """A yarn over the angle of a drive: points [m] in a frame at each angle [rad], (angles, points, 3)."""
+    """A yarn over the angle of a drive: points [m] in a frame at each angle [rad], (angles, points, 3).
+
+    across  positions along x, at which it is as often [m]; default: once, at 0
+    """
 
     name: str
     title: str
@@ -158,6 +141,7 @@ class SceneYarn:
     angle: FloatArray
     points: Float[np.ndarray, "angles points 3"]
     diameter: float
+    across: FloatArray | None = None
 
 
 @record
@@ -190,7 +174,9 @@ class Assembly:
 class Scene:
     """A loom in space.
 
-    periods   time of a turn of each drive [s]       heads  name of the frame of the heads, which stand anywhere on x
+    warps     in sheets that move alike; the first is that which opens the shed in front of all others
+    periods   time of a turn of each drive [s]
+    heads     name of the frame of the heads, which stand anywhere on x; "": none
     phases    what moves when
     tools     what people call the tools that tie, by the frames that carry them; the first stands around the knot
     dyed      ids of the parts that have the colours of the pile yarns, one copy after the other
@@ -202,16 +188,16 @@ class Scene:
     title: str
     frames: tuple[SceneFrame, ...]
     parts: tuple[ScenePart, ...]
-    warps: SceneWarps
-    yarns: tuple[SceneYarn, ...]
+    warps: tuple[SceneYarn, ...]
     carpet: SceneCarpet
     periods: Mapping[str, float]
     phases: tuple[ScenePhase, ...]
-    heads: str
-    tools: Mapping[str, str]
-    dyed: tuple[str, ...]
-    guards: tuple[str, ...]
     floor: float
     bodies: Mapping[str, SceneBody]
+    yarns: tuple[SceneYarn, ...] = ()
+    heads: str = ""
+    tools: Mapping[str, str] = field(default_factory=dict)
+    dyed: tuple[str, ...] = ()
+    guards: tuple[str, ...] = ()
     failures: tuple[Check, ...] = ()
     nearest: Json = None

@@ -71,7 +71,7 @@ class LoomAssembly:
         "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
     )
     def nearest_pairs(self) -> list[Json]:
-        return [_as_json(near, range_of_a_head(self.loom)) for near in self.apart[:NEAREST]]
+        return [near.as_json(range_of_a_head(self.loom)) for near in self.apart[:NEAREST]]
 
     @property
     def apart(self) -> tuple[NearParts, ...]:
@@ -212,17 +212,3 @@ def _where(near: NearParts) -> str:
         return _STANDING
     heads = "" if near.heads == MIDDLE else f", the heads {near.heads} of their shares"
     return f"at {pair.angle / deg:.1f} deg of a {pair.drive}{heads}"
-
-
-def _as_json(near: NearParts, range_: float) -> Json:
-    pair = near.approach
-    return {
-        "parts": list(pair.parts),
-        "bodies": list(pair.bodies),
-        "distance": pair.distance,
-        "volume": pair.volume,
-        "cyclogram": pair.drive,
-        "angle": pair.angle,
-        "heads": near.heads,
-        "heads_shift": near.heads_shift(range_),
-    }

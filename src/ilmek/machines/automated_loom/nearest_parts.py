@@ -25,6 +25,7 @@ from ilmek.part.placement import placement
 from ilmek.part.swept import TURN, Window
 from ilmek.part.tree import Tree
 from ilmek.records import record
+from ilmek.report import Json
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import mm, turn
@@ -46,16 +47,30 @@ _AT_FELL = 1e-9
 
 @record
 class NearParts:
-    """Two parts that come near to each other, and where the heads stand in their shares of the row."""
+    """Two parts that come near to each other, and where the heads, if any, stand in their shares of the row."""
 
     approach: Approach
-    heads: str
+    heads: str = ""
 
     def heads_shift(self, range_: float) -> float:
         """Distance of the heads from the middles of their shares, whose length is given [m]."""
         if self.heads == BETWEEN:
             return (self.approach.angle / turn - 0.5) * range_
         return {LEFT: -0.5, RIGHT: 0.5}.get(self.heads, 0.0) * range_
+
+    def as_json(self, range_: float = 0.0) -> Json:
+        """As JSON; range_: length of a head's share [m]."""
+        pair = self.approach
+        return {
+            "parts": list(pair.parts),
+            "bodies": list(pair.bodies),
+            "distance": pair.distance,
+            "volume": pair.volume,
+            "cyclogram": pair.drive,
+            "angle": pair.angle,
+            "heads": self.heads,
+            "heads_shift": self.heads_shift(range_),
+        }
 
 
 @lru_cache(maxsize=4)

@@ -17,6 +17,8 @@ from ilmek.machines.automated_loom.equipment.bench import (
 )
 from ilmek.machines.automated_loom.feet import FOOT, Foot, foot_for
 from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.automated_loom.in_space.machines import joined
+from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.hand_beat.report import tree as tools_tree
 from ilmek.machines.hand_beat.tools import shelf_length
 from ilmek.machines.hand_loom.design import HandLoom
@@ -40,6 +42,11 @@ _LEAST = 0.05 * mm
 @lru_cache(maxsize=4)
 def tree(loom: HandLoom) -> Tree:
     """Every body of the loom, in the axes of the scene."""
+    return joined(branches(loom))
+
+
+def branches(loom: HandLoom) -> tuple[MachineTree, ...]:
+    """The trees of frame and machines."""
     return _whole(loom, foot_of(loom))
 
 
@@ -48,8 +55,8 @@ def own_tree(loom: HandLoom) -> Tree:
     return Tree(tree(loom).bodies[:1])
 
 
-def _whole(loom: HandLoom, foot: Foot | None) -> Tree:
-    """The bodies, with a levelling foot or without."""
+def _whole(loom: HandLoom, foot: Foot | None) -> tuple[MachineTree, ...]:
+    """The trees, with a levelling foot or without."""
     layout, beat = loom.layout, loom.beat
     over = layout.floor + FOOT + layout.base.side  # the feet
     axes = {"upper": layout.upper.at, "lower": layout.lower.at, "spacer": layout.spacer.at}
@@ -61,12 +68,12 @@ def _whole(loom: HandLoom, foot: Foot | None) -> Tree:
         *(occurrence for own in layout.brackets for occurrence in _bracket(loom, own)),
         *bench_parts(bench_of(loom), over, over),
     )
-    machines = (
-        winding_tree(loom.winding, positions),
-        shed_tree(loom.shed, layout.depth, layout.face),
-        tools_tree(beat, shelf),
+    return (
+        MachineTree("hand-loom", Tree((RigidBody(part_id("frame"), parts),))),
+        MachineTree("warp-tension", winding_tree(loom.winding, positions)),
+        MachineTree("hand-shed", shed_tree(loom.shed, layout.depth, layout.face)),
+        MachineTree("hand-beat", tools_tree(beat, shelf)),
     )
-    return Tree((RigidBody(part_id("frame"), parts), *(body for own in machines for body in own.bodies)))
 
 
 @lru_cache(maxsize=4)
@@ -78,7 +85,7 @@ def foot_of(loom: HandLoom) -> Foot:
 @lru_cache(maxsize=4)
 def foot_load(loom: HandLoom) -> float:
     """Load of a levelling foot where two bear the loom, on an uneven floor, with all weavers on its bench [N]."""
-    return (_whole(loom, None).mass + loom.weavers * WEIGHT) * GRAVITY / 2
+    return (joined(_whole(loom, None)).mass + loom.weavers * WEIGHT) * GRAVITY / 2
 
 
 def _standing(loom: HandLoom, foot: Foot | None) -> Iterator[Occurrence]:

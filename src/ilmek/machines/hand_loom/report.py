@@ -14,6 +14,7 @@ from ilmek.machines.automated_loom.choice import deadline_check
 from ilmek.machines.automated_loom.cost import machine_cost
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.frame import column_checks, part_id
+from ilmek.machines.automated_loom.nearest_parts import NearParts
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
 from ilmek.machines.hand_loom.design import HandLoom
 from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
@@ -21,11 +22,11 @@ from ilmek.machines.hand_loom.layout import CylinderBracket
 from ilmek.machines.hand_shed.tree import BEAM, SHED, half_width
 from ilmek.part.bill import bill
 from ilmek.part.clearances import Approach, approaches
-from ilmek.part.contacts import Contacts, contacts
+from ilmek.part.contacts import TOUCHING, Contacts, contacts
 from ilmek.part.drive_balance import DriveBalance, drive_balance
 from ilmek.part.extents import around, extents
 from ilmek.records import computed, record
-from ilmek.report import BillLine, Check, Table, at_least, at_most, columns
+from ilmek.report import BillLine, Check, Json, Table, at_least, at_most, columns
 
 TIPPING = 1.5
 """Weight's moment over that of the hands at least; assumed by this project."""
@@ -98,6 +99,13 @@ class HandAssembly:
         "coordinates of all bodies, less the rank of joints and transmissions, and those that nothing has to drive",
         lambda it: drive_balance(tree(it.loom)).number,
     )
+
+    @computed(
+        "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
+    )
+    def nearest_pairs(self) -> list[Json]:
+        apart = (near for near in self.nearest if near.distance > TOUCHING)
+        return [NearParts(near).as_json() for near in (*self.through, *apart)[:_NEAREST]]
 
     @property
     def through(self) -> tuple[Approach, ...]:

@@ -7,6 +7,7 @@ slack. From the cloth outwards follow arm, lever, gap and side plate; the side p
 import cmath
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -21,7 +22,7 @@ from ilmek.part.shapes import Prism, Shape, bar, square_tube, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
-from ilmek.report.scene import SceneMotion
+from ilmek.report.scene import SceneMotion, ScenePhase
 from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
 
 SHED = "shed"
@@ -273,6 +274,24 @@ RISE, SWING, LOCKED = (
     )
 )
 """Shares of the rod's stroke, of the levers' swing and of the locks' at these angles."""
+
+_ACTS = (
+    ("shed rod", RISE, ("pushed up", "pulled down")),
+    ("levers", SWING, ("pull the strings", "slacken the strings")),
+    ("locks", LOCKED, ("pushed in", "pulled out")),
+)
+"""What moves, by which shares, and what it does there and back."""
+
+
+def phases() -> tuple[ScenePhase, ...]:
+    """What moves when in the change of the shed and back."""
+    return tuple(
+        ScenePhase(SHED, name, there if last > first else back, start, end)
+        for name, shares, (there, back) in _ACTS
+        for (first, last), (start, end) in zip(pairwise(shares), pairwise(ANGLES), strict=True)
+        if first != last
+    )
+
 
 _TO_THE_LEFT = placement(about=(0.0, 0.0, 1.0), angle=math.pi).after(ALONG_WIDTH)
 """A part whose z points to the weaver's left."""

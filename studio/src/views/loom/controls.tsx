@@ -20,6 +20,8 @@ export interface PictureState {
 interface ControlsProps {
   state: PictureState;
   heads: number;
+  /** Whether it has guards. */
+  guarded: boolean;
   /** Rows of the carpet; null: a run weaves them. */
   rows: number | null;
   onShow: (view: ViewName) => void;
@@ -28,7 +30,7 @@ interface ControlsProps {
 
 const AXES = { none: "none", x: "across", y: "level", z: "depth" } as const;
 
-export function Controls({ state, heads, rows, onShow, onChange }: ControlsProps) {
+export function Controls({ state, heads, guarded, rows, onShow, onChange }: ControlsProps) {
   const { axis, cut, apart } = state;
   return (
     <>
@@ -90,7 +92,7 @@ export function Controls({ state, heads, rows, onShow, onChange }: ControlsProps
         />
       )}
       <Toggle label={t("loom.labels")} value={state.names} onChange={(names) => onChange({ names })} />
-      <Toggle label={t("loom.guards")} value={state.guards} onChange={(guards) => onChange({ guards })} />
+      {guarded && <Toggle label={t("loom.guards")} value={state.guards} onChange={(guards) => onChange({ guards })} />}
       <Toggle label={t("loom.measure")} value={state.measures} onChange={(measures) => onChange({ measures })} />
     </>
   );

@@ -11,14 +11,14 @@ interface DriveBarProps {
   player: Player;
   drive: Drive;
   period: number;
-  /** Whether heads tie knots. */
-  knots: boolean;
+  /** All that can be turned. */
+  drives: readonly Drive[];
   /** The motions of the machine at an angle. */
   motions: (angle: number) => readonly ScenePhase[];
   onDrive: (drive: Drive) => void;
 }
 
-export function DriveBar({ player, drive, period, knots, motions, onDrive }: DriveBarProps) {
+export function DriveBar({ player, drive, period, drives, motions, onDrive }: DriveBarProps) {
   const { angle, playing, speed } = player;
   const turned = angle.value;
   const degrees = formatNumber(Math.round((turned * 3600) / TURN) / 10);
@@ -37,10 +37,7 @@ export function DriveBar({ player, drive, period, knots, motions, onDrive }: Dri
         label={t("loom.drive")}
         labelHidden
         value={drive}
-        choices={(knots ? (["row", "knot"] as const) : (["row"] as const)).map((value) => ({
-          value,
-          label: t(`loom.${value}`),
-        }))}
+        choices={drives.map((value) => ({ value, label: t(`loom.${value}`) }))}
         onChange={onDrive}
       />
       <Slider

@@ -81,6 +81,7 @@ function LoomOf({ file, files }: LoomOfProps) {
   if (error !== "") return <Sorry file={file} files={files} reason={error} />;
   if (model === null || workbench === null) return <Loading />;
   const Shown = workbench;
+  const ties = model.about.periods.knot !== undefined;
   return (
     <Shown
       model={model}
@@ -91,7 +92,7 @@ function LoomOf({ file, files }: LoomOfProps) {
         </div>
       }
       below={<Files file={file} />}
-      running={<RunPanel file={file} weaves={model.about.chart !== null} />}
+      running={ties && <RunPanel file={file} weaves={model.about.chart !== null} />}
       live={live}
       drawing={(plate) => <PlateSketch file={file} plate={plate} />}
     />

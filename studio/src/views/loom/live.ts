@@ -33,7 +33,7 @@ export function liveOf(model: SceneModel, { going, tied }: Run, news: RunNews, b
     heads: at,
     angles: {
       knot: tying && periods.knot ? ((news.time % periods.knot) / periods.knot) * TURN : 0,
-      row: tying ? 0 : Math.min(Math.max(news.time - tied, 0) / periods.row, 1) * TURN,
+      row: tying ? 0 : Math.min(Math.max(news.time - tied, 0) / (periods.row ?? 1), 1) * TURN,
     },
   };
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { between, Frames, openShed, product, rigid, sampleAt, TURN, underWay, warpShares } from "./motion";
+import { between, Frames, openShed, product, rigid, sampleAt, TURN, underWay, yarnPoints } from "./motion";
 import { type SceneAbout, type SceneFrame, sceneModel } from "./scene";
 
 const numbers: number[] = [];
@@ -13,7 +13,8 @@ function frame(name: string, parent: string, origins: number[], more: Partial<Sc
 }
 
 function model(frames: SceneFrame[]) {
-  const warps = { angle: put(0, 1, 3, TURN), even: put(0, 1, 0, 0), oddShare: put(0, 0, 1, 0) };
+  const points = put(...[0, 0.03, 0.01, 0].flatMap((front) => [0, 0, 0, 0, 0.4, front, 0, 1, 0]));
+  const warps = [{ drive: "shed", number: 3, angle: put(0, 1, 3, TURN), points }];
   const about = { frames, warps } as unknown as SceneAbout;
   return sceneModel(
     { ...about, chart: null },
@@ -63,12 +64,12 @@ describe("frames", () => {
         frame("tool", "head", [0, 1, 0]),
       ]),
     );
-    expect(frames.placed.map((one) => [one.frame.name, one.count, one.moves.row, one.moves.knot])).toEqual([
-      ["rail", 1, true, false],
-      ["head", 2, true, false],
-      ["tool", 2, true, false],
+    expect(frames.placed.map((one) => [one.frame.name, one.count, [...one.drives]])).toEqual([
+      ["rail", 1, ["row"]],
+      ["head", 2, ["row"]],
+      ["tool", 2, ["row"]],
     ]);
-    frames.update({ row: TURN / 2, knot: 0 });
+    frames.update({ row: TURN / 2 });
     const tool = frames.byName.get("tool");
     expect([...(tool?.matrices.slice(28, 31) ?? [])]).toEqual([2, 6, 2]);
   });
@@ -78,13 +79,16 @@ describe("frames", () => {
   });
 });
 
-it("warps are lifted by the shares of their parity", () => {
-  expect(warpShares(model([]), 0.5)).toEqual([0.5, 0]);
-  expect(warpShares(model([]), 2)).toEqual([0.5, 0.5]);
+it("a yarn lies straight between the lines of its samples", () => {
+  const own = model([]);
+  const out = new Float32Array(9);
+  for (const sheet of own.about.warps) yarnPoints(own, sheet, 2, out);
+  expect([...out].map((one) => Number(one.toFixed(6)))).toEqual([0, 0, 0, 0, 0.4, 0.02, 0, 1, 0]);
 });
 
-it("the shed is widest where the even warps are lifted farthest", () => {
-  expect(openShed(model([]))).toBe(1);
+it("the shed is open where the first sheet is farthest in front", () => {
+  const { drive, angle, height } = openShed(model([]));
+  expect([drive, angle, Number(height.toFixed(6))]).toEqual(["shed", 1, 0.4]);
 });
 
 it("a motion is under way from its start on, also over the end of a turn", () => {

@@ -1,5 +1,5 @@
 /** Motions of frames over the angle of a drive, and the positions of everything in the loom at two angles. */
-import type { Drive, SceneFrame, SceneModel, ScenePhase } from "./scene";
+import type { Drive, SceneFrame, SceneModel, ScenePhase, SceneYarn } from "./scene";
 
 export const TURN = 2 * Math.PI;
 
@@ -79,13 +79,14 @@ export interface Placed {
   /** 16 numbers for each copy: those in the first parent, then in the second. */
   matrices: Float32Array;
   count: number;
-  /** Whether it moves with a drive, by itself or by what carries it. */
-  moves: Record<Drive, boolean>;
+  /** The drives that move it, by itself or by what carries it. */
+  drives: ReadonlySet<Drive>;
   origins: Float32Array;
   local: Float32Array;
 }
 
-export type Angles = Record<Drive, number>;
+/** Of the drives [rad]; one that is not named is at its beginning. */
+export type Angles = Partial<Record<Drive, number>>;
 
 /** All frames of a scene, each after what carries it. */
 export class Frames {
@@ -106,17 +107,14 @@ export class Frames {
     const parent = this.byName.get(frame.parent) ?? null;
     const origins = this.model.floats(frame.origins).slice();
     const own = origins.length / 3;
-    const moves = {
-      row: frame.motion?.drive === "row" || (parent?.moves.row ?? false),
-      knot: frame.motion?.drive === "knot" || (parent?.moves.knot ?? false),
-    };
+    const drives = new Set([...(parent?.drives ?? []), ...(frame.motion === null ? [] : [frame.motion.drive])]);
     const count = own * (parent?.count ?? 1);
     const placed = {
       frame,
       parent,
       origins,
       count,
-      moves,
+      drives,
       matrices: new Float32Array(16 * count),
       local: new Float32Array(16),
     };
@@ -126,14 +124,14 @@ export class Frames {
 
   /** Computes the matrices of the frames that move with a drive; without one, of all. */
   update(angles: Angles, drive?: Drive): void {
-    for (const one of this.placed) if (drive === undefined || one.moves[drive]) this.place(one, angles);
+    for (const one of this.placed) if (drive === undefined || one.drives.has(drive)) this.place(one, angles);
   }
 
   private place(one: Placed, angles: Angles): void {
     const { motion, axis, phases } = one.frame;
     let [x, y, z, rotation] = [0, 0, 0, 0];
     if (motion !== null) {
-      const [index, share] = sampleAt(this.model.floats(motion.angle), angles[motion.drive]);
+      const [index, share] = sampleAt(this.model.floats(motion.angle), angles[motion.drive] ?? 0);
       if (motion.rotation !== null) rotation = between(this.model.floats(motion.rotation), index, share);
       if (motion.shift !== null) {
         const shift = this.model.floats(motion.shift);
@@ -159,17 +157,15 @@ export class Frames {
   }
 }
 
-/** The shares of their lift of even and odd warps at an angle of the row. */
-export function warpShares(model: SceneModel, angle: number): [even: number, odd: number] {
-  const { warps } = model.about;
-  const [index, share] = sampleAt(model.floats(warps.angle), angle);
-  return [between(model.floats(warps.even), index, share), between(model.floats(warps.oddShare), index, share)];
-}
-
-/** The angle of the row at which the even warps are lifted farthest. */
-export function openShed({ about, floats }: SceneModel): number {
-  const shares = floats(about.warps.even);
-  return floats(about.warps.angle)[shares.indexOf(Math.max(...shares))] ?? 0;
+/** The angle of its drive at which the first sheet of warps is farthest in front, and the height of that point [m]. */
+export function openShed({ about, floats }: SceneModel): { drive: Drive; angle: number; height: number } {
+  const sheet = about.warps[0];
+  if (sheet === undefined) return { drive: "row", angle: 0, height: 0.2 };
+  const points = floats(sheet.points);
+  let front = 2;
+  for (let k = front; k < points.length; k += 3) if ((points[k] ?? 0) > (points[front] ?? 0)) front = k;
+  const sample = Math.floor(front / (3 * sheet.number));
+  return { drive: sheet.drive, angle: floats(sheet.angle)[sample] ?? 0, height: points[front - 1] ?? 0 };
 }
 
 /** The motions of the machine that are under way at an angle of a drive: what moves, and what it does. */
@@ -178,9 +174,7 @@ export function underWay({ about }: SceneModel, drive: Drive, angle: number): Sc
 }
 
 /** The points of a yarn at an angle of its drive, (x, y, z) in turn. */
-export function yarnPoints(model: SceneModel, number: number, angle: number, out: Float32Array): void {
-  const yarn = model.about.yarns[number];
-  if (yarn === undefined) return;
+export function yarnPoints(model: SceneModel, yarn: SceneYarn, angle: number, out: Float32Array): void {
   const [index, share] = sampleAt(model.floats(yarn.angle), angle);
   const points = model.floats(yarn.points);
   for (let k = 0; k < 3 * yarn.number; k++) out[k] = between(points, index, share, 3 * yarn.number, k);

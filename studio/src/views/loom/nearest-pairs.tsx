@@ -38,10 +38,17 @@ export function NearestPairs({ about, chosen, onChoose }: NearestProps) {
   );
 }
 
-/** When two parts come nearest: the angle of the row or of the knot, and where the heads stand. */
+const AT: Partial<Record<string, "loom.atOfRow" | "loom.atOfKnot" | "loom.atOfShed">> = {
+  row: "loom.atOfRow",
+  knot: "loom.atOfKnot",
+  shed: "loom.atOfShed",
+};
+
+/** When two parts come nearest: the angle of what turns, and where the heads stand. */
 function occasion({ cyclogram, angle, heads_shift }: NearPair): string {
   const heads = Math.abs(heads_shift) < 1e-6 ? "" : t("loom.headsBeside", { shift: formatQuantity(heads_shift, "mm") });
-  if (cyclogram !== "row" && cyclogram !== "knot") return heads === "" ? t("loom.always") : heads;
-  const when = t(cyclogram === "row" ? "loom.atOfRow" : "loom.atOfKnot", { angle: formatQuantity(angle, "deg") });
+  const at = AT[cyclogram];
+  if (at === undefined) return heads === "" ? t("loom.always") : heads;
+  const when = t(at, { angle: formatQuantity(angle, "deg") });
   return heads === "" ? when : `${when}, ${heads}`;
 }

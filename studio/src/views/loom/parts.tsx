@@ -162,8 +162,7 @@ function Holding({ model, part }: { model: SceneModel; part: ScenePart }) {
           <li key={parent}>
             {textIfKnown(JOINTS[joint] ?? "", { parent: parent === "" ? t("loom.floor") : named(parent) }) ?? joint}
             {passive !== "" && `: ${passive}`}
-            {drive === "row" && <span class="ui-muted"> {t("loom.movesWithRow")}</span>}
-            {drive === "knot" && <span class="ui-muted"> {t("loom.movesWithKnot")}</span>}
+            {drive !== "" && <span class="ui-muted"> {t(MOVES[drive])}</span>}
             <Movers about={model.about} body={k === 0 ? part.ids[1] : (chain[k - 1]?.parent ?? "")} />
           </li>
         ))}
@@ -178,6 +177,8 @@ function Movers({ about, body }: { about: SceneAbout; body: string }) {
   const names = movers(about, body).map(named);
   return names.length === 0 ? null : <div class="ui-muted">{t("loom.movedBy", { names: names.join(" ← ") })}</div>;
 }
+
+const MOVES = { row: "loom.movesWithRow", knot: "loom.movesWithKnot", shed: "loom.movesWithShed" } as const;
 
 /** The text of each kind of joint; the kinds are those of `JointKind` in the server's part/tree.py. */
 const JOINTS: Record<string, string> = {

@@ -75,6 +75,8 @@ export interface SceneYarn {
   points: Range;
   number: number;
   diameter: number;
+  /** Positions across, at which it is as often [m]; null: once, at 0. */
+  across: Range | null;
 }
 
 export interface SceneChart {
@@ -84,8 +86,8 @@ export interface SceneChart {
   yarns: string[];
 }
 
-/** What turns: the cyclogram of a row, or that of a knot. */
-export type Drive = "row" | "knot";
+/** What turns: the cyclogram of a row, that of a knot, or the change of a shed by hand and back. */
+export type Drive = "row" | "knot" | "shed";
 
 /** A motion of a cyclogram, from one angle to another [rad]. */
 export interface ScenePhase {
@@ -114,6 +116,11 @@ export interface Judgement {
   failures: SceneCheck[];
   /** The pairs of parts that come nearest; null: they are not compared yet. */
   nearest: NearPair[] | null;
+}
+
+/** What turns in a scene, the first at its beginning. */
+export function drivesOf({ periods }: SceneAbout): Drive[] {
+  return Object.keys(periods) as Drive[];
 }
 
 /** The two parts of a pair, as they are in the scene. */
@@ -163,24 +170,14 @@ export interface SceneAbout extends Judgement {
   /** Frames of fence and doors. */
   guards: string[];
   floor: number;
-  /** Times of a row, and of a head's knot where heads tie [s]. */
-  periods: { row: number; knot?: number };
-  /** What moves when, of a row and of a knot. */
+  /** Time of a turn of each drive [s]. */
+  periods: Partial<Record<Drive, number>>;
+  /** What moves when, of each drive. */
   phases: ScenePhase[];
   frames: SceneFrame[];
   parts: ScenePart[];
-  warps: {
-    x: Range;
-    shaft: Range;
-    odd: Range;
-    line: Range;
-    lifted: number[];
-    lifts: number[];
-    angle: Range;
-    even: Range;
-    oddShare: Range;
-    diameter: number;
-  };
+  /** In sheets that move alike; the first is that which opens the shed in front of all others. */
+  warps: SceneYarn[];
   yarns: SceneYarn[];
   carpet: {
     width: number;

@@ -5,10 +5,10 @@ import { Cloth } from "./cloth-mesh";
 import { Light, screenColour } from "./light";
 import { type Look, look } from "./look";
 import { Measure, snapped } from "./measure";
-import { type Angles, Frames, type Placed } from "./motion";
+import { type Angles, Frames, openShed, type Placed } from "./motion";
 import { Pace } from "./pace";
 import { PartMesh } from "./part-mesh";
-import type { Drive, SceneModel } from "./scene";
+import { drivesOf, type SceneModel } from "./scene";
 import { Shadow } from "./shadow";
 import { Smooth } from "./smooth";
 import { floor, graphics } from "./surroundings";
@@ -85,7 +85,7 @@ export class Stage {
   private guarded = false;
   private size: [width: number, height: number] = [1, 1];
   private pictures = 0;
-  private angles: Angles = { row: 0, knot: 0 };
+  private angles: Angles = {};
   private followed: number | null = null;
   private followedAt = new three.Vector3();
   private exploded = 0;
@@ -215,12 +215,12 @@ export class Stage {
     this.choose(this.chosen, this.alone);
   }
 
-  /** Turns row and knot to angles [rad]. */
+  /** Turns all drives to angles. */
   turn(angles: Angles): void {
-    const changed = (["row", "knot"] as Drive[]).filter((drive) => angles[drive] !== this.angles[drive]);
+    const changed = drivesOf(this.model.about).filter((drive) => (angles[drive] ?? 0) !== (this.angles[drive] ?? 0));
     this.angles = { ...angles };
     for (const drive of changed) this.frames.update(angles, drive);
-    for (const one of this.parts) if (changed.some((drive) => one.placed.moves[drive])) one.arrange(this.exploded);
+    for (const one of this.parts) if (changed.some((drive) => one.placed.drives.has(drive))) one.arrange(this.exploded);
     this.threads.update(angles);
     this.follow();
     this.changed();
@@ -466,8 +466,8 @@ export class Stage {
   }
 
   private boxOf(name: ViewName): three.Box3 {
-    const { carpet, warps } = this.model.about;
-    const [half, lifted] = [carpet.width / 2, this.model.floats(warps.line)[2 * (warps.lifted[0] ?? 0) + 1] ?? 0.2];
+    const { carpet } = this.model.about;
+    const [half, lifted] = [carpet.width / 2, openShed(this.model).height];
     const box = (low: [number, number, number], high: [number, number, number]) =>
       new three.Box3(new three.Vector3(...low), new three.Vector3(...high));
     if (name === "fell") return box([-half, -0.1, -0.1], [half, 0.35, 0.2]);

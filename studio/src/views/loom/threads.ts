@@ -2,20 +2,18 @@
 import * as three from "three";
 import { screenColour } from "./light";
 import type { Look } from "./look";
-import { type Angles, type Frames, type Placed, warpShares, yarnPoints } from "./motion";
-import type { Drive, SceneModel } from "./scene";
+import { type Angles, type Frames, type Placed, yarnPoints } from "./motion";
+import type { SceneModel, SceneYarn } from "./scene";
 
-/** A segment of a thread from `from` to `to`; of a warp, its ends are lifted by shares of their lifts. */
+/** A segment of a thread between two points of its line, beside which the thread is `shift`. */
 const VERTEX = `
 #define NEIGHBOURS 60.0
 #include <clipping_planes_pars_vertex>
-attribute vec3 from;
-attribute vec3 to;
-attribute vec2 lifts;
-attribute float odd;
+attribute float segment;
+attribute float shift;
+uniform vec3 line[POINTS];
 uniform float radius;
 uniform float pixel;
-uniform vec2 shares;
 uniform vec2 marked;
 uniform float cap;
 varying float across;
@@ -24,10 +22,10 @@ varying float thick;
 varying float mark;
 varying float covered;
 void main() {
-  mark = step(abs(from.x - marked.x), marked.y);
-  vec3 lift = vec3(0.0, 0.0, mix(shares.x, shares.y, odd));
-  vec3 begin = (modelViewMatrix * vec4(from + lifts.x * lift, 1.0)).xyz;
-  vec3 end = (modelViewMatrix * vec4(to + lifts.y * lift, 1.0)).xyz;
+  vec3 beside = vec3(shift, 0.0, 0.0);
+  mark = step(abs(shift - marked.x), marked.y);
+  vec3 begin = (modelViewMatrix * vec4(line[int(segment)] + beside, 1.0)).xyz;
+  vec3 end = (modelViewMatrix * vec4(line[int(segment) + 1] + beside, 1.0)).xyz;
   vec4 mvPosition = vec4(mix(begin, end, position.y), 1.0);
   float least = 0.5 * pixel * max(-mvPosition.z, 0.0);
   mvPosition.xyz += normalize(cross(end - begin, mvPosition.xyz)) * max(radius, least) * position.x;
@@ -38,7 +36,7 @@ void main() {
   covered = min(radius / least, 1.0);
   #include <clipping_planes_vertex>
   gl_Position = projectionMatrix * mvPosition;
-  if (abs(from.x - marked.x) > NEIGHBOURS * marked.y && marked.y > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  if (abs(shift - marked.x) > NEIGHBOURS * marked.y && marked.y > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 }`;
 
 const FRAGMENT = `
@@ -62,51 +60,46 @@ void main() {
 const OTHERS = 0.2;
 
 interface ShownYarn {
-  number: number;
-  drive: Drive;
+  yarn: SceneYarn;
   placed: Placed;
-  points: Float32Array;
-  geometry: three.BufferGeometry;
   meshes: three.Mesh[];
+  points: Float32Array;
   material: three.ShaderMaterial;
 }
 
 export class Threads {
   readonly group = new three.Group();
-  private readonly warps: three.ShaderMaterial;
-  private readonly yarns: ShownYarn[] = [];
+  private readonly warps: ShownYarn[];
+  private readonly yarns: ShownYarn[];
 
   constructor(
     private readonly model: SceneModel,
-    frames: Frames,
+    private readonly frames: Frames,
   ) {
-    const { warps, yarns } = model.about;
-    this.warps = threadMaterial(warps.diameter);
-    this.group.add(threadMesh(warpSegments(model), this.warps));
-    yarns.forEach((yarn, number) => {
-      const placed = frames.byName.get(yarn.frame);
-      if (placed === undefined) return;
-      const points = new Float32Array(3 * yarn.number);
-      const geometry = ribbons({ from: [[], 3], to: [[], 3] }, yarn.number - 1);
-      const material = threadMaterial(yarn.diameter);
-      if (material.uniforms["cap"]) material.uniforms["cap"].value = 1; // its bends are sharp
-      const meshes = Array.from({ length: placed.count }, () => threadMesh(geometry, material));
-      this.group.add(...meshes);
-      this.yarns.push({ number, drive: yarn.drive, placed, points, geometry, meshes, material });
-    });
-    this.update({ row: 0, knot: 0 });
+    this.warps = model.about.warps.flatMap((yarn) => this.shown(yarn));
+    this.yarns = model.about.yarns.flatMap((yarn) => this.shown(yarn));
+    for (const { material } of this.yarns) if (material.uniforms["cap"]) material.uniforms["cap"].value = 1; // its bends are sharp
+    this.update({});
+  }
+
+  private shown(yarn: SceneYarn): ShownYarn[] {
+    const placed = this.frames.byName.get(yarn.frame);
+    if (placed === undefined) return [];
+    const points = new Float32Array(3 * yarn.number);
+    const material = threadMaterial(yarn.diameter, points);
+    const geometry = ribbons(yarn.across === null ? [0] : this.model.floats(yarn.across), yarn.number - 1);
+    const meshes = Array.from({ length: placed.count }, () => threadMesh(geometry, material));
+    this.group.add(...meshes);
+    return [{ yarn, placed, meshes, points, material }];
   }
 
   get materials(): three.ShaderMaterial[] {
-    return [this.warps, ...this.yarns.map((one) => one.material)];
+    return [...this.warps, ...this.yarns].map((one) => one.material);
   }
 
   update(angles: Angles): void {
-    this.warps.uniforms["shares"]?.value.set(...warpShares(this.model, angles.row));
-    for (const { number, drive, placed, points, geometry, meshes } of this.yarns) {
-      yarnPoints(this.model, number, angles[drive], points);
-      spread(points, 3, geometry.getAttribute("from") as three.BufferAttribute);
-      spread(points, 3, geometry.getAttribute("to") as three.BufferAttribute, 3);
+    for (const { yarn, placed, meshes, points } of [...this.warps, ...this.yarns]) {
+      yarnPoints(this.model, yarn, angles[yarn.drive] ?? 0, points);
       meshes.forEach((mesh, copy) => {
         mesh.matrix.fromArray(placed.matrices, 16 * copy);
       });
@@ -116,15 +109,16 @@ export class Threads {
   /** Marks the warps about which a head ties, and looks through all others; null: none. */
   mark(head: three.Vector3 | null): void {
     const pitch = this.model.about.carpet.columnPitch;
-    const { marked, others } = this.warps.uniforms;
-    marked?.value.set(head?.x ?? 0, head === null ? -1 : pitch / 2);
-    if (others) others.value = head === null ? 1 : OTHERS;
+    for (const { uniforms } of this.warps.map((one) => one.material)) {
+      uniforms["marked"]?.value.set(head?.x ?? 0, head === null ? -1 : pitch / 2);
+      if (uniforms["others"]) uniforms["others"].value = head === null ? 1 : OTHERS;
+    }
   }
 
   /** Draws the yarn of the knots in a colour; null: in that of the theme. */
   dye(colour: string | null): void {
-    for (const { drive, material } of this.yarns)
-      if (drive === "knot" && colour !== null) screenColour(colour, material.uniforms["colour"]?.value);
+    for (const { yarn, material } of this.yarns)
+      if (yarn.drive === "knot" && colour !== null) screenColour(colour, material.uniforms["colour"]?.value);
   }
 
   /** The room of the knots' yarn in a head, over a knot. */
@@ -136,9 +130,9 @@ export class Threads {
   }
 
   paint(look: Look): void {
-    screenColour(look.warp, this.warps.uniforms["colour"]?.value);
-    for (const { drive, material } of this.yarns)
-      screenColour(drive === "knot" ? look.pile : look.weft, material.uniforms["colour"]?.value);
+    for (const { material } of this.warps) screenColour(look.warp, material.uniforms["colour"]?.value);
+    for (const { yarn, material } of this.yarns)
+      screenColour(yarn.drive === "knot" ? look.pile : look.weft, material.uniforms["colour"]?.value);
   }
 
   /**
@@ -148,20 +142,24 @@ export class Threads {
    */
   setPixel(atOne: number, fine: boolean): void {
     for (const { uniforms } of this.materials) if (uniforms["pixel"]) uniforms["pixel"].value = atOne;
-    const looksThrough = this.warps.uniforms["others"]?.value < 1;
-    this.warps.transparent = fine || looksThrough;
-    this.warps.depthWrite = !looksThrough;
+    for (const { material } of this.warps) {
+      const looksThrough = material.uniforms["others"]?.value < 1;
+      material.transparent = fine || looksThrough;
+      material.depthWrite = !looksThrough;
+    }
   }
 }
 
-function threadMaterial(diameter: number): three.ShaderMaterial {
+/** The material of a thread with a line, (x, y, z) in turn. */
+function threadMaterial(diameter: number, line: Float32Array): three.ShaderMaterial {
   return new three.ShaderMaterial({
+    defines: { POINTS: line.length / 3 },
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     uniforms: {
       radius: { value: diameter / 2 },
       pixel: { value: 1e-3 },
-      shares: { value: new three.Vector2() },
+      line: { value: line },
       marked: { value: new three.Vector2(0, -1) },
       others: { value: 1 },
       cap: { value: 0 },
@@ -182,51 +180,31 @@ function threadMesh(geometry: three.BufferGeometry, material: three.Material): t
 const CORNERS = 4;
 
 /**
- * Ribbons, four corners for each segment: x from edge to edge, y from its beginning to its end.
+ * Ribbons of threads beside each other, four corners for each segment: x from edge to edge, y from its beginning to its
+ * end.
  *
  * They are no instances: a processor that draws takes as long for each instance as for a picture of its own.
  */
-function ribbons(attributes: Record<string, [values: number[], size: number]>, segments: number): three.BufferGeometry {
+export function ribbons(across: ArrayLike<number>, segments: number): three.BufferGeometry {
   const geometry = new three.BufferGeometry();
-  const corner = [-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0];
-  const all = Array.from({ length: segments }, () => corner).flat();
-  geometry.setAttribute("position", new three.Float32BufferAttribute(all, 3));
-  geometry.setIndex(Array.from({ length: segments }, (_, k) => [0, 1, 2, 2, 1, 3].map((n) => CORNERS * k + n)).flat());
-  for (const [name, [values, size]] of Object.entries(attributes)) {
-    const attribute = new three.BufferAttribute(new Float32Array(CORNERS * segments * size), size);
-    spread(values, size, attribute);
-    geometry.setAttribute(name, attribute);
-  }
+  const all = across.length * segments;
+  const each = (value: (k: number) => number[]) => Array.from({ length: all }, (_, k) => value(k)).flat();
+  const corners = (value: number) => new Array<number>(CORNERS).fill(value);
+  const give = (name: string, values: number[], size = 1) =>
+    geometry.setAttribute(name, new three.Float32BufferAttribute(values, size));
+  geometry.setIndex(each((k) => [0, 1, 2, 2, 1, 3].map((n) => CORNERS * k + n)));
+  give(
+    "position",
+    each(() => [-1, 0, 0, 1, 0, 0, -1, 1, 0, 1, 1, 0]),
+    3,
+  );
+  give(
+    "shift",
+    each((k) => corners(across[Math.floor(k / segments)] ?? 0)),
+  );
+  give(
+    "segment",
+    each((k) => corners(k % segments)),
+  );
   return geometry;
-}
-
-/** Gives the values of each segment to its corners. */
-function spread(values: ArrayLike<number>, size: number, into: three.BufferAttribute, begin = 0): void {
-  const array = into.array as Float32Array;
-  for (let k = 0; k < array.length; k++)
-    array[k] = values[begin + size * Math.floor(k / (CORNERS * size)) + (k % size)] ?? 0;
-  into.needsUpdate = true;
-}
-
-/** Every warp's line as segments, with the lifts of their ends [m] and the parity of the warp. */
-export function warpSegments(model: SceneModel): three.BufferGeometry {
-  const { warps } = model.about;
-  const [x, line] = [model.floats(warps.x), model.floats(warps.line)];
-  const [shaft, odd] = [model.integers(warps.shaft), model.integers(warps.odd)];
-  const [from, to, lifts, parity] = [[], [], [], []] as [number[], number[], number[], number[]];
-  const point = (warp: number, k: number) => [x[warp] ?? 0, line[2 * k + 1] ?? 0, line[2 * k] ?? 0];
-  for (let warp = 0; warp < x.length; warp++) {
-    const own = shaft[warp] ?? 0;
-    const others = warps.lifted.filter((_, number) => number !== own);
-    const path = Array.from({ length: line.length / 2 }, (_, k) => k).filter((k) => !others.includes(k));
-    const lift = (k: number) => (warps.lifted[own] === k ? (warps.lifts[own] ?? 0) : 0);
-    for (const [n, k] of path.slice(0, -1).entries()) {
-      const next = path[n + 1] ?? k;
-      from.push(...point(warp, k));
-      to.push(...point(warp, next));
-      lifts.push(lift(k), lift(next));
-      parity.push(odd[warp] ?? 0);
-    }
-  }
-  return ribbons({ from: [from, 3], to: [to, 3], lifts: [lifts, 2], odd: [parity, 1] }, parity.length);
 }

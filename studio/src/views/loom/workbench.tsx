@@ -10,7 +10,7 @@ import { openShed, TURN, underWay } from "./motion";
 import { NearestPairs } from "./nearest-pairs";
 import { Failures, neighbour, PartDetails, PartList } from "./parts";
 import { type Player, usePlayer } from "./player";
-import { type Drive, type NearPair, partsOf, type SceneModel } from "./scene";
+import { type Drive, drivesOf, type NearPair, partsOf, type SceneModel } from "./scene";
 import type { Stage } from "./stage";
 import { graphics } from "./surroundings";
 import { usePicture } from "./use-picture";
@@ -36,7 +36,9 @@ const SCRUB = TURN / 360;
 export function Workbench({ model, above, below, running, drawing, live = null }: WorkbenchProps) {
   const { about } = model;
   const drawn = graphics() !== "none";
-  const [drive, setDrive] = useState<Drive>("row");
+  const drives = drivesOf(about);
+  const [drive, setDrive] = useState<Drive>(drives[0] ?? "row");
+  const period = about.periods[drive] ?? 1;
   const [chosen, setChosen] = useState("");
   const [shown, setShown] = useState<ViewName>("iso");
   const [pair, setPair] = useState<NearPair | null>(null);
@@ -59,11 +61,8 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     if (name !== "") setTab("parts");
   };
   const stage = usePicture(model, canvas, labels, { names: state.names, onPick: pick });
-  const show = useCallback(
-    (angle: number) => stage.current?.turn({ row: drive === "row" ? angle : 0, knot: drive === "knot" ? angle : 0 }),
-    [drive, model],
-  );
-  const player = usePlayer(about.periods[drive] ?? about.periods.row, show);
+  const show = useCallback((angle: number) => stage.current?.turn({ [drive]: angle }), [drive, model]);
+  const player = usePlayer(period, show);
   useEffect(() => {
     if (pair === null) {
       stage.current?.choose([chosen]);
@@ -96,18 +95,19 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     if (live?.going) setTab("run");
   }, [live?.going]);
   const onPair = (next: NearPair) => {
-    const turns = next.cyclogram === "row" || next.cyclogram === "knot" ? next.cyclogram : null;
+    const turns = drives.find((one) => one === next.cyclogram) ?? null;
     player.playing.value = false;
     if (turns !== null && turns !== drive) setDrive(turns);
     player.angle.value = turns === null ? 0 : next.angle;
     setPair(next);
   };
   const onShow = (view: ViewName) => {
-    const turns = view === "head" ? "knot" : view === "shed" ? "row" : null;
+    const open = openShed(model);
+    const turns = view === "head" ? "knot" : view === "shed" ? open.drive : null;
     if (byHand && turns !== null) {
       setDrive(turns);
       if (turns !== drive) player.angle.value = 0;
-      if (view === "shed") player.angle.value = openShed(model);
+      if (view === "shed") player.angle.value = open.angle;
     }
     const cut =
       view === "shed" ? { axis: "x" as const, cut: stage.current?.shedCut ?? 0.5 } : { axis: "none" as const };
@@ -131,7 +131,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
     ...(drawn ? [{ value: "look" as Tab, label: t("loom.look") }] : []),
     { value: "parts" as Tab, label: t("loom.parts") },
     { value: "clearances" as Tab, label: t("loom.clearances") },
-    ...(running === undefined ? [] : [{ value: "run" as Tab, label: t("loom.run") }]),
+    ...(!running ? [] : [{ value: "run" as Tab, label: t("loom.run") }]),
   ];
   return (
     <div class="loom">
@@ -153,8 +153,8 @@ export function Workbench({ model, above, below, running, drawing, live = null }
               <DriveBar
                 player={player}
                 drive={drive}
-                period={about.periods[drive] ?? about.periods.row}
-                knots={about.periods.knot !== undefined}
+                period={period}
+                drives={drives}
                 motions={(angle) => underWay(model, drive, angle)}
                 onDrive={(to) => {
                   setDrive(to);
@@ -176,6 +176,7 @@ export function Workbench({ model, above, below, running, drawing, live = null }
               <Controls
                 state={state}
                 heads={heads / 3}
+                guarded={about.guards.length > 0}
                 rows={byHand ? about.carpet.rows : null}
                 onShow={onShow}
                 onChange={(change) => setState((now) => ({ ...now, ...change }))}

@@ -11,14 +11,15 @@ from ilmek.errors import ParameterError
 from ilmek.io.glb import glb_bytes
 from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
-from ilmek.jobs.loom_space import scene_answer
+from ilmek.jobs.loom_space import loom_scene, scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.studio.answers import Binary, Context, packed
 from ilmek.jobs.studio.project.folder import ProjectFolder, digest_of, kind_of, read_bytes
-from ilmek.machines.automated_loom import MACHINE
+from ilmek.machines import automated_loom, hand_loom
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.scene import scene as scene_of
+from ilmek.machines.component import AnyComponent
+from ilmek.machines.hand_loom import HandLoom
 from ilmek.plane.contours import along
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Contour, Plate, Report
@@ -29,7 +30,7 @@ from ilmek.viz.scene_data import checks_of_parts, judgement
 GLB = "model/gltf-binary"
 RECIPE = "carpet.toml"
 _CHORD = 0.02 * mm
-_NO_LOOM = "a recipe, or a machine file of an automated-loom"
+_LOOMS: dict[str, AnyComponent] = {one.name: one for one in (automated_loom.MACHINE, hand_loom.MACHINE)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +66,13 @@ class PlateDrawing:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ProjectLoom:
-    """A designed loom with its report, without its parts against each other; its carpet and its programme, if any."""
+    """A designed loom with its report, without its parts against each other; its carpet and its programme, if any.
 
-    design: LoomDesign
+    machine  that has designed it
+    """
+
+    machine: AnyComponent
+    design: LoomDesign | HandLoom
     report: Report
     charted: ChartResult | None = None
     loomed: LoomResult | None = None
@@ -75,7 +80,7 @@ class ProjectLoom:
     @property
     def scene(self) -> Scene:
         """The loom in space."""
-        return scene_of(self.design, self.report)
+        return loom_scene(self.design, self.report)
 
 
 def scene(request: LoomRequest, context: Context) -> Binary:
@@ -93,12 +98,12 @@ def in_space(request: LoomRequest, context: Context) -> Binary:
     The checks that fail, those of each part by its name, and the pairs of parts that come nearest.
     """
     loom = project_loom(context.folder, request.file, context.progress)
-    whole = scene_of(loom.design, MACHINE.report(loom.design, illustrated=False))
+    whole = loom_scene(loom.design, loom.machine.report(loom.design, illustrated=False))
     return packed({**judgement(whole), "checks": checks_of_parts(whole)})
 
 
 def glb(request: LoomRequest, context: Context) -> Binary:
-    """The loom as GLB, with its motions over a row and over a knot as animations."""
+    """The loom as GLB, with an animation for each of its drives."""
     return Binary(GLB, glb_bytes(project_loom(context.folder, request.file, context.progress).scene))
 
 
@@ -146,13 +151,12 @@ def project_loom(folder: Path, file: str, progress: Progress = SILENT) -> Projec
 @lru_cache(maxsize=3)
 def _of_machine(path: str, _digest: str) -> ProjectLoom:
     order = read_machine_order(path, {})
-    if order.machine != MACHINE.name:
-        raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=_NO_LOOM)
-    params = MACHINE.params.read(order.settings)
-    if MACHINE.variant(params) is not None:
-        raise ParameterError(f"{Path(path).name} is the file of a hand loom", allowed=_NO_LOOM)
-    design = MACHINE.designed(params)
-    return ProjectLoom(design, MACHINE.report(design, illustrated=False, assembled=False))
+    if order.machine not in _LOOMS:
+        allowed = f"a recipe, or a machine file of an {' or a '.join(_LOOMS)}"
+        raise ParameterError(f"{Path(path).name} is the file of a {order.machine}", allowed=allowed)
+    machine, params = _LOOMS[order.machine].ordered(order.settings)
+    design = machine.designed(params)
+    return ProjectLoom(machine, design, machine.report(design, illustrated=False, assembled=False))
 
 
 _recipes: dict[tuple[str, str], ProjectLoom] = {}
@@ -167,14 +171,12 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
         charted = make_charted(order, progress.part(0.0, 0.5, "picture"))
         part = progress.part(0.5, 1.0, "loom")
         loomed = make_loomed(read_loom_order(order), charted, part, illustrated=False, assembled=False)
-        if loomed.hand is not None:
-            raise ParameterError(f"{Path(path).name} is woven on a hand loom", allowed=_NO_LOOM)
-        if loomed.design is None:
+        if loomed.made is None:
             reason = next((check for check in loomed.report.checks if not check.ok), None)
             raise ParameterError(
                 reason.name if reason else "the loom cannot be designed", do=reason.cure if reason else ""
             )
-        found = ProjectLoom(loomed.design, loomed.report, charted, loomed)
+        found = ProjectLoom(_LOOMS[loomed.report.machine], loomed.made, loomed.report, charted, loomed)
         while len(_recipes) >= _MOST_RECIPES:
             _recipes.pop(next(iter(_recipes)))
         _recipes[path, digest] = found

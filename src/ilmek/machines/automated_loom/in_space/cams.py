@@ -2,22 +2,15 @@
 
 import numpy as np
 
-from ilmek.arrays import FloatArray
 from ilmek.machines.automated_loom.beat_motion import beat_displacement, beat_joints
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import COARSE, COARSEST, FINE, ROW, MachineTree, track_angles
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import tree
-from ilmek.machines.shedding.tree import warp_positions as positions_of
 from ilmek.part.placement import IN_SIDE_VIEW, placement
 from ilmek.report.scene import SceneMotion
 from ilmek.units import turn
-
-
-def warp_positions(loom: LoomDesign) -> FloatArray:
-    """Positions of the warps across [m]."""
-    return positions_of(loom.shedding)
 
 
 def cams(loom: LoomDesign) -> MachineTree:

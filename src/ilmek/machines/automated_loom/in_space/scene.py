@@ -1,17 +1,18 @@
 """The scene of a loom: all its parts, its warps, yarns and carpet."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import Float
+from ilmek.arrays import ComplexArray, Float
+from ilmek.machines.arrangement.side_view import RoundPart
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.creel import PACKAGE
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.equipment.tree import equipment
-from ilmek.machines.automated_loom.in_space.cams import warp_positions
 from ilmek.machines.automated_loom.in_space.heads import knot_yarn, tools
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, STANDS, MachineTree, track_angles
@@ -20,16 +21,17 @@ from ilmek.machines.automated_loom.in_space.weft import wefts
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.hammer.tree import COMB
 from ilmek.machines.shedding.stack import part_id
-from ilmek.machines.shedding.tree import warp_shafts
+from ilmek.machines.shedding.tree import warp_positions, warp_shafts
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
 from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
 from ilmek.report import Report
-from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, ScenePhase, SceneWarps
+from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, ScenePart, ScenePhase, SceneYarn
 from ilmek.timing.track import sample
 from ilmek.units import turn
+from ilmek.weaving.cloth import Cloth
 
 NEAREST_PAIRS = "nearest_pairs"
 """Name of the result with the pairs of parts that come nearest, in a report that compares them."""
@@ -41,7 +43,41 @@ _ARC = 7
 @lru_cache(maxsize=2)
 def scene(loom: LoomDesign, report: Report) -> Scene:
     """The scene of a loom, with the checks of its report at the parts that they concern."""
-    branches, checks = _in_the_scene(branches_of(loom)), report.all_checks
+    side, winding = loom.side, loom.warp_tension
+    whole = scene_of(
+        report,
+        branches_of(loom),
+        loom_tree(loom),
+        warps=_warps(loom),
+        carpet=carpet(winding.params.cloth, (loom.rows, loom.columns), side.pile, side.lower),
+        roll=carpet_roll(winding, side.lower, side.roll),
+        periods=periods_of(loom),
+        phases=tuple(
+            ScenePhase(drive, track.name, own.name, own.start, own.end)
+            for drive, cyclogram in ((ROW, loom.row_cyclogram), *(((KNOT, loom.knot_cyclogram),) if loom.heads else ()))
+            for track in cyclogram.tracks
+            for own in track.segments
+        ),
+        floor=side.floor,
+    )
+    yarns = (*wefts(loom), *knot_yarn(loom))
+    return replace(whole, yarns=yarns, heads=HEAD, tools=tools(loom), dyed=(PACKAGE, TUBE), guards=GUARDS)
+
+
+def scene_of(
+    report: Report,
+    branches: tuple[MachineTree, ...],
+    tree: Tree,
+    *,
+    warps: tuple[SceneYarn, ...],
+    carpet: SceneCarpet,
+    roll: ScenePart,
+    periods: Mapping[str, float],
+    phases: tuple[ScenePhase, ...],
+    floor: float,
+) -> Scene:
+    """The scene of a loom of any kind: its trees and its cloth, without heads; tree: all its bodies."""
+    branches, checks = _in_the_scene(branches), report.all_checks
     parts = (
         part
         for branch in branches
@@ -54,24 +90,14 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     return Scene(
         title=report.title,
         frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames),
-        parts=(*(part if part.plate in drawn else replace(part, plate="") for part in parts), carpet_roll(loom)),
-        warps=_warps(loom),
-        yarns=(*wefts(loom), *knot_yarn(loom)),
-        carpet=_carpet(loom),
-        periods=periods_of(loom),
-        heads=HEAD,
-        tools=tools(loom),
-        dyed=(PACKAGE, TUBE),
-        phases=tuple(
-            ScenePhase(drive, track.name, own.name, own.start, own.end)
-            for drive, cyclogram in ((ROW, loom.row_cyclogram), *(((KNOT, loom.knot_cyclogram),) if loom.heads else ()))
-            for track in cyclogram.tracks
-            for own in track.segments
-        ),
-        guards=GUARDS,
-        floor=loom.side.floor,
-        failures=tuple(check for check in report.all_checks if not check.ok),
-        bodies=_bodies(loom_tree(loom)),
+        parts=(*(part if part.plate in drawn else replace(part, plate="") for part in parts), roll),
+        warps=warps,
+        carpet=carpet,
+        periods=periods,
+        phases=phases,
+        floor=floor,
+        bodies=_bodies(tree),
+        failures=tuple(check for check in checks if not check.ok),
         nearest=report[NEAREST_PAIRS] if NEAREST_PAIRS in report.names() else None,
     )
 
@@ -109,7 +135,7 @@ def loom_tree(loom: LoomDesign) -> Tree:
 
 
 def _bodies(tree: Tree) -> dict[str, SceneBody]:
-    """What holds each body of a tree, and what moves it: its motor, or what leads it, it is fixed to, or carries it."""
+    """What holds each body of a tree, and what moves it: motor, hand, what leads it, it is fixed to, or carries it."""
     titles = {part.id: part.title for part, _ in tree.occurrences()}
     fixed = [closure.bodies for closure in tree.closures if closure.kind is JointKind.FIXED]
     leads = [closure.bodies for closure in tree.closures if closure.kind is not JointKind.FIXED]
@@ -119,58 +145,59 @@ def _bodies(tree: Tree) -> dict[str, SceneBody]:
         leading = tuple(first for first, second in leads if second == body.id)
         fixed_to = tuple(second for first, second in fixed if first == body.id)
         carrier = (body.parent,) if drive and not joint.passive and body.parent != GROUND else ()
-        follows = () if joint.motor else leading or fixed_to or carrier
-        return SceneBody(body.parent, joint.kind.value, drive, titles.get(joint.motor, ""), follows, joint.passive)
+        follows = () if joint.motor or joint.hand else leading or fixed_to or carrier
+        return SceneBody(
+            body.parent, joint.kind.value, drive, titles.get(joint.motor or joint.hand, ""), follows, joint.passive
+        )
 
     return {body.id: held(body) for body in tree.bodies}
 
 
-def _warps(loom: LoomDesign) -> SceneWarps:
-    side, row = loom.side, loom.row_cyclogram
-    line, lifted = warp_line(loom)
-    even, odd = row.track(EVEN), row.track(ODD)
-    angle = track_angles(even, odd)
-    shaft, is_odd = warp_shafts(loom.shedding)
-    return SceneWarps(
-        x=warp_positions(loom),
-        shaft=shaft,
-        odd=is_odd,
-        line=line,
-        lifted=lifted,
-        lifts=tuple(float(cam.lift) for cam in side.cams),
-        angle=angle,
-        even=sample(even, angle).position / loom.row_timing.lift,
-        odd_share=sample(odd, angle).position / loom.row_timing.lift,
-        diameter=loom.task.yarns.warp.diameter,
-    )
+def _warps(loom: LoomDesign) -> tuple[SceneYarn, ...]:
+    """A sheet for the even and the odd warps of each cam shaft, the lowest first."""
+    row, lift, line = loom.row_cyclogram, loom.row_timing.lift, _warp_line(loom)
+    tracks = row.track(EVEN), row.track(ODD)
+    angle = track_angles(*tracks)
+    shaft, odd = warp_shafts(loom.shedding)
+    x, diameter = warp_positions(loom.shedding), loom.task.yarns.warp.diameter
+    sheets = []
+    for number, cam in enumerate(loom.side.cams):
+        lifted = np.interp(line.imag, [0.0, cam.at.imag, loom.side.back_rest.at.imag], [0.0, cam.lift, 0.0])
+        for parity, track in enumerate(tracks):
+            points = line + sample(track, angle).position[:, None] / lift * lifted
+            own = x[(shaft == number) & (odd == bool(parity))]
+            name = f"{track.name} of shaft {number + 1}"
+            sheets.append(SceneYarn(name, name, STANDS, ROW, angle, upright(points), diameter, own))
+    return tuple(sheet for sheet in sheets if sheet.across is not None and sheet.across.size)
 
 
-def warp_line(loom: LoomDesign) -> tuple[Float[np.ndarray, "points 2"], tuple[int, ...]]:
-    """A warp at rest in the side view, z and y [m], and the numbers of its points that the cam shafts lift.
-
-    From the fell by the cam shafts to the back rest, over it, and level to the upper cylinder.
+def _warp_line(loom: LoomDesign) -> ComplexArray:
+    """A warp at rest in the side view: from the fell by the cam shafts to the back rest, over it, level to the upper
+    cylinder.
     """
     side = loom.side
-    rest = side.back_rest
-    heights = [float(cam.at.imag) for cam in side.cams]
-    points = [0j, *(1j * height for height in heights)]
-    over = rest.at + rest.radius * np.exp(1j * np.linspace(0.0, turn / 4, _ARC))
-    points += [*over.tolist(), complex(side.upper.at + 1j * side.upper.radius)]
-    line = np.array(points)
-    return np.stack([line.real, line.imag], axis=1), tuple(range(1, len(heights) + 1))
+    over = side.back_rest.at + side.back_rest.radius * np.exp(1j * np.linspace(0.0, turn / 4, _ARC))
+    return np.array([0j, *(1j * cam.at.imag for cam in side.cams), *over, side.upper.at + 1j * side.upper.radius])
 
 
-def _carpet(loom: LoomDesign) -> SceneCarpet:
-    """The carpet from the fell down the fronts of spacer and lower cylinder, and half round the roll."""
-    side = loom.side
-    round_ = side.lower.at + side.lower.radius * np.exp(-1j * np.linspace(0.0, turn / 2, 17))
+def upright(points: ComplexArray) -> Float[np.ndarray, "... 3"]:
+    """Points of the side view, z + i y [m], in space at x = 0."""
+    return np.stack([np.zeros(points.shape), points.imag, points.real], axis=-1)
+
+
+def carpet(cloth: Cloth, grid: tuple[int, int], pile: float, lower: RoundPart) -> SceneCarpet:
+    """The carpet from the fell down the fronts of spacer and lower cylinder, and half round the roll.
+
+    grid  rows and knots of a row      pile  before the warps [m]
+    """
+    round_ = lower.at + lower.radius * np.exp(-1j * np.linspace(0.0, turn / 2, 17))
     line = np.concatenate([[0j], round_])
     return SceneCarpet(
-        width=loom.task.cloth.width,
-        columns=loom.columns,
-        rows=loom.rows,
-        column_pitch=loom.knot_pitch,
-        row_pitch=loom.task.cloth.row_distance,
-        pile=side.pile,
+        width=cloth.width,
+        columns=grid[1],
+        rows=grid[0],
+        column_pitch=cloth.knot_pitch,
+        row_pitch=cloth.row_distance,
+        pile=pile,
         line=np.stack([line.real, line.imag], axis=1),
     )

@@ -1,6 +1,6 @@
 """What stands, and what turns with the warps: frame, heads' rail, cylinders, back rest, carpet roll, motors."""
 
-from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.arrangement.side_view import RETREAT, RoundPart
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
@@ -9,7 +9,6 @@ from ilmek.machines.automated_loom.in_space.maker import (
     STANDS,
     MachineTree,
     along_track,
-    half_width,
     motion,
     room_part,
     track_angles,
@@ -17,6 +16,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
+from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.slot import over, turned_slot
 from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
@@ -63,13 +63,16 @@ def _warp_cylinders(loom: LoomDesign) -> Tree:
     return turning(cylinder_tree(loom.warp_tension, positions), motions)
 
 
-def carpet_roll(loom: LoomDesign) -> ScenePart:
-    """The room of the whole carpet on the lower cylinder, open over its attachment bar and where this goes in a row."""
-    side, half, lower = loom.side, half_width(loom), cylinders(loom.warp_tension)[1]
-    deep = over(lower) + loom.task.yarns.warp.diameter
-    bore = turned_slot(lower, deep, 4 * loom.task.cloth.row_distance)
-    radius = max(side.roll, lower.outer + deep + mm)  # a short carpet lies over the bar
-    roll = Prism(Profile(circle(0j, radius), (bore,)), 2 * half).mesh(FINE)
-    along = placement(-half, side.lower.at.imag, side.lower.at.real).after(ALONG_WIDTH)
-    solid = Solid(along.points(roll.points), roll.triangles)
-    return room_part("whole carpet on the lower cylinder", STANDS, solid, "automated-loom")
+def carpet_roll(winding: WarpTensionDesign, lower: RoundPart, roll: float) -> ScenePart:
+    """The room of the whole carpet on the lower cylinder, open over its attachment bar and where this goes in a row.
+
+    lower  cylinder in the side view      roll  radius with the carpet [m]
+    """
+    cloth, slotted = winding.params.cloth, cylinders(winding)[1]
+    deep, half = over(slotted) + cloth.carpet_yarns.warp.diameter, cloth.width / 2
+    bore = turned_slot(slotted, deep, 4 * cloth.row_distance)
+    radius = max(roll, slotted.outer + deep + mm)  # a short carpet lies over the bar
+    carpet = Prism(Profile(circle(0j, radius), (bore,)), 2 * half).mesh(FINE)
+    along = placement(-half, lower.at.imag, lower.at.real).after(ALONG_WIDTH)
+    solid = Solid(along.points(carpet.points), carpet.triangles)
+    return room_part("whole carpet on the lower cylinder", STANDS, solid, "warp-tension")
