@@ -9,6 +9,7 @@ import pytest
 from cloths import cloth
 from PIL import Image
 
+from ilmek.cli.loom_summary import loom_pairs
 from ilmek.errors import LoomError
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.loom import read_loom_order
@@ -224,3 +225,4 @@ def test_a_carpet_is_woven_on_a_hand_loom_with_chart_time_and_wage_and_no_progra
     assert (results["heads"], results["weavers"]) == (0, 1)
     assert results["weaving_time"] == pytest.approx(woven.loom["weaving_time"])
     assert "nothing of the loom is driven" in woven.warnings[0]
+    assert not [text for _, text in loom_pairs(woven) if "by hand" in text]

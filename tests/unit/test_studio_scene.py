@@ -19,7 +19,7 @@ from ilmek.io.dxf import write_dxf
 from ilmek.jobs import loom_space
 from ilmek.jobs.loom_space import loom_in_space, scene_answer
 from ilmek.jobs.studio.answers import Binary, Context
-from ilmek.jobs.studio.loom.scene import LoomRequest, PlateRequest, glb, plate, project_loom, scene
+from ilmek.jobs.studio.loom.scene import LoomRequest, PlateRequest, glb, in_space, plate, project_loom, scene
 from ilmek.plane.contours import area
 from ilmek.plane.solids import bounds
 from ilmek.report import Contour
@@ -41,7 +41,7 @@ def project(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def _read(answer: Binary) -> tuple[dict, list[np.ndarray]]:
     size = int.from_bytes(answer.body[:4], "little")
     about, begin, parts = json.loads(answer.body[4 : 4 + size]), 4 + size, []
-    for length in about["lengths"]:
+    for length in about.get("lengths", ()):
         parts.append(np.frombuffer(answer.body[begin : begin + length], np.uint8))
         begin += -(-length // 8) * 8
     assert begin == len(answer.body)
@@ -148,6 +148,11 @@ def test_a_hand_loom_is_shown_with_the_change_of_its_shed(project: Path) -> None
     assert (about["nearest"], about["heads"], about["guards"]) == (None, "", [])
     held = about["bodies"]["hand-shed/heddles"]
     assert (held["drive"], held["motor"]) == ("shed", "hand lever of the heddles")
+    compared, _ = _read(in_space(LoomRequest("machines/hand.toml"), Context(str(project))))
+    assert compared["failures"] == []
+    parts = {tuple(part["ids"]) for part in about["parts"]}
+    assert len({str(pair["parts"] + pair["bodies"]) for pair in compared["nearest"]}) == len(compared["nearest"]) > 0
+    assert all({*zip(pair["parts"], pair["bodies"], strict=True)} <= parts for pair in compared["nearest"])
 
 
 def test_a_large_chart_is_shown_by_fewer_knots(project: Path) -> None:

@@ -14,7 +14,7 @@ from ilmek.machines.automated_loom.choice import deadline_check
 from ilmek.machines.automated_loom.cost import machine_cost
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.frame import column_checks, part_id
-from ilmek.machines.automated_loom.nearest_parts import NearParts
+from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
 from ilmek.machines.hand_loom.design import HandLoom
 from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
@@ -83,7 +83,7 @@ class HandAssembly:
 
     loom: HandLoom
     contacts: Contacts
-    nearest: tuple[Approach, ...]
+    nearest: tuple[NearParts, ...]
 
     buildable = computed(
         "",
@@ -104,13 +104,18 @@ class HandAssembly:
         "", "the pairs of parts that come nearest: those through each other, then those that do not touch", shown=False
     )
     def nearest_pairs(self) -> list[Json]:
-        apart = (near for near in self.nearest if near.distance > TOUCHING)
-        return [NearParts(near).as_json() for near in (*self.through, *apart)[:_NEAREST]]
+        return [near.as_json() for near in self.apart]
+
+    @property
+    def apart(self) -> tuple[NearParts, ...]:
+        """What is through each other, then what moves against each other and does not touch, the nearest first."""
+        through = (NearParts(near) for near in self.through)
+        return (*through, *(near for near in self.nearest if near.approach.distance > TOUCHING))[:_NEAREST]
 
     @property
     def through(self) -> tuple[Approach, ...]:
         """Parts through each other, standing or in the change of the shed."""
-        return (*self.contacts.through, *(near for near in self.nearest if near.distance < 0))
+        return (*self.contacts.through, *(near.approach for near in self.nearest if near.approach.distance < 0))
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -131,7 +136,7 @@ class HandAssembly:
     @property
     def tables(self) -> tuple[Table, ...]:
         """The pairs that come nearest while the shed is changed."""
-        rows = tuple((*near.parts, near.distance) for near in self.nearest[:_NEAREST])
+        rows = tuple((*near.approach.parts, near.approach.distance) for near in self.apart)
         return (Table("hand-loom-nearest-parts", "Nearest parts", columns("part", "and", "least [mm]"), rows),)
 
 
@@ -142,7 +147,9 @@ _NEAREST, _HORIZON = 10, 20e-3
 def assembly(loom: HandLoom) -> HandAssembly:
     """The parts of a loom against each other."""
     whole = tree(loom)
-    return HandAssembly(loom, contacts(whole), approaches(whole, SHED, _HORIZON))
+    return HandAssembly(
+        loom, contacts(whole), nearest_of(NearParts(near) for near in approaches(whole, SHED, _HORIZON))
+    )
 
 
 def _worst(through: tuple[Approach, ...]) -> str:
