@@ -242,7 +242,8 @@ def _deadline(found: HandLoomAnalysis, deadline: float) -> Check:
     loom = found.loom
     needed = math.ceil(loom.weavers * loom.rows * loom.row_time / deadline)
     check = deadline_check(deadline, loom.rows * loom.row_time)
-    return check.with_cure(f"{needed} weavers would keep it, {loom.weavers} find room: set a later deadline, or heads")
+    persons = f"{needed} weavers would keep it, {loom.weavers} find room"
+    return check.with_cure(f"{persons}: set a later deadline, or a loom with heads")
 
 
 def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
