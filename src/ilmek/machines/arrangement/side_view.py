@@ -378,8 +378,8 @@ def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart
     corners = np.array(boxes)[:, None] + heads.retreated * np.linspace(0.0, 1.0, _STEPS)
     aside = corners.real - lower.at.real
     over = np.sqrt(np.maximum((1 + _MORE) * reach**2 - aside**2, 0.0))
-    free = (corners.imag - over)[np.abs(aside) < reach]
-    return RoundPart(complex(lower.at.real, min(lower.at.imag, *free.tolist())), lower.radius)
+    free = [lower.at.imag, *(corners.imag - over)[np.abs(aside) < reach].tolist()]
+    return RoundPart(complex(lower.at.real, min(free)), lower.radius)
 
 
 def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:
