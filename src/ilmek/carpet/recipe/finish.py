@@ -8,6 +8,7 @@ import numpy as np
 from ilmek.arrays import Bool, FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
+from ilmek.carpet.creel import number_in
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.nearest_colour import nearest
@@ -219,8 +220,7 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
     chosen = tuple(yarns[number] for number in kept)
     if chosen == chart.yarns:
         return chart, {number: at for at, number in enumerate(kept)}
-    new = {yarn.name: at for at, yarn in enumerate(chosen)}
-    table = np.array([new[yarn.name] for yarn in chart.yarns], dtype=np.uint8)
+    table = np.array([number_in(chosen, yarn) for yarn in chart.yarns], dtype=np.uint8)
     knots: Indices = np.empty_like(chart.knots)
     for band in bands(*knots.shape):
         knots[band] = table[chart.knots[band]]
