@@ -4,7 +4,6 @@ The designer of an indexed picture numbers the yarns: index 2 is the yarn on pos
 chart by colours alone would merge two positions that look alike, and would sort the others by the yarn list.
 """
 
-from collections.abc import Sequence
 from dataclasses import fields, replace
 from operator import attrgetter
 
@@ -81,12 +80,6 @@ _BESIDES_NAME = attrgetter(*(part.name for part in fields(Yarn) if part.name != 
 def _is_same(one: Yarn, other: Yarn) -> bool:
     """Whether two yarns of a chart are one yarn of the list."""
     return one == other or (one.number is not None and _BESIDES_NAME(one) == _BESIDES_NAME(other))
-
-
-def number_in(yarns: Sequence[Yarn], yarn: Yarn) -> int:
-    """The number in a list of a yarn of a chart: that of its name; of one named by its position that of its like."""
-    names = [own.name for own in yarns]
-    return names.index(yarn.name) if yarn.name in names else [*map(_BESIDES_NAME, yarns)].index(_BESIDES_NAME(yarn))
 
 
 def _named_apart(yarns: tuple[Yarn, ...], creel: tuple[int, ...]) -> tuple[Yarn, ...]:

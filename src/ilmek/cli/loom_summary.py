@@ -47,7 +47,7 @@ def fewer_in_words(loom: LoomDesign) -> str:
         able = [(cost.of_fewer(wanted), name) for cost, name in looms if cost.carpets_per_year >= wanted]
         least, name = min([*able, (float(own.hand_cost), "by hand")])
         texts.append(f"for {wanted:,.0f} a year {name}: {least:,.0f}, with this loom {own.of_fewer(wanted):,.0f}")
-    return "; ".join(texts)
+    return f"estimated, {'; '.join(texts)}"
 
 
 def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import Bool, FloatArray, Indices, Pixels
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.colour import srgb_to_lab
-from ilmek.carpet.creel import number_in
+from ilmek.carpet.creel import names_to_buy
 from ilmek.carpet.design import bands
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.nearest_colour import nearest
@@ -220,7 +220,8 @@ def _with_yarns(chart: Chart, yarns: Sequence[Yarn], named: set[int]) -> tuple[C
     chosen = tuple(yarns[number] for number in kept)
     if chosen == chart.yarns:
         return chart, {number: at for at, number in enumerate(kept)}
-    table = np.array([number_in(chosen, yarn) for yarn in chart.yarns], dtype=np.uint8)
+    new = {yarn.name: at for at, yarn in enumerate(chosen)}
+    table = np.array([new[name] for name in names_to_buy(chart)], dtype=np.uint8)
     knots: Indices = np.empty_like(chart.knots)
     for band in bands(*knots.shape):
         knots[band] = table[chart.knots[band]]

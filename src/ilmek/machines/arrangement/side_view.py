@@ -360,13 +360,9 @@ def below(path: "BeatPath | None") -> float:
 
 
 def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundPart, float]:
-    """Spacer, lower cylinder of a radius, and the radius of this with the whole carpet wound on it [m].
-
-    A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
-    """
+    """Spacer, lower cylinder of a radius, and the radius of this with the whole carpet wound on it [m]."""
     head, height = task.weaver, task.params.pile.pile_height
-    thickness = (head.params.pile_height if head else height) + 3 * task.yarns.warp.diameter
-    roll = math.sqrt(radius**2 + task.params.length * thickness / math.pi)
+    roll = rolled(radius, task.params.length, head.params.pile_height if head else height, task.yarns.warp.diameter)
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
     return *under_the_fell(radius, wide, roll), roll
@@ -380,6 +376,17 @@ def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart
     over = np.sqrt(np.maximum((1 + _MORE) * reach**2 - aside**2, 0.0))
     free = [lower.at.imag, *(corners.imag - over)[np.abs(aside) < reach].tolist()]
     return RoundPart(complex(lower.at.real, min(free)), lower.radius)
+
+
+def rolled(radius: float, length: float, pile_height: float, warp: float) -> float:
+    """Radius of a cylinder with a carpet wound on it [m], its ground three warps' diameters thick.
+
+    A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
+
+    >>> round(rolled(0.0, math.pi, 0.7, 0.1), 9)
+    1.0
+    """
+    return math.sqrt(radius**2 + length * (pile_height + 3 * warp) / math.pi)
 
 
 def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:

@@ -1,13 +1,13 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.carpet.pile import pile_check
-from ilmek.elements.prices import price_of
+from ilmek.elements.prices import PriceRates, price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
@@ -35,7 +35,7 @@ from ilmek.machines.weaver.carriage_drive import tension_check
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.records import computed, record
-from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
+from ilmek.report import BillLine, CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -272,7 +272,12 @@ def _least_room(loom: LoomDesign) -> float:
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
     costs = _heads_table(found), _cost_table(found), *_rates_table(found)
-    listed = *costs, _parts_table(found.listed), _prices_table(found.listed), _row_table(found.loom)
+    listed = (
+        *costs,
+        parts_table(found.listed.parts, found.listed.prices),
+        _prices_table(found.listed),
+        _row_table(found.loom),
+    )
     return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
 
 
@@ -335,15 +340,16 @@ def _moved(limits: RateLimits, search: LoomSearch) -> Iterator[str]:
         yield "" if limit is None else search.unlike(search.others[limit[1]][0])
 
 
-def _parts_table(listed: PartsList) -> Table:
+def parts_table(lines: Iterable[BillLine], prices: Mapping[str, PriceRates]) -> Table:
+    """The parts of a loom with their masses and prices."""
     heads = columns("part | number | description | material | mass of one [kg] 3 | mass of all [kg] | price of all")
     rows = tuple(
         (
-            *(part.name, part.number, part.description, part.material, part.mass),
-            part.number * part.mass,
-            price_of(part, listed.prices),
+            *(line.name, line.number, line.description, line.material, line.mass),
+            line.number * line.mass,
+            price_of(line, prices),
         )
-        for part in listed.parts
+        for line in lines
     )
     return Table("loom-parts", "Parts of the loom", heads, rows)
 

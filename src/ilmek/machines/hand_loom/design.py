@@ -131,8 +131,7 @@ def design(params: HandLoomParams) -> HandLoom:
     )
     winding: WarpTensionDesign = _made("warp-tension", task, wound)
     safety = params.column_safety, params.buckling_safety, params.column_bow
-    thickness = params.pile.pile_height + 3 * cloth.carpet_yarns.warp.diameter
-    layout = laid_out(winding, shed, thickness, safety)
+    layout = laid_out(winding, shed, params.pile.pile_height, safety)
     winding = _made("warp-tension", task, replace(wound, crank_shaft=layout.column.side))
     machines = {
         name: Child(MACHINES[name], own)

@@ -5,7 +5,6 @@ winds it. The spacer, which the warps turn, keeps their plane where rod and hedd
 traditional loom of the thesis has none. The columns stand behind the cylinders, as far as their reducers need.
 """
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +12,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.fillet_welds import TwoSeams, throat_for
-from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR, RoundPart, under_the_fell
+from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR, RoundPart, rolled, under_the_fell
 from ilmek.machines.automated_loom.brackets import bores_of, least_height
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, column_checks
@@ -115,15 +114,15 @@ class HandLoomLayout:
 
 
 def laid_out(
-    winding: WarpTensionDesign, shed: HandShed, thickness: float, safety: tuple[float, float, float]
+    winding: WarpTensionDesign, shed: HandShed, pile_height: float, safety: tuple[float, float, float]
 ) -> HandLoomLayout:
     """The layout for the cylinders and the shed.
 
-    thickness  of the wound carpet [m]      safety  of columns against yield and Euler's load, and their bow [m]
+    pile_height  of the wound carpet [m]    safety  of columns against yield and Euler's load, and their bow [m]
     """
     params, radius = winding.params, winding.outer_radius
     wide = max(radius, spacer_tube(params, radius).outer_radius)
-    roll = math.sqrt(radius**2 + params.carpet_length * thickness / math.pi)
+    roll = rolled(radius, params.carpet_length, pile_height, params.cloth.carpet_yarns.warp.diameter)
     spacer, lower = under_the_fell(radius, wide, roll)
     upper = RoundPart(complex(-radius, shed.params.free_length), radius)
     floor = lower.at.imag - max(roll + ABOVE_FLOOR, params.crank + HANDLE_SIZE + WHEEL_FREE)

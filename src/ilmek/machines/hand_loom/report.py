@@ -7,7 +7,7 @@ from functools import lru_cache
 from ilmek.carpet.pile import pile_check
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.materials import GRAVITY
-from ilmek.elements.prices import price_of, read_prices
+from ilmek.elements.prices import read_prices
 from ilmek.machines.automated_loom.assembly import joint_check, mesh_check
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check
@@ -16,6 +16,7 @@ from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.frame import column_checks, part_id
 from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
+from ilmek.machines.automated_loom.report import parts_table
 from ilmek.machines.hand_loom.design import HandLoom
 from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
 from ilmek.machines.hand_loom.layout import CylinderBracket
@@ -248,23 +249,9 @@ def _deadline(found: HandLoomAnalysis, deadline: float) -> Check:
 
 def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
     """Acts of a row, parts, and what the loom does not have."""
-    prices = read_prices(found.loom.params.prices)
     acts = tuple(found.loom.row_acts.items())
-    parts = tuple(
-        (
-            line.name,
-            line.number,
-            line.description,
-            line.material,
-            line.mass,
-            line.number * line.mass,
-            price_of(line, prices),
-        )
-        for line in found.lines
-    )
-    heads = columns("part | number | description | material | mass of one [kg] 3 | mass of all [kg] | price of all")
     return (
         Table("hand-loom-row", "Time of a row by its acts", columns("act", "time [s]"), acts),
-        Table("loom-parts", "Parts of the loom", heads, parts),
+        parts_table(found.lines, read_prices(found.loom.params.prices)),
         Table("hand-loom-absent", "What a hand loom does not have", columns("not there", "why"), ABSENT),
     )
