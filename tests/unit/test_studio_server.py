@@ -166,6 +166,7 @@ def test_a_work_reports_to_its_page_alone(server: Studio) -> None:
 
 
 def test_a_deaf_request_is_ended_and_its_worker_replaced(server: Studio) -> None:
+    until(lambda: not server.busy(), "the end of earlier works")  # else the work waits, and has no worker to be ended
     number = server.send("POST", "/api/long", {"seconds": 30, "deaf": True}).json["work"]
     until(server.busy, "the work")
     before = set(server.pool.processes())
