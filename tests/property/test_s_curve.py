@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import law_of
@@ -119,6 +119,7 @@ LIMITS = st.tuples(SIZES, SIZES, st.one_of(SIZES, st.just(math.inf)))
 
 
 @given(st.floats(1e-3, 10.0), st.floats(0.0, 5.0), LIMITS)
+@example(0.1115, 0.0, (0.55, 837.0, 3.72))  # the second pitch requires the most, although more are required beyond
 def test_the_time_of_a_further_pitch_is_the_least_that_no_longer_move_exceeds(pitch, window, limits):
     """Tried for each number of pitches up to where every move has its full speed, and far beyond."""
     axis = AxisLimits(*limits)

@@ -121,23 +121,25 @@ def travel_time(pitch: float, window: float, limits: AxisLimits) -> float:
 
         move_time(d p) <= W + (d - 1) t   for every d,   W = max(window, move_time(p))
 
-    Where the window [s] is long enough for start and stop, t is p / v; a shorter one lengthens t. move_time is concave
-    in the distance, so that the t required for d pitches, (move_time(d p) - W)/(d - 1), rises to one maximum and then
-    falls, and bisection finds it; beyond the distance at which the speed is reached it only tends to p / v.
+    Where the window [s] is long enough for start and stop, t is p / v; a shorter one lengthens t. Up to the distance at
+    which the speed v is reached, move_time is concave, so that the t required for d pitches,
+    (move_time(d p) - W)/(d - 1), rises to one maximum and then falls, and bisection finds it. From there on move_time
+    is straight, with a slope that is steeper than just before where the jerk is finite, and the required t tends
+    monotonically to p / v: the first such d and the limit are compared.
     """
     room = max(window, move_time(pitch, limits))
 
     def required(pitches: int) -> float:
         return (move_time(pitches * pitch, limits) - room) / (pitches - 1)
 
-    # From this distance on a move reaches its speed.
-    ramp, hold = math.sqrt(limits.speed / limits.jerk), limits.speed / limits.acceleration
-    reach = limits.speed * max(2 * ramp, hold + limits.acceleration / limits.jerk)
-    low, high = 2, 2 + math.ceil(reach / pitch)
+    jerking, steady = _ramp(limits.speed, limits.acceleration, limits.jerk)
+    reach = limits.speed * (2 * jerking + steady)
+    low = 2
+    high = last = max(low, math.floor(reach / pitch))
     while low < high:
         middle = (low + high) // 2
         low, high = (middle + 1, high) if required(middle + 1) > required(middle) else (low, middle)
-    return max(pitch / limits.speed, required(low))
+    return max(pitch / limits.speed, required(low), required(last + 1))
 
 
 def _ramp(speed: float, acceleration: float, jerk: float) -> tuple[float, float]:
