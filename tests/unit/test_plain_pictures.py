@@ -53,3 +53,18 @@ def test_greys_of_twelve_bits_are_not_one_black_yarn(tmp_path: Path) -> None:
     chart = np.asarray(Image.open(tmp_path / "out" / "chart.png").convert("L"), dtype=float)
     assert data["holds"]
     assert chart[:, -5:].mean() - chart[:, :5].mean() > 150
+
+
+def test_a_hard_line_keeps_its_colour_though_its_codes_lie_between_two_others(tmp_path: Path) -> None:
+    """Terracotta lines on ivory: their codes lie between those of the red and the yellow, which they do not touch."""
+    ivory, red, yellow, terracotta = (239, 230, 208), (158, 43, 37), (227, 192, 74), (181, 83, 47)
+    drawing = np.full((122, 184, 3), ivory, dtype=np.uint8)
+    drawing[:20], drawing[-20:] = red, yellow
+    drawing[40:80:6, 20:160] = terracotta
+    Image.fromarray(drawing).save(tmp_path / "lines.png")
+    yarns = tmp_path / "yarns.csv"
+    named = zip(["ivory", "red", "yellow", "terracotta"], (ivory, red, yellow, terracotta), strict=True)
+    yarns.write_text("name,srgb\n" + "".join(f"{name},#{r:02x}{g:02x}{b:02x}\n" for name, (r, g, b) in named))
+    _charted(tmp_path / "lines.png", tmp_path, "--size", "92x61cm", "--quality", "40x40/dm", "--yarns", str(yarns))
+    chart = np.asarray(Image.open(tmp_path / "out" / "chart.png").convert("RGB"))
+    assert {tuple(code) for code in chart.reshape(-1, 3).tolist()} == {ivory, red, yellow, terracotta}

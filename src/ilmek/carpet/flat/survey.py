@@ -25,6 +25,7 @@ class Survey:
     spread  largest range of a channel over the 3 × 3 pixels
     ridge   contrast to both sides of a line through the pixel; 0: none
     ramp    contrast of the two opposite neighbours that the pixel lies between; 0: none
+    beside  sRGB beside the ridge
     """
 
     codes: UInt8[np.ndarray, "pixels 3"]
@@ -32,6 +33,7 @@ class Survey:
     spread: UInt8[np.ndarray, " pixels"]
     ridge: UInt8[np.ndarray, " pixels"]
     ramp: UInt8[np.ndarray, " pixels"]
+    beside: UInt8[np.ndarray, "pixels 3"]
 
 
 def sample_positions(length: int, step: int) -> Int64[np.ndarray, " positions"]:
@@ -57,8 +59,9 @@ def survey(rgb: Rgb) -> Survey:
         np.empty(size, np.uint8),
         np.empty(size, np.uint8),
         np.empty(size, np.uint8),
+        np.zeros((size, 3), np.uint8),
     )
-    _survey(rgb, rows, columns, made.codes, made.means, made.spread, made.ridge, made.ramp)
+    _survey(rgb, rows, columns, made.codes, made.means, made.spread, made.ridge, made.ramp, made.beside)
     return made
 
 
@@ -68,10 +71,11 @@ def _inside(position: int, length: int) -> int:
 
 
 @uncounted
-def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int]:
-    """Contrast of the ridge and of the ramp at a pixel along one direction."""
+def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int, int, int]:
+    """Contrast of the ridge and of the ramp at a pixel along one direction; row and column of a pixel beside it."""
     height, width = rgb.shape[:2]
     ridge = ramp = 0
+    row, column = y, x
     for before in range(1, 3):
         up, left = _inside(y - before * down, height), _inside(x - before * right, width)
         for behind in range(1, 3):
@@ -82,11 +86,12 @@ def _profile(rgb: Rgb, y: int, x: int, down: int, right: int) -> tuple[int, int]
                 two = int(np.int64(rgb[y, x, channel])) - int(np.int64(rgb[low, far, channel]))
                 product += one * two
                 least, most = max(least, abs(one)), max(most, abs(two))
-            if product > 0:
-                ridge = max(ridge, min(least, most))
+            if product > 0 and min(least, most) > ridge:
+                ridge = min(least, most)
+                row, column = up, left
             elif product < 0 and before == 1 and behind == 1 and 4 * min(least, most) > max(least, most):
                 ramp = least + most
-    return ridge, min(ramp, 255)
+    return ridge, min(ramp, 255), row, column
 
 
 @uncounted
@@ -99,6 +104,7 @@ def _survey(  # noqa: PLR0917
     spreads: UInt8[np.ndarray, " pixels"],
     ridges: UInt8[np.ndarray, " pixels"],
     ramps: UInt8[np.ndarray, " pixels"],
+    beside: UInt8[np.ndarray, "pixels 3"],
 ) -> None:
     height, width = rgb.shape[:2]
     pixel = 0
@@ -119,7 +125,11 @@ def _survey(  # noqa: PLR0917
             ridge = ramp = 0
             if spread > 3:
                 for down, right in ((0, 1), (1, 0), (1, 1), (1, -1)):
-                    one, two = _profile(rgb, y, x, down, right)
-                    ridge, ramp = max(ridge, one), max(ramp, two)
+                    here, slope, row, column = _profile(rgb, y, x, down, right)
+                    ramp = max(ramp, slope)
+                    if here > ridge:
+                        ridge = here
+                        for channel in range(3):
+                            beside[pixel, channel] = rgb[row, column, channel]
             ridges[pixel], ramps[pixel] = ridge, ramp
             pixel += 1

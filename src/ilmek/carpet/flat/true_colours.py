@@ -3,7 +3,7 @@
 1. If nearly all areas have exactly one of few codes, the picture is *clean*: these codes are true colours. Else the
    modes of the areas' colours are (`modes`), which grain, abrash and the blocks of a JPEG leave in position.
 2. Lines and dots have no areas. Colours of ridges that are far from all colours of areas, and are no mixture of two of
-   them, are true colours also.
+   them, are true colours also; where all edges are hard, so are those that are no mixture of what is beside them.
 3. A colour that hardly has areas or ridges, beside the other colours, and is a blend of two of them or near to one of
    them, is the mixture on an edge or the halo that a JPEG leaves there, and no true colour.
 
@@ -34,6 +34,9 @@ _JPEG = 14
 
 _EXPLAINED, _MOST_CODES = 0.8, 2000
 """Least share of the pixels outside of even areas that mixtures explain in a clean picture; codes that are tried."""
+
+_HARD = 32
+"""Largest number of codes on the ridges of a picture with hard edges. Smoothed edges have a code for each share."""
 
 _LEAST_AREA = 2e-5
 """Least share of the sample of a colour with areas."""
@@ -157,16 +160,35 @@ def _with_lines(
     ridge = ~even & (survey.ridge >= max(24, 3 * noise)) & (2 * survey.ridge.astype(int) > survey.ramp)
     if clean:
         codes, sizes = _by_count(_codes(survey.codes[ridge]))
-        found = _colours(codes).astype(float)
+        found, hard = _colours(codes).astype(float), len(codes) <= _HARD
     else:
+        hard = False
         found, sizes = modes(survey.codes[ridge], 3)
     least = max(4, 0.002 * np.count_nonzero(ridge)) if np.count_nonzero(ridge) > 200 else 1
-    for colour, _size in zip(found[sizes >= least][:MOST_COLOURS], sizes, strict=False):
-        one = np.rint(colour).astype(np.uint8)[None]
-        apart = np.linalg.norm(srgb_to_lab(srgb) - srgb_to_lab(one), axis=-1).min()
-        if len(srgb) < MOST_COLOURS and apart >= _NEW and not is_mixture(colour[None], srgb, _OFF)[0]:
-            srgb = np.concatenate([srgb, one])
+    for colour in found[sizes >= least][:MOST_COLOURS]:
+        line = np.rint(colour).astype(np.uint8)
+        apart = np.linalg.norm(srgb_to_lab(srgb) - srgb_to_lab(line[None]), axis=-1).min()
+        if len(srgb) == MOST_COLOURS or apart < _NEW:
+            continue
+        mixed = is_mixture(colour[None], srgb, _OFF)[0]
+        if not mixed or (hard and not _is_mixed_with_its_ground(survey, line, ridge, srgb)):
+            srgb = np.concatenate([srgb, line[None]])
     return srgb
+
+
+def _is_mixed_with_its_ground(
+    survey: Survey, line: UInt8[np.ndarray, " 3"], ridge: BoolArray, srgb: UInt8[np.ndarray, "colours 3"]
+) -> bool:
+    """Whether a colour of lines is, on half of its ridges, a mixture of the colour beside it and another one.
+
+    Two colours that never meet there have no mixture on this line, whatever lies between their codes.
+    """
+    grounds, counts = _by_count(_codes(survey.beside[ridge & (survey.codes == line).all(axis=-1)]))
+    colour = line[None].astype(float)
+    pairs = ((ground, other) for ground in _colours(grounds) for other in srgb)
+    mixed = [is_mixture(colour, np.stack(pair), _OFF)[0] for pair in pairs]
+    share = np.reshape(mixed, (len(grounds), len(srgb))).any(axis=-1)
+    return bool(2 * counts[share].sum() >= counts.sum())
 
 
 def is_mixture(colours: FloatArray, palette: UInt8[np.ndarray, "colours 3"], off: float) -> BoolArray:
