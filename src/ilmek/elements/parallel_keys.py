@@ -84,4 +84,7 @@ def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
     """
     lengths = [length for length in LENGTHS if length <= LONGEST * diameter]
     ends = (KeyedEnd(diameter, length, torque, strength, number) for number in BEARING for length in lengths)
-    return next((end for end in ends if end.pressure <= end.allowed), KeyedEnd(diameter, lengths[-1], torque, strength, max(BEARING)))
+    return next(
+        (end for end in ends if end.pressure <= end.allowed),
+        KeyedEnd(diameter, lengths[-1], torque, strength, max(BEARING)),
+    )
