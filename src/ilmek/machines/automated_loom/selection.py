@@ -107,7 +107,7 @@ def _begun(
 ) -> "_Search | None":
     """The search with the bounds by the loom that seems the best of some branches; None where none has its parts."""
     prices = read_prices(params.prices)
-    for branch, loom in ((branch, loom) for branch in first for loom in branch.looms.values()):
+    for branch, loom in ((one, loom) for one in first for loom in one.looms.values()):
         offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.knotters, 0.0, 0.0, 0.0)
         with contextlib.suppress(ParameterError):
             rest = bare_rest(offer, loom)
