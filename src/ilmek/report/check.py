@@ -1,7 +1,7 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 
 from ilmek.records import value_record
 from ilmek.report.json import Json, plain
