@@ -1,5 +1,6 @@
 """`python -m ilmek` is `ilmek`."""
 
+import gc
 import importlib
 import os
 import signal
@@ -12,6 +13,7 @@ def run() -> None:
     """Run the command line as a program: a signal ends it with one line, also while it starts and ends."""
     # The matrices are small: threads of BLAS wait for each other longer than they work. numpy is not imported yet.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    gc.set_threshold(50_000, 20, 50)  # a command ends soon: what its modules hold is not looked through again and again
     usual = (signal.SIG_DFL, signal.default_int_handler)
     numbers = [number for number in _SIGNALS if signal.getsignal(number) in usual]
     for number in numbers:

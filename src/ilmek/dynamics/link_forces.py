@@ -28,6 +28,9 @@ from ilmek.linkage.model import Joint, Mechanism, Slide
 from ilmek.plane.vectors import cross, dot
 from ilmek.records import record
 
+_ROUNDING = 1e-13
+"""Share of a beam's length by which a point of its link differs by rounding."""
+
 STATIONS = 33
 """Sections of each beam at which the forces are computed, both ends included."""
 
@@ -248,11 +251,15 @@ def _beam(
     force = force + sum(lines[other][0] for other in beyond)
     turning = turning + sum(lines[other][1] for other in beyond)
     for one in acting:
-        on, along = frame.nearest(one.at)
+        # Where it acts at one point of the link, what is beyond is the same for all samples.
+        still = one.at.size > 0 and bool((np.abs(one.at - one.at[0]) <= _ROUNDING * length).all())
+        on, along = frame.nearest(one.at[:1] if still else one.at)
         past = np.isin(on, beyond)
         far = past | ((on == edge) & (along > SAME * length) & (along >= at - SAME * length))
-        force = force + np.where(far, one.force, 0)
-        turning = turning + np.where(far, one.torque + cross(one.at, one.force), 0.0)
+        if far.any():
+            torque = one.torque + cross(one.at, one.force)
+            force = force + (one.force if far.all() else np.where(far, one.force, 0))
+            turning = turning + (torque if far.all() else np.where(far, torque, 0.0))
     moment = np.asarray(turning - cross(start + direction * at, force))
     first, last = (frame.names[node] for node in frame.tree[edge])
     axial, shear = np.asarray(dot(direction, force)), np.asarray(cross(direction, force))

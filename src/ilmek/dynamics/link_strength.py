@@ -12,6 +12,8 @@ clamped at the bend where its end is free. Links that are short against their wi
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -48,7 +50,18 @@ class LinkStrength:
     buckling: float
     frequency: float
 
+    def scaled(self, force: float, mass: float) -> "LinkStrength":
+        """With all forces and all masses multiplied."""
+        return replace(
+            self,
+            stress=self.stress * force,
+            fatigue=self.fatigue / force,
+            buckling=self.buckling / force,
+            frequency=self.frequency / math.sqrt(mass),
+        )
 
+
+@lru_cache(maxsize=128)
 def link_strength(found: LinkForces, section: FlatSection, material: Material) -> LinkStrength:
     """Strength of a link with a flat section over a cycle. A link without beams has no stress, and infinite safeties.
 

@@ -4,6 +4,8 @@ The force is that of the joint, the speed that of its two bodies relative to one
 of the samples. See `ilmek.elements.pin_joints` for the formulas.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from ilmek.arrays import FloatArray
@@ -89,8 +91,14 @@ def pin_strength(
         shear=pin_shear(top, diameter, fork=fork),
         bending=pin_bending(top, diameter, length, cheek) if fork else 0.0,
         pressure=mean_pressure(top, diameter, length),
-        wear=share * pressure_velocity(duty.force, duty.omega, duty.weights, diameter, length),
+        wear=share * _rubbing(duty) / length,
     )
+
+
+@lru_cache(maxsize=64)
+def _rubbing(duty: PinDuty) -> float:
+    """Mean of pressure times sliding speed of a pin in a bush of 1 m [Pa m/s]; its diameter does not matter."""
+    return pressure_velocity(duty.force, duty.omega, duty.weights, 1.0, 1.0)
 
 
 def bearing_life(duty: PinDuty, bearing: RollingBearing, reliability: float = 0.9) -> float:

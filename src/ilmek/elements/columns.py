@@ -9,6 +9,7 @@ A column of height h, pinned at both ends, under P at the lever e off its axis, 
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.materials import GRAVITY, MATERIALS
@@ -107,6 +108,7 @@ def mid_loaded(section: HollowSquare, span: float, force: float) -> tuple[float,
     return float(sag), float(uniform.bending_stress(moment, section.side / 2, section.inertia))
 
 
+@cache
 def ascending() -> tuple[HollowSquare, ...]:
     """All sections in ascending order of their mass."""
     return tuple(sorted((HollowSquare(*size) for size in SECTIONS), key=lambda section: section.area))

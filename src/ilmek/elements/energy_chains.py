@@ -113,12 +113,9 @@ def chain_for(lines: Sequence[ChainLines], widest: float = math.inf) -> EnergyCh
     """The chain with the least loop, then the lightest, that takes the lines and is no wider than its room [m]; the
     largest that has room where none does.
     """
-
-    def holds(row: EnergyChain) -> bool:
-        return width_needed(row, lines) <= row.inner[0] and bend_needed(lines) <= row.radius
-
-    offered = [row for row in ENERGY_CHAINS if row.outer[0] <= widest * (1 + 1e-9)] or ENERGY_CHAINS[:1]
-    enough = [row for row in offered if holds(row)]
+    offered, bend = [row for row in ENERGY_CHAINS if row.outer[0] <= widest * (1 + 1e-9)], bend_needed(lines)
+    offered = offered or [*ENERGY_CHAINS[:1]]
+    enough = [row for row in offered if bend <= row.radius and width_needed(row, lines) <= row.inner[0]]
     return min(enough, key=lambda row: (row.loop[0], row.line_mass), default=max(offered, key=_capacity))
 
 

@@ -83,5 +83,8 @@ def keyed_end(diameter: float, torque: float, strength: float) -> KeyedEnd:
     'DIN 6885-1 B 8 x 7 x 14'
     """
     lengths = [length for length in LENGTHS if length <= LONGEST * diameter]
-    ends = [KeyedEnd(diameter, length, torque, strength, number) for number in BEARING for length in lengths]
-    return next((end for end in ends if end.pressure <= end.allowed), ends[-1])
+    ends = (KeyedEnd(diameter, length, torque, strength, number) for number in BEARING for length in lengths)
+    return next(
+        (end for end in ends if end.pressure <= end.allowed),
+        KeyedEnd(diameter, lengths[-1], torque, strength, max(BEARING)),
+    )

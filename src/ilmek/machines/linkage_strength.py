@@ -6,14 +6,16 @@ its fork half as thick; pins between links of the same size have one diameter. T
 """
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import cache
 from types import MappingProxyType
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces
-from ilmek.dynamics.link_forces import BeamForces, LinkForces, internal_forces
+from ilmek.dynamics.link_forces import LinkForces, internal_forces
 from ilmek.dynamics.link_strength import LinkStrength, link_strength
 from ilmek.dynamics.loads import Load
 from ilmek.dynamics.pin_strength import PinDuty, PinStrength, pin_duty, pin_strength
@@ -45,31 +47,27 @@ class LinkageLoads:
 
     links  internal forces of each link      pins  load of each pin      speed  of the driving crank [rad/s]
     share  of the time for which the machine moves
+    forces, masses  by which the forces and masses of `links` are to be multiplied
     """
 
     links: tuple[LinkForces, ...]
     pins: tuple[PinDuty, ...]
     speed: float
     share: float = 1.0
+    forces: float = 1.0
+    masses: float = 1.0
 
     def scaled(self, mass: float, speed: float, share: float = 1.0) -> "LinkageLoads":
         """The loads with masses and speed of the crank multiplied, without gravity: forces go with m w²."""
         force = mass * speed**2
         return LinkageLoads(
-            tuple(_scaled(link, force, mass) for link in self.links),
+            self.links,
             tuple(replace(pin, force=pin.force * force, omega=pin.omega * speed) for pin in self.pins),
             self.speed * speed,
             share,
+            self.forces * force,
+            self.masses * mass,
         )
-
-
-def _scaled(link: LinkForces, force: float, mass: float) -> LinkForces:
-    beams = tuple(
-        BeamForces(one.start, one.end, one.length, one.at, one.axial * force, one.shear * force, one.moment * force)
-        for one in link.beams
-    )
-    masses = {name: mass * one for name, one in link.masses.items()}
-    return replace(link, beams=beams, masses=masses, line_mass=mass * link.line_mass)
 
 
 def linkage_loads(
@@ -178,7 +176,10 @@ def linkage_strength(
         for body in sections
     }
     made = {body: FlatSection(*size, bore_for(holes[body], size[0])) for body, size in sections.items()}
-    links = {link.body: link_strength(link, made[link.body], limits.of_links) for link in loads.links}
+    links = {
+        link.body: link_strength(link, made[link.body], limits.of_links).scaled(loads.forces, loads.masses)
+        for link in loads.links
+    }
     balance = max((link.equilibrium_error for link in loads.links), default=0.0)
     return LinkageStrength(limits, links, pins, made, loads.speed, balance, tuple(choices))
 
@@ -222,13 +223,21 @@ def _seats(
 def _pins_tried(
     duties: Sequence[PinDuty], limits: StrengthParams, width: float, thickness: float, share: float
 ) -> list[dict[str, PinStrength]]:
-    """The pins with each diameter of stock, ascending, up to the first that is enough."""
-    tried: list[dict[str, PinStrength]] = []
-    for size in _sizes(limits, width):
-        tried.append({duty.name: pin_strength(duty, size, thickness, share=share) for duty in duties})
-        if all(check.ok for check in pin_checks(tried[-1], limits)):
-            break
-    return tried
+    """The pins with the first diameter of stock that is enough, or the largest, after those of the next smaller one.
+
+    A thicker pin bears more, and wears no more.
+    """
+
+    @cache
+    def of_size(index: int) -> dict[str, PinStrength]:
+        return {duty.name: pin_strength(duty, sizes[index], thickness, share=share) for duty in duties}
+
+    def bears(index: int) -> bool:
+        return all(check.ok for check in pin_checks(of_size(index), limits))
+
+    sizes = _sizes(limits, width)
+    first = bisect_left(range(len(sizes) - 1), True, key=bears)
+    return [of_size(index) for index in range(max(first - 1, 0), first + 1)]
 
 
 def _sizes(limits: StrengthParams, width: float) -> list[float]:
@@ -245,8 +254,8 @@ def _pins_for(  # noqa: PLR0917
     tried = _pins_tried(duties, limits, width, thickness, share)
     if len(tried) == 1:
         return tried[0], []
-    sizes = (format_quantity(next(iter(one.values())).diameter, "mm") for one in tried[-2:])
-    last = [Alternative(size, pin_checks(one, limits)) for size, one in zip(sizes, tried[-2:], strict=True)]
+    sizes = (format_quantity(next(iter(one.values())).diameter, "mm") for one in tried)
+    last = [Alternative(size, pin_checks(one, limits)) for size, one in zip(sizes, tried, strict=True)]
     return tried[-1], [choose(f"{name}.pin_diameter", last)[1]]
 
 

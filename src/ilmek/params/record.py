@@ -79,7 +79,9 @@ class Params:
 
     def __post_init__(self) -> None:
         for parameter in declared(type(self)):
-            parameter.check(getattr(self, parameter.name))
+            value = getattr(self, parameter.name)
+            if value is not parameter.default:
+                parameter.check(value)
         self.check_together()
 
     def check_together(self) -> None:

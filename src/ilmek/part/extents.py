@@ -53,10 +53,6 @@ class Extent:
         """Whether it is that of a body that moves."""
         return not self.part
 
-    def meets(self, low: Corner, high: Corner, gap: float = 0.0) -> bool:
-        """Whether it comes nearer to a box than a gap [m]; what touches at a gap of 0 does not meet."""
-        return bool(np.all(self.low < high + gap) and np.all(low - gap < self.high))
-
 
 def extents(tree: Tree, drives: Iterable[str]) -> tuple[Extent, ...]:
     """The boxes of all pieces that have a shape and stand, and of each body that moves, in the tree's axes.

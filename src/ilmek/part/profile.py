@@ -15,6 +15,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
 from ilmek.plane.contours import STRAIGHT, area, circle, counter_clockwise
+from ilmek.plane.vectors import following
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 
@@ -79,10 +80,10 @@ def drilled(outline: Contour, holes: Sequence[Hole], cutouts: Sequence[Contour] 
 
 def _clockwise(contour: Contour) -> Contour:
     turned = counter_clockwise(contour)
-    return Contour(turned.points[::-1], -np.roll(turned.bulges[::-1], -1))
+    return Contour(turned.points[::-1], -following(turned.bulges[::-1]))
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=1024)
 def _moments(profile: Profile) -> Mapping[tuple[int, int], float]:
     """All moments up to the third order."""
     each = [_contour_moments(contour) for contour in profile.contours]
@@ -98,7 +99,7 @@ def _contour_moments(contour: Contour) -> Mapping[tuple[int, int], float]:
         x = x * point.real
         across = x
         for q in range(_ORDERS - p):
-            moments[p, q] = float(np.sum(across)) / (p + 1)
+            moments[p, q] = float(np.add.reduce(across, axis=None)) / (p + 1)
             across = across * point.imag
     return moments
 
@@ -106,7 +107,7 @@ def _contour_moments(contour: Contour) -> Mapping[tuple[int, int], float]:
 def _pieces(contour: Contour, share: FloatArray) -> tuple[ComplexArray, ComplexArray]:
     """Points of each piece at shares of it [m], and their derivatives by the share, (pieces, shares)."""
     start = contour.points[:, None]
-    chord = np.roll(contour.points, -1)[:, None] - start
+    chord = following(contour.points)[:, None] - start
     if not contour.bulges.any():
         return start + chord * share, np.broadcast_to(chord, (len(chord), len(share)))
     bulge: FloatArray = contour.bulges[:, None]

@@ -14,6 +14,7 @@ and of a turned shape with those of its profile, x -> z and y -> r      [Pappus;
 """
 
 import math
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -40,6 +41,10 @@ ROUND = 3e-3
 
 CHORD = 0.05 * mm
 """Deviation of meshes and convex pieces from the shape where none is given [m]."""
+
+
+_shared = lru_cache(maxsize=1024)
+"""A loom has the same boxes and tubes many times: each is made once, with its area and moments."""
 
 
 class Shape(Protocol):
@@ -207,6 +212,7 @@ def _fewer(loop: ComplexArray, deviation: float) -> ComplexArray:
     return few if len(few) > 2 else loop
 
 
+@_shared
 def box(width: float, height: float, length: float) -> Prism:
     """A cuboid about the z axis: width along x, height along y, from z = 0 to its length [m].
 
@@ -218,6 +224,7 @@ def box(width: float, height: float, length: float) -> Prism:
     return Prism(Profile(rectangle(width, height)), length)
 
 
+@_shared
 def square_tube(side: float, wall: float, length: float) -> Prism:
     """A square hollow section about the z axis, its corners sharp: outer side, wall and length [m].
 
@@ -232,6 +239,7 @@ def bar(diameter: float, length: float) -> Turned:
     return tube(diameter, diameter / 2, length)
 
 
+@_shared
 def tube(diameter: float, wall: float, length: float) -> Turned:
     """A round tube about z from z = 0: outer diameter, wall and length [m]; a bar where the wall is the radius.
 
@@ -264,6 +272,7 @@ def stepped(*steps: tuple[float, float]) -> Turned:
     return Turned(Profile(polygon(np.array([*corners, complex(z)]))))
 
 
+@_shared
 def rectangle(width: float, height: float) -> Contour:
     """A rectangle about the origin [m]."""
     return polygon(np.array([-width - 1j * height, width - 1j * height, width + 1j * height, -width + 1j * height]) / 2)

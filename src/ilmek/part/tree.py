@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from enum import StrEnum
+from functools import lru_cache
 
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments, together
@@ -167,7 +168,7 @@ class Tree:
     @property
     def mass(self) -> float:
         """Mass of all parts that are weighed [kg]."""
-        return math.fsum(number * part.mass for part, number in self.occurrences() if not math.isnan(part.mass))
+        return _mass(self)
 
     def moving(self, motions: Mapping[str, SceneMotion]) -> "Tree":
         """The tree with motions of bodies by their ids."""
@@ -220,3 +221,9 @@ def depth_of(part: Part) -> float:
     """Length along z of a part from z = 0 [m]."""
     assert part.shape is not None
     return max(float(piece[:, 2].max()) for piece in part.shape.pieces(1 * mm))
+
+
+@lru_cache(maxsize=64)
+def _mass(tree: Tree) -> float:
+    weighed = ((number, part.mass) for part, number in tree.occurrences())
+    return math.fsum(number * mass for number, mass in weighed if not math.isnan(mass))

@@ -24,6 +24,7 @@ _NEARLY_STRAIGHT = 1e-2
 """Bulge below which the area of a circular segment is computed by its series."""
 
 
+@lru_cache(maxsize=1024)
 def circle(at: complex, radius: float) -> Contour:
     """A circle about `at` [m], of two half turns.
 

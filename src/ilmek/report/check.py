@@ -1,7 +1,7 @@
 """Checks: every judgement of a design is a value against a limit, with the source of the limit."""
 
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 
 from ilmek.records import value_record
 from ilmek.report.json import Json, plain
@@ -31,7 +31,9 @@ class Check:
 
     def with_cure(self, cure: str, *parts: str) -> "Check":
         """The check with what cures a failure, and the ids of the parts that it concerns."""
-        return replace(self, cure=cure, parts=parts)
+        return Check(
+            self.name, self.value, self.limit, self.unit, self.ok, self.source, self.relation, cure, parts
+        )  # as `replace`, of which a design has ten thousands, in a third of the time
 
     def as_json(self) -> dict[str, Json]:
         """The check as plain data: name, value and limit [SI], their unit, ok, source, relation, cure, shown."""

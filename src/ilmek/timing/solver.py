@@ -29,6 +29,9 @@ ORDERS = 4096
 
 _BINDS, _ACTIVE = 1e-7, 1e-7
 
+_EASED = 1 + 1e-12
+"""By which the shortest period is lengthened, so that motions at their limits have room for rounding."""
+
 
 @dataclass(frozen=True, slots=True)
 class Binding:
@@ -103,6 +106,23 @@ def least_period(cyclogram: Cyclogram, progress: Progress = SILENT) -> Solution:
     Raises ParameterError for a moving track without a limit, where no motion is free, and for contradicting relations,
     which it names; Cancelled.
     """
+    known, rows, motions, answer = _quickest(cyclogram, progress)
+    binding = _binding([*rows, *motions], answer, power=1)
+    period = turn / float(answer.x[0])
+    quick = _placed(known, answer.x, period)
+    eased = least_acceleration(replace(quick, period=period * _EASED)).cyclogram
+    return Solution(eased, "period", cyclogram.period, eased.period, "period", "s", binding)
+
+
+def period_needed(cyclogram: Cyclogram) -> float:
+    """The shortest period within the tracks' limits [s], that of `least_period`, whose errors it raises."""
+    return turn / float(_quickest(cyclogram)[-1].x[0]) * _EASED
+
+
+def _quickest(
+    cyclogram: Cyclogram, progress: Progress = SILENT
+) -> tuple[Unknowns, list[Constraint], list[Constraint], _Answer]:
+    """The unknowns, the rows, the motions' rows, and the solution with the shortest period."""
     known = unknowns(cyclogram)
     _moving(cyclogram)
     free = [track.name for track in cyclogram.tracks if track.segments and not track.locked and not _is_limited(track)]
@@ -119,11 +139,7 @@ def least_period(cyclogram: Cyclogram, progress: Progress = SILENT) -> Solution:
         for what, value in _limited(track, part)
     ]
     _, rows, answer = _best(known, standing_rows(known, period_free=True), motions, progress)
-    binding = _binding([*rows, *motions], answer, power=1)
-    period = turn / float(answer.x[0])
-    quick = _placed(known, answer.x, period)
-    eased = least_acceleration(replace(quick, period=period * (1 + 1e-12))).cyclogram
-    return Solution(eased, "period", cyclogram.period, eased.period, "period", "s", binding)
+    return known, rows, motions, answer
 
 
 def require_possible(cyclogram: Cyclogram) -> None:

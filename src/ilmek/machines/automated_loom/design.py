@@ -23,7 +23,7 @@ from ilmek.machines.automated_loom.cyclogram import (
     weavers_row,
 )
 from ilmek.machines.automated_loom.knotting import KnottingHead, arms_alone, knotting_head, require_knot
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.params import AUTO, AutomatedLoomParams
 from ilmek.machines.automated_loom.search import LoomSearch, SearchJournal
 from ilmek.machines.beat import Beat, BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
@@ -187,7 +187,12 @@ class ReadyLoom:
 
 
 def head_for(params: AutomatedLoomParams) -> KnottingHead:
-    """The head of a loom alone."""
+    """The head of a loom alone: neither its beat nor the number of heads and weavers changes it."""
+    return _head_for(replace(params, beat=AUTO, heads=None, weavers=None))
+
+
+@lru_cache(maxsize=32)
+def _head_for(params: AutomatedLoomParams) -> KnottingHead:
     return knotting_head(_laid(params)[1])
 
 
@@ -209,7 +214,7 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     """
     require_knot(params)
     laid, task = _laid(params)
-    knotting = knotting_head(task)
+    knotting = head_for(params)
     machines: dict[str, Child] = {**knotting.children, "weft": laid}
     task = replace(task, designs={name: child.design for name, child in machines.items()})
     machines["weft"], task = _made("weft", task)  # its devices beside the head

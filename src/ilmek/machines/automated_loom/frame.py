@@ -207,15 +207,18 @@ def _chosen(
     *rules: Callable[[tuple[int, HollowSquare]], tuple[Check, ...]],
 ) -> tuple[tuple[int, HollowSquare], Choice]:
     """The first number and section that keep the checks of a rule, of the first rule that any keeps, or the last."""
-    names = [section.name if number == 1 else f"{number} x ({section.name})" for number, section in offered]
+
+    def label(number: int, section: HollowSquare) -> str:
+        return section.name if number == 1 else f"{number} x ({section.name})"
+
     for checks_of in rules:
         tried: list[Alternative] = []
-        for label, one in zip(names, offered, strict=True):
-            tried.append(Alternative(label, checks_of(one)))
+        for one in offered:
+            tried.append(Alternative(label(*one), checks_of(one)))
             if not tried[-1].failed:
                 index, choice = choose(f"frame_{name}", tried)
                 return offered[index], choice
-    return offered[-1], Choice(f"frame_{name}", names[-1], "the largest that has room")
+    return offered[-1], Choice(f"frame_{name}", label(*offered[-1]), "the largest that has room")
 
 
 def column_load(task: FrameTask, section: HollowSquare, number: int = 1) -> tuple[float, float]:

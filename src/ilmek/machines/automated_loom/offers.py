@@ -20,12 +20,16 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
 
+import numpy as np
+
+from ilmek.arrays import FloatArray
 from ilmek.elements.prices import PriceRates, read_prices
 from ilmek.errors import LoomError, ParameterError
+from ilmek.loom.times import Times
 from ilmek.machines import WEFT_CARRIERS
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, with_control
 from ilmek.machines.automated_loom.choice import BeatOption
-from ilmek.machines.automated_loom.cost import machine_cost
+from ilmek.machines.automated_loom.cost import machine_cost, rates_of
 from ilmek.machines.automated_loom.design import (
     LoomDesign,
     ReadyLoom,
@@ -38,6 +42,7 @@ from ilmek.machines.automated_loom.design import (
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
+from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
@@ -206,15 +211,25 @@ def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
     return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, share, found.cost)
 
 
+def bare_rest(offer: LoomOffer, loom: LoomDesign) -> LoomRest:
+    """The rest of a loom that is not designed whole: its frame without equipment, on no floor."""
+    params, none = loom.params, MachineCost(0.0, 0.0, 0.0)
+    dressing, area = float(off_loom(loom).dressing_time), params.width * params.length
+    cost = CarpetCost(rates_of(loom, loom.weavers), loom.rows * loom.columns, area, 1.0, 0.0, dressing, 0.0, none)
+    return LoomRest(offer, frame_cost(loom), none, none, none, cost)
+
+
 @record
 class Bounds:
     """The least time, price and cost of looms, from those that were designed.
 
-    rests  of them, by their choices; each designed loom is added, so that bounds rise
+    frame  of the loom with the fewest heads and the slowest knot, with another carrier or beat
+    rests  of the designed looms, by their choices; each is added, so that bounds rise
     """
 
     params: AutomatedLoomParams
     prices: Mapping[str, PriceRates]
+    frame: MachineCost
     rests: dict[tuple[object, ...], LoomRest]
 
     def offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
@@ -232,35 +247,39 @@ class Bounds:
 
     def _offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
         ready, params, weft = branch.ready, self.params, branch.weft
+        grid = ready.task.rows, ready.task.columns
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
                 continue
             if option.kind not in branch.looms:
                 continue
             loom, alike = branch.looms[option.kind], (self.simplest.offer.weft, self.simplest.offer.beat)
-            frame = self._frame(loom if (weft, option.kind) == alike else None)
+            frame = self._frame(loom) if (weft, option.kind) == alike else self.frame.times(1 - OTHER_SLACK)
             number = params.heads or (knotters(params, branch.most, ready.head) if ready.head.weaver is None else 0)
+            busy = [_least_times(ready, option, cycle) for cycle in branch.cycles]
             for heads in (number,) if number else range(1, branch.most + 1):
                 cost, floor = self._least(weft, heads, loom, branch.head, frame)
-                for cycle in branch.cycles:
-                    time = _least_time(ready, option, cycle, heads)
-                    value = self._value(cost, floor, time)
-                    yield LoomOffer(branch.kind, cycle, weft, option.kind, heads, time, cost.parts, value)
+                time = [ready.head.least_time(*grid, heads, one, ready.weft.bobbins) for one in busy]
+                value = self._value(cost, floor, np.array(time)).tolist()
+                for cycle, own, least in zip(branch.cycles, time, value, strict=True):
+                    yield LoomOffer(branch.kind, cycle, weft, option.kind, heads, own, cost.parts, least)
 
-    def nearer(self, offer: LoomOffer, loom: LoomDesign, head: MachineCost) -> LoomOffer:
+    def nearer(
+        self, offer: LoomOffer, loom: LoomDesign, head: MachineCost, frame: MachineCost | None = None
+    ) -> LoomOffer:
         """The offer with its bounds by a head, by the frame of a loom, and by the equipment of the designed ones.
 
-        loom  with its carrier of the weft and its beat, the slowest knot and the fewest heads
+        loom  with its carrier of the weft and its beat, the slowest knot and the fewest heads; its own with its frame
         """
-        cost, floor = self._least(offer.weft, offer.heads, loom, head, self._frame(loom))
-        return replace(offer, price=cost.parts, value=self._value(cost, floor, offer.time))
+        cost, floor = self._least(offer.weft, offer.heads, loom, head, frame or self._frame(loom))
+        value = float(self._value(cost, floor, np.array(offer.time)))
+        return replace(offer, price=cost.parts, value=value)
 
-    def _frame(self, loom: LoomDesign | None) -> MachineCost:
-        """The least cost of a frame, by that of a loom; by the simplest one's where it has none, or no room for it."""
+    def _frame(self, loom: LoomDesign) -> MachineCost:
+        """The least cost of a frame, by that of a loom; by another's where it has no room for one."""
         with contextlib.suppress(ParameterError):
-            if loom is not None:
-                return frame_cost(loom).times(1 - SLACK)
-        return self.simplest.frame.times(1 - OTHER_SLACK)
+            return frame_cost(loom).times(1 - SLACK)
+        return self.frame.times(1 - OTHER_SLACK)
 
     def _least(
         self, weft: str, heads: int, loom: LoomDesign, head: MachineCost, frame: MachineCost
@@ -278,15 +297,15 @@ class Bounds:
         """The rest of the first loom that was designed."""
         return next(iter(self.rests.values()))
 
-    def _value(self, cost: MachineCost, floor: float, time: float) -> float:
+    def _value(self, cost: MachineCost, floor: float, time: FloatArray) -> FloatArray:
+        """The least of what the aim makes least, of a loom with each of some times [s]."""
         if self.params.aim == TIME:
             return time
         if self.params.aim == PRICE:
-            return cost.parts
+            return np.full(time.shape, cost.parts)
         energy = self.params.standby_power * cost.axes * time
         least = replace(self.simplest.cost, time=time, energy=energy, floor=floor, machine=cost)
-        carpet: float = least.cost_per_carpet
-        return (1 - ROUNDING) * carpet
+        return np.asarray((1 - ROUNDING) * least.cost_per_carpet)
 
 
 def value_of(found: LoomAnalysis, aim: str) -> float:
@@ -295,10 +314,9 @@ def value_of(found: LoomAnalysis, aim: str) -> float:
     return values[aim]
 
 
-def _least_time(ready: ReadyLoom, option: BeatOption, cycle: float, heads: int) -> float:
-    """The weaving time with a time of the knot [s], estimated; the step to the next knot may take longer."""
+def _least_times(ready: ReadyLoom, option: BeatOption, cycle: float) -> Times:
+    """The least times of the acts with a time of the knot [s]; the step to the next knot may take longer."""
     head, params, task = ready.head.weaver, ready.params, ready.task
     times = times_at(params, ready.head, task.cloth.knot_pitch, option.period)
     tied = replace(times, knot=cycle * (head.cycle / head.params.cycle if head else 1))
-    busy = with_changes(tied, params.changes_per_knot)
-    return ready.head.least_time(task.rows, task.columns, heads, busy, ready.weft.bobbins)
+    return with_changes(tied, params.changes_per_knot)

@@ -14,6 +14,7 @@ and an arm of the length l has sigma = R l c / I and sinks by R l³ / (3 E I).
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.materials import GRAVITY
@@ -93,6 +94,7 @@ class RailSupport:
         return moment * self.height**2 / (STEEL.modulus * self.post.inertia)
 
 
+@lru_cache(maxsize=8)
 def rail_supports(loom: LoomDesign, frame: LoomFrame) -> tuple[RailSupport, ...]:
     """The supports at the ends, and those between where the rail has several spans; none without heads."""
     if frame.task.rail is None:
@@ -108,6 +110,8 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
     # To the front, away from the motors on the upper ends of the axes; to the back where a post of the beat is there.
     away = -1 if 0 < post_depth(loom, frame) - axis.real < RAIL_POST else 1
 
+    push = _push(loom, load)
+
     def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
         return RailSupport(
             name="rail-post",
@@ -115,8 +119,8 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             height=axis.imag - bottom,
             lever=beside - near + RAIL_AXIS / 2,
             reach=beside - post.side / 2 - near,
-            load=load + _push(loom, load) * -RETREAT.imag,
-            push=_push(loom, load) * RETREAT.real,
+            load=load + push * -RETREAT.imag,
+            push=push * RETREAT.real,
             post=post,
             arm=arm,
             depth=axis.real + away * (post.side - RAIL_AXIS) / 2,
@@ -133,6 +137,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
     axis = rail_middle(loom) + ahead - 1j * task.drop
     end = axis + loom.side.of_heads.retreated
     load = rail_support_load(task, rail, spans=2)
+    push = _push(loom, load)
 
     def chosen(post: HollowSquare, arm: HollowSquare) -> RailSupport:
         return RailSupport(
@@ -141,8 +146,8 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             height=end.imag - floor_top(loom, frame),
             lever=RAIL_AXIS / 2 + post.side / 2,
             reach=ahead - rail.side / 2,
-            load=load + _push(loom, load) * -RETREAT.imag,
-            push=_push(loom, load) * RETREAT.real,
+            load=load + push * -RETREAT.imag,
+            push=push * RETREAT.real,
             post=post,
             arm=arm,
             depth=end.real,

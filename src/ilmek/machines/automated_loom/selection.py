@@ -8,6 +8,7 @@ Where the parts of the chosen loom have no room in space, the kind of beat is re
 [`with_room`]; that takes seconds a kind, so that `design` leaves it out.
 """
 
+import contextlib
 import heapq
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -15,7 +16,9 @@ from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import count
 from types import MappingProxyType
+from typing import TypeAlias
 
+from ilmek.elements.prices import read_prices
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.carpet_cost import MachineCost
@@ -26,7 +29,9 @@ from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.automated_loom.offers import (
     Bounds,
     HeadBranch,
+    bare_rest,
     branches,
+    frame_cost,
     head_cost,
     rest_of,
     undesigned_arms,
@@ -41,7 +46,10 @@ from ilmek.records import record
 from ilmek.report import Check
 from ilmek.report.verdict import weight
 
-_ALL: Mapping[str, tuple[Check, ...]] = MappingProxyType({})
+Refused: TypeAlias = Mapping[str, tuple[Check, ...]]
+"""Checks that fail in space, by kinds of beat."""
+
+_ALL: Refused = MappingProxyType({})
 
 MOST_REFUSED, MOST_LIMITS = 8, 16
 """Whole looms that are designed and refused before the search ends with the one that misses its limits least; and how
@@ -77,17 +85,16 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
     return loom
 
 
-def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
+def _chosen(params: AutomatedLoomParams, refused: Refused) -> LoomDesign:
     """The loom of the best offer; refused: failed checks in space by kinds of beat."""
     kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
     journal = SearchJournal()
     first = branches(params, kinds[0], journal)
     given = params.heads is not None or params.knotting == HAND
     one = given and len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1
-    bounds = None if one else _simplest(first[0], params)
-    if bounds is None:
+    search = None if one else _begun(params, first, refused, journal)
+    if search is None:
         return with_beat(first[0].ready, first[0].ready.options[0])
-    search = _Search(bounds, refused, journal)
     for branch in first:
         search.add(branch)
     if len(kinds) > 1:
@@ -95,15 +102,18 @@ def _chosen(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]
     return search.run() or _nearest(params, refused)
 
 
-def _simplest(branch: HeadBranch, params: AutomatedLoomParams) -> Bounds | None:
-    """Bounds by the simplest loom of a branch: its cheapest beat that holds; None where none has its parts."""
-    for loom in branch.looms.values():
-        try:
-            found = analyse(loom)
-        except ParameterError:
-            continue
+def _begun(
+    params: AutomatedLoomParams, first: Sequence[HeadBranch], refused: Refused, journal: SearchJournal
+) -> "_Search | None":
+    """The search with the bounds by the loom that seems the best of some branches; None where none has its parts."""
+    prices = read_prices(params.prices)
+    for branch, loom in ((one, loom) for one in first for loom in one.looms.values()):
         offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.knotters, 0.0, 0.0, 0.0)
-        return Bounds(params, found.listed.prices, {offer.key: rest_of(offer, found)})
+        with contextlib.suppress(ParameterError):
+            rest = bare_rest(offer, loom)
+            search = _Search(Bounds(params, prices, rest.frame, {offer.key: rest}), refused, journal)
+            if search.begin(offer, first):
+                return search
     return None
 
 
@@ -117,7 +127,7 @@ def _tight(loom: LoomDesign) -> list[Check]:
     return [check for check in yarn_checks(loom) if not check.ok] if loom.heads else []
 
 
-def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...]]) -> LoomDesign:
+def _nearest(params: AutomatedLoomParams, refused: Refused) -> LoomDesign:
     """The loom that comes nearest to a deadline or a limit of the price that no loom keeps: its check fails."""
     aim = PRICE if params.deadline is None else TIME
     near = _chosen(replace(params, aim=aim, deadline=None, price_limit=None), refused)
@@ -128,16 +138,18 @@ def _nearest(params: AutomatedLoomParams, refused: Mapping[str, tuple[Check, ...
 
 @record
 class _Entry:
-    """An offer in the search: with its loom, once it is designed.
+    """An offer in the search.
 
     bounded  number of designed looms by which it was bounded; 0: with another frame      own  by its own head
+    loom     its own, by whose frame it is bounded      valued  it has the value of this loom
     opens    what makes the offers of looms by arms, where the offer stands for these
     """
 
     offer: LoomOffer
-    loom: LoomDesign | None = None
     bounded: int = 0
     own: bool = False
+    loom: LoomDesign | None = None
+    valued: bool = False
     opens: Callable[[], None] | None = None
 
 
@@ -164,8 +176,9 @@ class _Limit:
 class _Search:
     """The search of one loom: offers by their bounds, and designed looms by their values."""
 
-    def __init__(self, bounds: Bounds, refused: Mapping[str, tuple[Check, ...]], journal: SearchJournal) -> None:
+    def __init__(self, bounds: Bounds, refused: Refused, journal: SearchJournal) -> None:
         self.bounds, self.refused, self.journal = bounds, refused, journal
+        self.looms: dict[tuple[object, ...], LoomDesign] = {}
         self.params = bounds.params
         self.offers: list[LoomOffer] = []
         self.closed: list[LoomOffer] = []
@@ -173,18 +186,39 @@ class _Search:
         self.lost: list[tuple[LoomOffer, Check]] = []
         self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
         self.branches: dict[tuple[str, str], HeadBranch] = {}
-        self.heads: dict[tuple[str, float, str], MachineCost] = {}
+        self.heads: dict[tuple[str, float], MachineCost] = {}
         self.limits: list[_Limit] = []
         self.order = count()
 
-    def add(self, branch: HeadBranch) -> None:
-        """The offers of a branch; those whose head, weft or beat fails a check are lost."""
+    def begin(self, simplest: LoomOffer, first: Sequence[HeadBranch]) -> bool:
+        """Design the loom that seems the best, by bounds without equipment, or else the simplest: the bounds are then
+        by its rest. False where it has not its parts.
+        """
+        offers: list[LoomOffer] = []
+        for branch in first:
+            self.branches[branch.kind, branch.weft] = branch
+            failed = self._failed(branch)
+            offers += [offer for offer in self.bounds.offers(branch) if not failed[offer.beat]]
+        best = min(offers, key=lambda offer: (offer.value, offer.price), default=simplest)
+        for offer in (best, simplest):
+            with contextlib.suppress(LoomError, ParameterError):
+                self.bounds.rests.clear()
+                self.bounds.rests[offer.key] = rest_of(offer, analyse(self._loom(offer)))
+                return True
+        return False
+
+    def _failed(self, branch: HeadBranch) -> Mapping[str, list[Check]]:
+        """The checks that fail for each kind of beat: of head and weft, of its own, and in space."""
         ready = branch.ready
         shared = [check for check in (*ready.head.checks, *ready.weft.checks) if not check.ok]
-        failed = {
+        return {
             option.kind: [*shared, *(c for c in option.checks if not c.ok), *self.refused.get(option.kind, ())]
             for option in ready.options
         }
+
+    def add(self, branch: HeadBranch) -> None:
+        """The offers of a branch; those whose head, weft or beat fails a check are lost."""
+        failed = self._failed(branch)
         for offer in self.bounds.offers(branch):
             self.branches[offer.knotting, offer.weft] = branch
             self.offers.append(offer)
@@ -222,12 +256,13 @@ class _Search:
                 entry.opens()
             elif (check := self._limit(entry.offer)) is not None:
                 self.lost.append((entry.offer, check))
-            elif entry.loom is None and not (entry.own and entry.bounded == len(self.bounds.rests)):
+            elif entry.loom is not None and entry.valued:
+                if self._holds(entry.offer, entry.loom):
+                    return self._ended(entry.offer, entry.loom, value)
+            elif entry.bounded < len(self.bounds.rests) or not entry.own:
                 self._bound(entry)
-            elif entry.loom is None:
+            else:
                 self._design(entry)
-            elif self._holds(entry.offer, entry.loom):
-                return self._ended(entry.offer, entry.loom, value)
         if self.tried:
             offer, loom, _ = min(self.tried, key=lambda one: one[2])
             return self._ended(offer, loom, value_of(analyse(loom), self.params.aim))
@@ -237,37 +272,42 @@ class _Search:
         return self._ended(offer, self._loom(offer), offer.value)
 
     def _bound(self, entry: _Entry) -> None:
-        """The offer again, with its bounds by its own frame, then by its own head, and by all looms until now."""
-        offer = entry.offer
-        key = offer.knotting, offer.cycle, offer.weft
+        """The offer again, with its bounds by the frame of its kinds, then by its own head, or that for another
+        carrier, then by its own frame, and by all looms until now.
+        """
+        offer, loom = entry.offer, entry.loom
+        key = offer.knotting, offer.cycle
         branch = self.branches[offer.knotting, offer.weft]
         if entry.bounded and key not in self.heads:
             self.heads[key] = head_cost(head_for(offer.of(self.params)), self.bounds.prices)
         head = self.heads.get(key)
-        nearer = self.bounds.nearer(offer, branch.looms[offer.beat], head or branch.head)
+        frame = None if loom is None else frame_cost(loom)
+        nearer = self.bounds.nearer(offer, loom or branch.looms[offer.beat], head or branch.head, frame)
         if self.bounds.wished(nearer.time, nearer.price):
-            self._push(nearer.value, _Entry(nearer, bounded=len(self.bounds.rests), own=head is not None))
+            self._push(nearer.value, _Entry(nearer, len(self.bounds.rests), own=head is not None, loom=loom))
 
     def _loom(self, offer: LoomOffer) -> LoomDesign:
         branch = self.branches[offer.knotting, offer.weft]
         first = branch.looms.get(offer.beat)
         if first and (first.knotters, branch.cycles[0]) == (offer.heads, offer.cycle):
             return first
-        ready = ready_loom(offer.of(self.params))
-        return with_beat(ready, ready.options[0], self.journal)
+        if offer.key not in self.looms:
+            ready = ready_loom(offer.of(self.params))
+            self.looms[offer.key] = with_beat(ready, ready.options[0], self.journal)
+        return self.looms[offer.key]
 
     def _design(self, entry: _Entry) -> None:
-        """The loom of an offer, with the value that it has. What cannot be designed, wider heads, is no offer, nor what
-        costs more than is wished.
+        """The loom of an offer, first with its frame alone, then whole, with the value that it has. What cannot be
+        designed, wider heads, is no offer, nor what costs more than is wished.
         """
-        try:
-            loom = self._loom(entry.offer)
-            found = analyse(loom)
-        except (LoomError, ParameterError):
-            return
-        self.bounds.rests[entry.offer.key] = rest_of(entry.offer, found)
-        if self.bounds.wished(found.time, found.listed.price):
-            self._push(value_of(found, self.params.aim), _Entry(entry.offer, loom))
+        with contextlib.suppress(LoomError, ParameterError):
+            if entry.loom is None:
+                self._bound(replace(entry, loom=self._loom(entry.offer)))
+                return
+            found = analyse(entry.loom)
+            self.bounds.rests[entry.offer.key] = rest_of(entry.offer, found)
+            if self.bounds.wished(found.time, found.listed.price):
+                self._push(value_of(found, self.params.aim), replace(entry, valued=True))
 
     def _holds(self, offer: LoomOffer, loom: LoomDesign) -> bool:
         failed = [check for check in all_checks(loom) if not check.ok]
@@ -300,6 +340,6 @@ class _Search:
         search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value)
         if self.heap:
             least, _, _, entry = self.heap[0]
-            search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.loom is not None)
+            search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.valued)
         self.journal.search = search
         return loom

@@ -7,6 +7,7 @@ time each and pressing for q, takes T = 2/(1 - q) sqrt(Ca h / a). On crank-rocke
 
 import math
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -203,7 +204,7 @@ def planned_beat(task: LoomTask, kind: str) -> CombBeat:
         return CombBeat(params, task.params.comb_acceleration, kind, None)
     rockers = (_rockers(task, kind, swing) for swing in ((params.swing,) if params.swing else SWINGS))
     first = next(rockers)
-    return next((made for made in (first, *rockers) if _under_reeds(made, task)), first)
+    return next((made for made in chain((first,), rockers) if _under_reeds(made, task)), first)
 
 
 def _rockers(task: LoomTask, kind: str, swing: float | None) -> CombBeat:

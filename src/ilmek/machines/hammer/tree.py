@@ -97,13 +97,19 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     params, steel = hammer.params, replace(STEEL, density=hammer.params.density)
     leaf, bar, *ballast = outline(params)
     number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
-    stations = (np.arange(number) - (number - 1) / 2) * params.cloth.warp_pitch - params.leaf / 2
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
         Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
-        Occurrence(leaves, tuple(placement(z=float(z)) for z in stations)),
+        Occurrence(leaves, _leaves(number, params.cloth.warp_pitch, params.leaf)),
     )
     return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))
+
+
+@lru_cache(maxsize=16)
+def _leaves(number: int, pitch: float, thickness: float) -> tuple[Placement, ...]:
+    """Leaves of a thickness between warps of a pitch [m], in the axes of the side view."""
+    stations = (np.arange(number) - (number - 1) / 2) * pitch - thickness / 2
+    return tuple(placement(z=z) for z in stations.tolist())
 
 
 def _ballast(params: HammerParams, section: ComplexArray) -> Part:

@@ -16,7 +16,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram, Moment, Relation, Track, TrackEvent, TrackSegment, riding
-from ilmek.timing.solver import least_acceleration, least_period
+from ilmek.timing.solver import least_acceleration, least_period, period_needed
 from ilmek.units import deg, turn
 
 SOURCE = "thesis, 2.2.3: order of the knotting sequence"
@@ -191,7 +191,7 @@ def optimised(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
 
     limited  its tracks have limits      gap  of motions in sequence [rad]      needed  times of cutter and arms [s]
     """
-    if within(limited, gap, needed, limited.period) is None:
+    if not within(limited, gap, needed, limited.period):
         shortest = _shortest(limited, gap, needed)
         return replace(shortest, period=shortest.period * (1 + _SAME))
     return least_acceleration(_ordered(limited, gap, needed, limited.period)).cyclogram
@@ -199,29 +199,24 @@ def optimised(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
 
 def _shortest(limited: Cyclogram, gap: float, needed: _Needed) -> Cyclogram:
     """The shortest cycle in which cutter and arms have their times; their angles follow the cycle, so bisection."""
-    least = least_period(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0)).cyclogram
-    low = high = least.period
-    best = within(limited, gap, needed, high)
-    while best is None:
+    low = high = period_needed(_ordered(limited, gap, (0.0, needed[1] and 0.0), 1.0))
+    while not within(limited, gap, needed, high):
         low, high = high, 2 * high
-        best = within(limited, gap, needed, high)
     while high - low > _SAME * high:
         middle = (low + high) / 2
-        found = within(limited, gap, needed, middle)
-        low, high, best = (low, middle, found) if found else (middle, high, best)
-    return replace(best, period=high)
+        low, high = (low, middle) if within(limited, gap, needed, middle) else (middle, high)
+    return replace(least_period(_ordered(limited, gap, needed, high)).cyclogram, period=high)
 
 
-def within(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram | None:
-    """The shortest cyclogram with the angles that cutter and arms need at a period [s], where it is no longer.
+def within(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> bool:
+    """Whether a period [s] is enough for the motions, with the angles that cutter and arms need at it.
 
     limited, gap, needed  as of `optimised`
     """
     try:
-        found = least_period(_ordered(limited, gap, needed, period)).cyclogram
+        return period_needed(_ordered(limited, gap, needed, period)) <= period * (1 + _SAME)
     except ParameterError:  # the times take more than the turn
-        return None
-    return found if found.period <= period * (1 + _SAME) else None
+        return False
 
 
 def _ordered(limited: Cyclogram, gap: float, needed: _Needed, period: float) -> Cyclogram:

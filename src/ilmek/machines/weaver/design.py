@@ -195,7 +195,7 @@ def ties_in_time(params: WeaverParams) -> bool:
     if not params.optimise and not stretches(params):
         return _within_limits(params, required, radius).period <= params.cycle * (1 + _WHOLE)
     limited = replace(required, tracks=_limited(params, required, radius))
-    return within(limited, params.relation_gap, (params.cutting_time, params.arms.time), params.cycle) is not None
+    return within(limited, params.relation_gap, (params.cutting_time, params.arms.time), params.cycle)
 
 
 def head_relations(weaver: Weaver) -> tuple[Relation, ...]:

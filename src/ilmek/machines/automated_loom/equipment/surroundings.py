@@ -5,6 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.errors import LoomError
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id
@@ -76,7 +77,15 @@ class Surroundings:
 
     def free(self, low: Corner, high: Corner, *, but: str = "") -> bool:
         """Whether a box has room in the loom, over all motions; `but`: the part that carries it is not looked at."""
-        return not any(extent.meets(low, high, GAP) for extent in self.extents if extent.part != but)
+        lows, highs = _corners(self)
+        meeting = np.flatnonzero(np.all((lows < high + GAP) & (low - GAP < highs), axis=1))
+        return all(self.extents[index].part == but for index in meeting.tolist())
+
+
+@lru_cache(maxsize=4)
+def _corners(near: Surroundings) -> tuple[FloatArray, FloatArray]:
+    """Least and greatest corners of all boxes [m], (boxes, 3)."""
+    return np.array([own.low for own in near.extents]), np.array([own.high for own in near.extents])
 
 
 @lru_cache(maxsize=4)
