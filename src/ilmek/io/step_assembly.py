@@ -5,7 +5,7 @@ With `step` the only module that imports OCP, as there. The kernel orders the co
 """
 
 import io
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from OCP.BRepCheck import BRepCheck_Analyzer
@@ -25,9 +25,11 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 from ilmek.errors import OutputError
 from ilmek.io.colours import colour_of
 from ilmek.io.step import displacement, part_solid, with_header
+from ilmek.io.step_tolerances import add_tolerances
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
+from ilmek.part.tolerances import ToleratedFeature, tolerances_of
 from ilmek.part.tree import Tree
 
 SCHEMA = "AP242DIS"
@@ -39,15 +41,25 @@ def assembly_bytes(tree: Tree, title: str, drive: str = "", angle: float = 0.0) 
     title  of the assembly      drive, angle  the pose of the bodies [rad]; all other drives are at 0
     Raises OutputError for a part that gives no valid solid, and where nothing can be written.
     """
-    assembly = _Assembly(title)
+    assembly, tolerances = _Assembly(title), tolerances_of(tree)
     for chain in chains(tree):
         here = poses(chain, drive, np.array([angle]))
         body = assembly.body(chain[-1].name, Placement(here.origin[0], here.rotation[0]))
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 for position in occurrence.positions:
-                    assembly.add(body, occurrence.part, position)
+                    assembly.add(body, occurrence.part, position, tolerances.get(occurrence.part.id, ()))
     return assembly.content()
+
+
+def part_bytes(part: Part, features: Sequence[ToleratedFeature]) -> bytes:
+    """The content of a STEP file of one part in its own axes, with what its features must hold.
+
+    Raises OutputError as `assembly_bytes`, and for a feature that is not on its solid.
+    """
+    alone = _Assembly(part.title)
+    alone.part(part, features)
+    return alone.content()
 
 
 class _Assembly:
@@ -59,30 +71,38 @@ class _Assembly:
         XCAFApp_Application.GetApplication_s().NewDocument(_words("MDTV-XCAF"), self._document)
         self._shapes = XCAFDoc_DocumentTool.ShapeTool_s(self._document.Main())
         self._colours = XCAFDoc_DocumentTool.ColorTool_s(self._document.Main())
-        self._root = self._named(self._shapes.NewShape(), title)
+        self._root: TDF_Label | None = None
         self._parts: dict[str, TDF_Label] = {}
 
     def body(self, name: str, position: Placement) -> TDF_Label:
         """A new body at a position."""
+        if self._root is None:
+            self._root = self._named(self._shapes.NewShape(), self._title)
         body = self._named(self._shapes.NewShape(), name)
         self._named(self._shapes.AddComponent(self._root, body, _location(position)), name)
         return body
 
-    def add(self, body: TDF_Label, part: Part, position: Placement) -> None:
+    def part(self, part: Part, features: Sequence[ToleratedFeature]) -> None:
+        """A part with its tolerances, once."""
+        if part.id in self._parts:
+            return
+        solid = part_solid(part)
+        if not BRepCheck_Analyzer(solid).IsValid():
+            raise OutputError(f"{part.id} gives no valid solid", do="check whether its outline crosses itself")
+        label = self._parts[part.id] = self._named(self._shapes.AddShape(solid, False), part.id)
+        self._colours.SetColor(label, Quantity_ColorRGBA(*colour_of(part)), XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+        add_tolerances(self._document, label, solid, features)
+
+    def add(self, body: TDF_Label, part: Part, position: Placement, features: Sequence[ToleratedFeature]) -> None:
         """A part in a body."""
-        if part.id not in self._parts:
-            solid = part_solid(part)
-            if not BRepCheck_Analyzer(solid).IsValid():
-                raise OutputError(f"{part.id} gives no valid solid", do="check whether its outline crosses itself")
-            self._parts[part.id] = self._named(self._shapes.AddShape(solid, False), part.id)
-            surface = XCAFDoc_ColorType.XCAFDoc_ColorSurf
-            self._colours.SetColor(self._parts[part.id], Quantity_ColorRGBA(*colour_of(part)), surface)
+        self.part(part, features)
         self._named(self._shapes.AddComponent(body, self._parts[part.id], _location(position)), part.title)
 
     def content(self) -> bytes:
         """The file."""
         self._shapes.UpdateAssemblies()
         writer = STEPCAFControl_Writer()  # its constructor registers the settings below
+        writer.SetDimTolMode(True)
         settings: Mapping[str, str] = {"write.step.schema": SCHEMA, "write.step.unit": "MM"}
         for name, value in settings.items():
             Interface_Static.SetCVal_s(name, value)
