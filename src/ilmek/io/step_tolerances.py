@@ -111,8 +111,7 @@ class _Added:
         """The nominal size with its class and limits: of a cylinder, or from side to side."""
         size = _dimension("Size_Diameter" if not second else "Location_LinearDistance", one.nominal, one.name)
         if one.kind is not FeatureKind.THREAD:
-            size.SetUpperTolValue(one.upper / mm)
-            size.SetLowerTolValue(one.lower / mm)
+            _limit(size, one.lower, one.upper)
             size.SetClassOfTolerance(*_class(one.tolerance))
         self._set(size, first, second)
 
@@ -120,8 +119,7 @@ class _Added:
         """The depth of a keyway, from its floor to the opposite side of the shaft or bore."""
         floor, opposite = _floor(one, surfaces)
         size = _dimension("Location_LinearDistance", one.depth, f"{one.name}-depth")
-        size.SetUpperTolValue(one.depth_upper / mm)
-        size.SetLowerTolValue(one.depth_lower / mm)
+        _limit(size, one.depth_lower, one.depth_upper)
         self._set(size, floor, opposite)
 
     def _set(
@@ -162,6 +160,12 @@ def _dimension(kind: str, value: float, name: str) -> XCAFDimTolObjects_Dimensio
     size.SetValue(value / mm)
     size.SetSemanticName(TCollection_HAsciiString(name))
     return size
+
+
+def _limit(size: XCAFDimTolObjects_DimensionObject, lower: float, upper: float) -> None:
+    """Set limit deviations [m]; the kernel takes the lower one as what the size may be less."""
+    size.SetUpperTolValue(upper / mm)
+    size.SetLowerTolValue(-lower / mm)
 
 
 def _class(

@@ -49,7 +49,7 @@ class FeatureKind(StrEnum):
     HUB_KEYWAY = "hub keyway"
 
 
-class Duty(StrEnum):
+class FitDuty(StrEnum):
     """What a feature does on what it meets."""
 
     HOUSING = "seat of a rolling bearing's outer ring"
@@ -113,7 +113,7 @@ class ToleratedFeature:
     lower: float
     upper: float
     roughness: float
-    duty: Duty
+    duty: FitDuty
     depth: float = 0.0
     depth_lower: float = 0.0
     depth_upper: float = 0.0
@@ -128,16 +128,16 @@ class _Met:
     """A feature with its meetings, and what it does in each."""
 
     seat: SeatFeature
-    others: tuple[tuple[Duty, SeatFeature, Meeting], ...]
+    others: tuple[tuple[FitDuty, SeatFeature, Meeting], ...]
 
     @property
-    def duty(self) -> Duty:
+    def duty(self) -> FitDuty:
         """The first of its duties, in the order in which they decide."""
-        keyed = (Duty.KEYED,) if self.seat.feature.keyway is not None else ()
+        keyed = (FitDuty.KEYED,) if self.seat.feature.keyway is not None else ()
         duties = {*keyed, *(duty for duty, _, _ in self.others)}
-        return next(duty for duty in Duty if duty in duties)
+        return next(duty for duty in FitDuty if duty in duties)
 
-    def has(self, duty: Duty) -> bool:
+    def has(self, duty: FitDuty) -> bool:
         """Whether it does this, too."""
         return any(own == duty for own, _, _ in self.others)
 
@@ -159,7 +159,7 @@ _Key = tuple[str, int]
 
 def _met(tree: Tree) -> Iterator[tuple[_Key, _Met]]:
     """The features that meet another, or have a keyway."""
-    others: dict[_Key, list[tuple[Duty, SeatFeature, Meeting]]] = defaultdict(list)
+    others: dict[_Key, list[tuple[FitDuty, SeatFeature, Meeting]]] = defaultdict(list)
     seats: dict[_Key, SeatFeature] = {}
     for part, _ in tree.occurrences():
         if part.shape is not None and part.material is not None:
@@ -175,15 +175,15 @@ def _met(tree: Tree) -> Iterator[tuple[_Key, _Met]]:
     return ((key, _Met(seats[key], tuple(others[key]))) for key in sorted(seats))
 
 
-def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> Duty | None:
+def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | None:
     """What a feature does in a meeting; None: nothing that a fit is needed for, as a hole around a screw."""
     if other.part.process == "fastener":
-        return Duty.SCREWED if own is meeting.bore and meeting.ends else None
+        return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
     if other.part.process == "bearing":
-        return Duty.HOUSING if own is meeting.bore else Duty.BEARING
+        return FitDuty.HOUSING if own is meeting.bore else FitDuty.BEARING
     if meeting.joint is not JointKind.FIXED:
-        return Duty.RUNNING
-    return Duty.KEYED if own.feature.keyway or other.feature.keyway else Duty.FIXED
+        return FitDuty.RUNNING
+    return FitDuty.KEYED if own.feature.keyway or other.feature.keyway else FitDuty.FIXED
 
 
 _SMALL = 18 * mm
@@ -194,14 +194,14 @@ def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     """Tolerance class of a journal or a square."""
     if one.seat.feature.square:
         return "h9"
-    if one.duty is Duty.BEARING:
-        return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is Duty.BEARING)
-    if one.duty is Duty.RUNNING:
-        return "h6" if one.has(Duty.FIXED) or one.has(Duty.KEYED) else "g6"
-    if one.duty is Duty.KEYED:
+    if one.duty is FitDuty.BEARING:
+        return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+    if one.duty is FitDuty.RUNNING:
+        return "h6" if one.has(FitDuty.FIXED) or one.has(FitDuty.KEYED) else "g6"
+    if one.duty is FitDuty.KEYED:
         return "h6"
     own = (other for (part, _), other in met.items() if part == one.seat.part.id)
-    return "s6" if any(other.seat.feature.inside and other.has(Duty.RUNNING) for other in own) else "m6"
+    return "s6" if any(other.seat.feature.inside and other.has(FitDuty.RUNNING) for other in own) else "m6"
 
 
 def _bearing_shaft(other: SeatFeature, meeting: Meeting) -> str:
@@ -218,17 +218,19 @@ def _bearing_shaft(other: SeatFeature, meeting: Meeting) -> str:
 
 def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
     """Tolerance class of a bore: by that of the journal in it."""
-    if one.duty is Duty.SCREWED:
+    if one.duty is FitDuty.SCREWED:
         return "6H"
     if one.seat.feature.square:
         return "H9"
-    if one.duty is Duty.HOUSING:
+    if one.duty is FitDuty.HOUSING:
         return "N7" if any(_is_freewheel(other.part) for _, other, _ in one.others) else "H7"
     classes = {
-        journals[other.part.id, other.number] for duty, other, _ in one.others if duty in {Duty.RUNNING, Duty.FIXED}
+        journals[other.part.id, other.number]
+        for duty, other, _ in one.others
+        if duty in {FitDuty.RUNNING, FitDuty.FIXED}
     }
-    if one.duty in {Duty.RUNNING, Duty.FIXED} and classes == {"h6"}:
-        return "G7" if one.duty is Duty.RUNNING else "P7"
+    if one.duty in {FitDuty.RUNNING, FitDuty.FIXED} and classes == {"h6"}:
+        return "G7" if one.duty is FitDuty.RUNNING else "P7"
     return "H7"
 
 
@@ -237,12 +239,12 @@ def _is_freewheel(part: Part) -> bool:
 
 
 _ROUGH = {
-    Duty.HOUSING: 1.6 * um,
-    Duty.BEARING: 0.8 * um,
-    Duty.RUNNING: 0.4 * um,
-    Duty.KEYED: 1.6 * um,
-    Duty.FIXED: 1.6 * um,
-    Duty.SCREWED: 3.2 * um,
+    FitDuty.HOUSING: 1.6 * um,
+    FitDuty.BEARING: 0.8 * um,
+    FitDuty.RUNNING: 0.4 * um,
+    FitDuty.KEYED: 1.6 * um,
+    FitDuty.FIXED: 1.6 * um,
+    FitDuty.SCREWED: 3.2 * um,
 }
 """Ra by duty [m]; a bore in which a journal runs is twice as rough."""
 
@@ -261,10 +263,10 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     """The feature with its size, form and surface."""
     feature, duty = one.seat.feature, one.duty
     size = round(feature.size, 9)
-    threaded = duty is Duty.SCREWED
+    threaded = duty is FitDuty.SCREWED
     zone = None if threaded else tolerance_zone(tolerance, size)
     mates = dict.fromkeys(other.part.id for _, other, _ in one.others)
-    rough = _ROUGH[duty] * (2 if duty is Duty.RUNNING and feature.inside else 1)
+    rough = _ROUGH[duty] * (2 if duty is FitDuty.RUNNING and feature.inside else 1)
     return ToleratedFeature(
         part=one.seat.part.id,
         name="",
@@ -283,8 +285,8 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     )
 
 
-def _form(duty: Duty, size: float) -> Iterator[GeometricTolerance]:
-    grade = {Duty.BEARING: 5, Duty.HOUSING: 6}.get(duty)
+def _form(duty: FitDuty, size: float) -> Iterator[GeometricTolerance]:
+    grade = {FitDuty.BEARING: 5, FitDuty.HOUSING: 6}.get(duty)
     if grade is not None:
         reason = "the ring of a bearing takes the form of its seat"
         yield GeometricTolerance(Characteristic.CYLINDRICITY, tolerance_grade(grade, size) / 2, reason=reason)
@@ -334,7 +336,7 @@ def _named(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
 
 def _related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     """The features with their tolerances of position and run-out, from datums among them."""
-    seats = [one for one in features if one.kind is FeatureKind.JOURNAL and one.duty is Duty.BEARING]
+    seats = [one for one in features if one.kind is FeatureKind.JOURNAL and one.duty is FitDuty.BEARING]
     datums: dict[str, str] = {}
     if seats:
         axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
@@ -347,7 +349,7 @@ def _related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     return [_located(one, datums) if one in bores else one for one in features]
 
 
-_LINKED = {Duty.RUNNING, Duty.FIXED, Duty.HOUSING, Duty.BEARING}
+_LINKED = {FitDuty.RUNNING, FitDuty.FIXED, FitDuty.HOUSING, FitDuty.BEARING}
 _TWO = 2
 
 
@@ -361,7 +363,7 @@ def _turning_true(one: ToleratedFeature, datums: Mapping[str, str]) -> Tolerated
     letter, common = datums.get(one.name, ""), ("-".join(datums.values()),)
     if one.kind is not FeatureKind.JOURNAL or (letter and len(datums) == 1):
         return replace(one, datum=letter)
-    total = one.duty is Duty.BEARING
+    total = one.duty is FitDuty.BEARING
     characteristic = Characteristic.TOTAL_RUN_OUT if total else Characteristic.RUN_OUT
     reason = "the bearings lie in line" if total else "what is on the shaft turns true"
     value = tolerance_grade(5 if total else 7, one.nominal)
