@@ -16,6 +16,7 @@ import pytest
 from ilmek.errors import OutputError
 from ilmek.io.colours import colour_of
 from ilmek.machines.catalogue import find_machine
+from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.shapes import Prism
@@ -49,7 +50,9 @@ from OCP.XCAFDoc import (
     XCAFDoc_GeomTolerance,
 )
 
-from ilmek.io.step_assembly import assembly_bytes, part_bytes
+from ilmek.io.step import part_solid
+from ilmek.io.step_assembly import assembly_bytes
+from ilmek.io.step_document import StepDocument
 
 
 class _Read:
@@ -324,6 +327,13 @@ def test_every_tolerance_of_a_part_is_found_again_in_its_file(machine: str) -> N
         assert _Text(content).sizes() == wanted
         assert _faces(read) == sorted(size[-1] for size in wanted)
         assert _geometric(read) == _wanted_geometric(features)
+
+
+def part_bytes(part: Part, features: Sequence[ToleratedFeature]) -> bytes:
+    """The file of one part in its own axes."""
+    document = StepDocument(part.title)
+    document.solid(part.id, part_solid(part), features)
+    return document.content()
 
 
 def test_an_assembly_has_the_tolerances_of_all_its_parts() -> None:

@@ -107,11 +107,11 @@ def _pairs(
         near = inner[first:last]
         origin, along, length = lines[bore, :3], lines[bore, 3:6], lines[bore, 7]
         away, other = lines[near, :3] - origin, lines[near, 3:6]
-        same = np.abs(np.cross(other, along)).max(1, initial=0.0) < SAME
-        same &= np.abs(np.cross(away, along)).max(1, initial=0.0) < SAME
+        begin, turned = away @ along, other @ along
+        same = np.abs(other - turned[:, None] * along).max(1, initial=0.0) < SAME
+        same &= np.abs(away - begin[:, None] * along).max(1, initial=0.0) < SAME
         same &= square[near] == square[bore]
-        begin = away @ along
-        end = begin + (other @ along) * lines[near, 7]
+        end = begin + turned * lines[near, 7]
         low, high = np.minimum(begin, end), np.maximum(begin, end)
         same &= np.minimum(high, length) - np.maximum(low, 0.0) > _BESIDE
         for k in np.flatnonzero(same).tolist():

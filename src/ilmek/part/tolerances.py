@@ -20,6 +20,7 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from enum import StrEnum
+from functools import lru_cache
 
 import numpy as np
 
@@ -122,6 +123,11 @@ class ToleratedFeature:
     mates: tuple[str, ...] = ()
     joint: str = ""
 
+    @property
+    def reason(self) -> str:
+        """Why it must hold this: what it does, and with what."""
+        return " ".join((self.duty.value, *(f"[{name}]" for name in self.mates[:1])))
+
 
 @record
 class _Met:
@@ -142,6 +148,7 @@ class _Met:
         return any(own == duty for own, _, _ in self.others)
 
 
+@lru_cache(maxsize=8)
 def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
     """The tolerated features of the made parts of a tree by their ids, those of size along with their keyways."""
     met = dict(_met(tree))
