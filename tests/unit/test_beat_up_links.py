@@ -44,7 +44,7 @@ def test_the_member_that_limits_choose_keeps_them_with_its_own_pins() -> None:
 def test_one_material_with_one_density() -> None:
     assert BeatUpParams().link_material is MATERIALS["grey cast iron"]
     given_density = BeatUpParams(density=7210.0).link_material
-    assert (given_density.name, given_density.density) == ("grey cast iron of 7210 kg/m³", 7210.0)
+    assert (given_density.designation, given_density.density) == ("EN-GJL-250 EN 1561", 7210.0)
     steel = design(BeatUpParams(strength=CastLinkParams(material="structural steel")))
     cast = design(BeatUpParams())
     for link, mass in steel.masses.items():

@@ -21,12 +21,27 @@ GRAVITY = 9.81
 
 
 @dataclass(frozen=True, slots=True)
+class Hardening:
+    """How a surface is hardened: ISO 15787.
+
+    kind  SHD: by induction; CHD: case-hardened; empty: all through
+    hardness, more  least hardness of Rockwell C, and by how much it may be exceeded
+    """
+
+    kind: str
+    hardness: int
+    more: int
+
+
+@dataclass(frozen=True, slots=True)
 class Material:
     """A material, in SI.
 
+    designation  as ordered, with its standard
     modulus   Young's [Pa]      density  [kg/m^3]      strength  yield, of cast iron tensile [Pa]
     tensile   strength [Pa]     poisson  ratio         hardness  of its surface, Brinell below 400, else Vickers
     fatigue   limit in reversed bending [Pa]; hertz    allowed pressure for infinite life [Pa]; None: not known
+    treatment  of a hardened surface; None: it is as delivered
     """
 
     name: str
@@ -39,6 +54,8 @@ class Material:
     hardness: float
     fatigue: float | None
     hertz: float | None
+    designation: str
+    treatment: Hardening | None = None
 
     @property
     def shear_modulus(self) -> float:
@@ -48,6 +65,7 @@ class Material:
 
 def _material(
     name: str,
+    designation: str,
     source: str,
     *,
     modulus: float,
@@ -58,6 +76,7 @@ def _material(
     fatigue: float | None = None,
     hertz: float | None = None,
     poisson: float = 0.3,
+    treatment: Hardening | None = None,
 ) -> Material:
     """From GPa, MPa; `fatigue` is a share of the tensile strength."""
     return Material(
@@ -71,6 +90,8 @@ def _material(
         hardness,
         None if fatigue is None else fatigue * tensile * MPa,
         None if hertz is None else hertz * MPa,
+        designation,
+        treatment,
     )
 
 
@@ -79,64 +100,79 @@ MATERIALS: dict[str, Material] = {
     for material in (
         _material(
             "structural steel",
-            "EN 1993-1-1; EN 10025-2, S235 up to 16 mm thick",
+            "S235JR EN 10025-2",
+            "EN 1993-1-1; up to 16 mm thick",
             modulus=210, density=7850, strength=235, tensile=360, hardness=110, fatigue=0.45, hertz=110 + 190,
         ),
         _material(
             "heat-treatable steel",
-            "EN 10083-2, C45 +QT up to 16 mm (430 to 40 mm)",
+            "C45+QT EN 10083-2",
+            "its standard, up to 16 mm (430 to 40 mm)",
             modulus=210, density=7850, strength=490, tensile=700, hardness=210, fatigue=0.45, hertz=0.925 * 210 + 360,
         ),
         _material(
             "alloy heat-treatable steel",
-            "EN 10083-3, 42CrMo4 +QT, 16 to 40 mm",
+            "42CrMo4+QT EN 10083-3",
+            "its standard, 16 to 40 mm",
             modulus=210, density=7850, strength=750, tensile=1000, hardness=310, fatigue=0.45, hertz=1.313 * 310 + 373,
         ),
         _material(
             "induction-hardened steel",
-            "EN 10083-2, C45 +QT, its surface hardened to 55 HRC",
+            "C45+QT EN 10083-2",
+            "its standard; surface of 55 HRC",
             modulus=210, density=7850, strength=430, tensile=650, hardness=600, fatigue=0.45, hertz=0.541 * 600 + 882,
+            treatment=Hardening("SHD", 55, 4),
         ),
         _material(
             "case-hardened steel",
-            "EN ISO 683-3, 16MnCr5, its surface hardened to 60 HRC, core of a bar of 30 mm",
+            "16MnCr5 EN ISO 683-3",
+            "its standard, core of a bar of 30 mm; surface of 60 HRC",
             modulus=210, density=7850, strength=590, tensile=780, hardness=700, fatigue=0.40, hertz=1500,
+            treatment=Hardening("CHD", 60, 4),
         ),
         _material(
             "bearing steel",
-            "EN ISO 683-17, 100Cr6 through-hardened to 62 HRC: rollers and needles; pressure of ISO 281, 9.3.3",
+            "100Cr6 EN ISO 683-17",
+            "its standard, of 62 HRC: rollers and needles; pressure of ISO 281, 9.3.3",
             modulus=210, density=7830, strength=1700, tensile=2000, hardness=740, hertz=1500,
+            treatment=Hardening("", 62, 4),
         ),
         _material(
             "stainless steel",
-            "EN 10088-1 and -2, 1.4301",
+            "X5CrNi18-10 EN 10088-2",
+            "EN 10088-1 and -2",
             modulus=200, density=7900, strength=210, tensile=520, hardness=170, fatigue=0.40,
         ),
         _material(
             "grey cast iron",
-            "EN 1561, EN-GJL-250; modulus 103 to 118 GPa",
+            "EN-GJL-250 EN 1561",
+            "its standard; modulus 103 to 118 GPa",
             modulus=110, density=7200, strength=250, tensile=250, hardness=200, fatigue=0.30, hertz=1.033 * 200 + 132,
             poisson=0.26,
         ),
         _material(
             "nodular cast iron",
-            "EN 1563, EN-GJS-500-7",
+            "EN-GJS-500-7 EN 1563",
+            "its standard",
             modulus=169, density=7100, strength=320, tensile=500, hardness=190, fatigue=0.34, hertz=1.434 * 190 + 211,
             poisson=0.275,
         ),
         _material(
             "aluminium alloy",
-            "EN 755-2, EN AW-6082 T6, profiles up to 5 mm thick",
+            "EN AW-6082 T6 EN 755-2",
+            "its standard, profiles up to 5 mm thick",
             modulus=70, density=2700, strength=250, tensile=290, hardness=95, fatigue=0.30, poisson=0.33,
         ),
         _material(
             "tin bronze",
-            "EN 1982, CuSn12-C-GZ, centrifugally cast; pressure of DIN 3996",
+            "CuSn12-C-GZ EN 1982",
+            "its standard, centrifugally cast; pressure of DIN 3996",
             modulus=95, density=8700, strength=150, tensile=280, hardness=95, hertz=425, poisson=0.34,
         ),
         _material(
             "POM",
-            "EN ISO 29988-1, POM-C at 23 C; pressure an estimate after VDI 2545, against steel, 60 C, 10^7 turns",
+            "POM-C EN ISO 29988-1",
+            "its standard, 23 C; pressure an estimate after VDI 2545, against steel, 60 C, 10^7 turns",
             modulus=2.7, density=1410, strength=63, tensile=63, hardness=15, fatigue=0.40, hertz=40, poisson=0.38,
         ),
     )
@@ -146,16 +182,19 @@ MATERIALS: dict[str, Material] = {
 BEECH, CARBON, NEODYMIUM = (
     _material(
         "beech",
+        "beech EN 975-1",
         "DIN 68364, along the grain; strength in compression, tensile along the grain",
         modulus=14, density=720, strength=60, tensile=135, hardness=3.4, poisson=0.35,
     ),
     _material(
         "carbon fibre",
+        "carbon fibre tube, pultruded",
         "pultruded tube, along its fibres: makers' data",
         modulus=120, density=1600, strength=1000, tensile=1200, hardness=50,
     ),
     _material(
         "neodymium magnet",
+        "Nd-Fe-B N42, sintered",
         "sintered Nd-Fe-B of grade N42: makers' data; it is brittle",
         modulus=160, density=7500, strength=80, tensile=80, hardness=570, poisson=0.24,
     ),

@@ -1,5 +1,5 @@
-"""Parts as STEP solids (AP214, mm): plates as the contours of the DXF, extruded; barrel and end cams with their flanks
-as smooth surfaces through exact points. With `step_assembly` the only module that imports OCP.
+"""Parts as STEP solids (AP242, mm): plates as the contours of the DXF, extruded; barrel and end cams with their flanks
+as smooth surfaces through exact points; each with the tolerances of its features.
 
 OCP is the extra `step`; without it, importing this module raises ImportError. Its releases rename classes; therefore
 all imports of it are here, and the extra is pinned below the next release.
@@ -9,7 +9,6 @@ import io
 from pathlib import Path
 
 import numpy as np
-from OCP.APIHeaderSection import APIHeaderSection_MakeHeader
 from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Splitter
 from OCP.BRepBuilderAPI import (
@@ -21,7 +20,6 @@ from OCP.BRepBuilderAPI import (
     BRepBuilderAPI_Sewing,
     BRepBuilderAPI_Transform,
 )
-from OCP.BRepCheck import BRepCheck_Analyzer
 from OCP.BRepGProp import BRepGProp
 from OCP.BRepOffsetAPI import BRepOffsetAPI_ThruSections
 from OCP.BRepPrimAPI import BRepPrimAPI_MakeCylinder, BRepPrimAPI_MakePrism, BRepPrimAPI_MakeRevol
@@ -31,12 +29,8 @@ from OCP.GeomAPI import GeomAPI_PointsToBSplineSurface
 from OCP.gp import gp_Ax1, gp_Ax2, gp_Dir, gp_Pnt, gp_Trsf, gp_Vec
 from OCP.GProp import GProp_GProps
 from OCP.IFSelect import IFSelect_ReturnStatus
-from OCP.Interface import Interface_Static
-from OCP.Message import Message, Message_Gravity
 from OCP.OCP.collections import Array2_gp_Pnt, List_TopoDS_Shape
-from OCP.STEPControl import STEPControl_Reader, STEPControl_StepModelType, STEPControl_Writer
-from OCP.StepData import StepData_StepModel
-from OCP.TCollection import TCollection_HAsciiString
+from OCP.STEPControl import STEPControl_Reader
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape, TopoDS_Wire
@@ -44,26 +38,22 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound, TopoDS_Shape, TopoDS_Wire
 from ilmek.arrays import FloatArray
 from ilmek.errors import OutputError
 from ilmek.io.plate_shape import PlateShape
+from ilmek.io.step_document import StepDocument
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, Placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Sum, Turned
+from ilmek.part.tolerances import ToleratedFeature
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.biarcs import fitted
 from ilmek.plane.contours import STRAIGHT, circle, on_piece
 from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
 from ilmek.units import mm, um
 
-TIME_STAMP = "2000-01-01T00:00:00"
-"""Of every file, as in the DXF: the same plate gives the same bytes."""
-
-for _printer in Message.DefaultMessenger_s().Printers():
-    _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # otherwise each transfer is printed on standard output
-
 
 def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
     """Write a plate as a solid. Raises OutputError if the solid is invalid or cannot be written."""
-    _write(path, _plate_solid(plate, shape), plate.name, plate.title)
+    _write(path, plate, _plate_solid(plate, shape))
 
 
 def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
@@ -74,30 +64,13 @@ def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
 
 def write_piece(path: Path, piece: WorkPiece) -> None:
     """Write a piece that is turned, sawn or welded. Raises OutputError as `write_step`."""
-    _write(path, _of_shape(piece.shape), piece.name, piece.title)
+    _write(path, piece, _of_shape(piece.shape))
 
 
-def _write(path: Path, solid: TopoDS_Shape, name: str, title: str) -> None:
-    if not BRepCheck_Analyzer(solid).IsValid():
-        raise OutputError(f"{name} gives no valid solid", do="check whether its outline crosses itself")
-    writer = STEPControl_Writer()  # its constructor registers the settings below
-    Interface_Static.SetCVal_s("write.step.unit", "MM")
-    Interface_Static.SetCVal_s("write.step.product.name", name)
-    writer.Transfer(solid, STEPControl_StepModelType.STEPControl_AsIs)
-    with_header(writer.Model(False), title)
-    written = io.BytesIO()  # the library opens only paths in UTF-8
-    if writer.WriteStream(written) != IFSelect_ReturnStatus.IFSelect_RetDone:
-        raise OutputError(f"{path} cannot be written as STEP")
-    path.write_bytes(written.getvalue())
-
-
-def with_header(model: StepData_StepModel, title: str) -> None:
-    """Set the header of a file: the same content gives the same bytes."""
-    header = APIHeaderSection_MakeHeader(model)
-    header.SetName(TCollection_HAsciiString(title))
-    header.SetTimeStamp(TCollection_HAsciiString(TIME_STAMP))
-    header.SetAuthorValue(1, TCollection_HAsciiString("ilmek"))
-    header.SetOriginatingSystem(TCollection_HAsciiString("ilmek"))
+def _write(path: Path, made: Plate | WorkPiece, solid: TopoDS_Shape) -> None:
+    document = StepDocument(made.title)
+    document.solid(made.name, solid, [one for one in made.features if isinstance(one, ToleratedFeature)])
+    path.write_bytes(document.content())
 
 
 def read_step_volume(path: Path) -> float:

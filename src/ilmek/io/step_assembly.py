@@ -1,36 +1,23 @@
-"""A tree of bodies as one STEP assembly (AP242, mm): each part once, with name and colour; each body an assembly of the
-parts that it has, placed where it is at an angle of a drive.
-
-With `step` the only module that imports OCP, as there. The kernel orders the colours in a file as it likes.
+"""A tree of bodies as one STEP assembly (AP242, mm): each part once, with name, colour and tolerances; each body an
+assembly of the parts that it has, placed where it is at an angle of a drive. The kernel orders the colours as it likes.
 """
 
-import io
-from collections.abc import Mapping
+from collections.abc import Sequence
 
 import numpy as np
-from OCP.BRepCheck import BRepCheck_Analyzer
-from OCP.gp import gp_Trsf
-from OCP.IFSelect import IFSelect_ReturnStatus
-from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_ColorRGBA
-from OCP.STEPCAFControl import STEPCAFControl_Writer
-from OCP.TCollection import TCollection_ExtendedString
-from OCP.TDataStd import TDataStd_Name
 from OCP.TDF import TDF_Label
-from OCP.TDocStd import TDocStd_Document
 from OCP.TopLoc import TopLoc_Location
-from OCP.XCAFApp import XCAFApp_Application
 from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
-from ilmek.errors import OutputError
 from ilmek.io.colours import colour_of
-from ilmek.io.step import displacement, part_solid, with_header
+from ilmek.io.step import displacement, part_solid
+from ilmek.io.step_document import StepDocument
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
+from ilmek.part.tolerances import ToleratedFeature, tolerances_of
 from ilmek.part.tree import Tree
-
-SCHEMA = "AP242DIS"
 
 
 def assembly_bytes(tree: Tree, title: str, drive: str = "", angle: float = 0.0) -> bytes:
@@ -39,73 +26,39 @@ def assembly_bytes(tree: Tree, title: str, drive: str = "", angle: float = 0.0) 
     title  of the assembly      drive, angle  the pose of the bodies [rad]; all other drives are at 0
     Raises OutputError for a part that gives no valid solid, and where nothing can be written.
     """
-    assembly = _Assembly(title)
+    assembly, tolerances = _Assembly(title), tolerances_of(tree)
     for chain in chains(tree):
         here = poses(chain, drive, np.array([angle]))
         body = assembly.body(chain[-1].name, Placement(here.origin[0], here.rotation[0]))
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 for position in occurrence.positions:
-                    assembly.add(body, occurrence.part, position)
+                    assembly.add(body, occurrence.part, position, tolerances.get(occurrence.part.id, ()))
     return assembly.content()
 
 
-class _Assembly:
+class _Assembly(StepDocument):
     """An assembly while it is made."""
 
     def __init__(self, title: str) -> None:
-        self._title = title
-        self._document = TDocStd_Document(_words("XmlOcaf"))
-        XCAFApp_Application.GetApplication_s().NewDocument(_words("MDTV-XCAF"), self._document)
-        self._shapes = XCAFDoc_DocumentTool.ShapeTool_s(self._document.Main())
-        self._colours = XCAFDoc_DocumentTool.ColorTool_s(self._document.Main())
-        self._root = self._named(self._shapes.NewShape(), title)
+        super().__init__(title)
+        self._colours = XCAFDoc_DocumentTool.ColorTool_s(self.document.Main())
+        self._root = self.named(self.shapes.NewShape(), title)
         self._parts: dict[str, TDF_Label] = {}
 
     def body(self, name: str, position: Placement) -> TDF_Label:
         """A new body at a position."""
-        body = self._named(self._shapes.NewShape(), name)
-        self._named(self._shapes.AddComponent(self._root, body, _location(position)), name)
+        body = self.named(self.shapes.NewShape(), name)
+        self.named(self.shapes.AddComponent(self._root, body, _location(position)), name)
         return body
 
-    def add(self, body: TDF_Label, part: Part, position: Placement) -> None:
+    def add(self, body: TDF_Label, part: Part, position: Placement, features: Sequence[ToleratedFeature]) -> None:
         """A part in a body."""
         if part.id not in self._parts:
-            solid = part_solid(part)
-            if not BRepCheck_Analyzer(solid).IsValid():
-                raise OutputError(f"{part.id} gives no valid solid", do="check whether its outline crosses itself")
-            self._parts[part.id] = self._named(self._shapes.AddShape(solid, False), part.id)
-            surface = XCAFDoc_ColorType.XCAFDoc_ColorSurf
-            self._colours.SetColor(self._parts[part.id], Quantity_ColorRGBA(*colour_of(part)), surface)
-        self._named(self._shapes.AddComponent(body, self._parts[part.id], _location(position)), part.title)
-
-    def content(self) -> bytes:
-        """The file."""
-        self._shapes.UpdateAssemblies()
-        writer = STEPCAFControl_Writer()  # its constructor registers the settings below
-        settings: Mapping[str, str] = {"write.step.schema": SCHEMA, "write.step.unit": "MM"}
-        for name, value in settings.items():
-            Interface_Static.SetCVal_s(name, value)
-        written = io.BytesIO()
-        try:
-            done = writer.Transfer(self._document)
-            with_header(writer.ChangeWriter().Model(False), self._title)
-            if not done or writer.WriteStream(written) != IFSelect_ReturnStatus.IFSelect_RetDone:
-                raise OutputError(f"{self._title} cannot be written as STEP")
-        finally:
-            Interface_Static.SetCVal_s("write.step.schema", "AP214IS")
-        return written.getvalue()
-
-    @staticmethod
-    def _named(label: TDF_Label, name: str) -> TDF_Label:
-        TDataStd_Name.Set_s(label, _words(name))
-        return label
+            label = self._parts[part.id] = self.solid(part.id, part_solid(part), features)
+            self._colours.SetColor(label, Quantity_ColorRGBA(*colour_of(part)), XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+        self.named(self.shapes.AddComponent(body, self._parts[part.id], _location(position)), part.title)
 
 
 def _location(position: Placement) -> TopLoc_Location:
-    motion: gp_Trsf = displacement(position)
-    return TopLoc_Location(motion)
-
-
-def _words(text: str) -> TCollection_ExtendedString:
-    return TCollection_ExtendedString(text, True)
+    return TopLoc_Location(displacement(position))

@@ -17,6 +17,7 @@ from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
+from ilmek.part.plates import tolerated
 from ilmek.plane.contours import area
 from ilmek.records import JsonObject, record
 from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
@@ -164,8 +165,8 @@ def write_workshop(
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
-    plates, tables = _own_names(report.all_plates), _own_names(report.all_cam_tables)
-    pieces = _own_names(report.all_pieces)
+    plates, tables = _own_names([*map(tolerated, report.all_plates)]), _own_names(report.all_cam_tables)
+    pieces = _own_names([*map(tolerated, report.all_pieces)])
     allowed = tolerance or Tolerance()
     with joined(outputs, force=force) as made, made.folder(folder) as work:
         left_out: list[str] = []

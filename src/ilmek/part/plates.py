@@ -1,9 +1,11 @@
 """The made parts of a tree for the workshop: flat ones as plates, all others as solids."""
 
 from dataclasses import replace
+from typing import TypeVar
 
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
+from ilmek.part.tolerances import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import area, as_hole, counter_clockwise
 from ilmek.report import Plate, WorkPiece
@@ -12,18 +14,41 @@ FLAT = ("laser-cut part", "machined link", "cam plate")
 """Processes by which a contour is cut out of flat stock."""
 
 
-def plates_of(tree: Tree) -> tuple[Plate, ...]:
-    """A plate for each flat part that is made, named by the last part of its id, in the order of the bodies."""
-    return tuple(_plate(part, number) for part, number in tree.occurrences() if is_flat(part))
+def plates_of(tree: Tree, whole: Tree | None = None) -> tuple[Plate, ...]:
+    """A plate for each flat part that is made, named by the last part of its id, in the order of the bodies.
+
+    whole  the tree in which its parts meet those of others; default: the tree itself
+    """
+    return tuple(_plate(part, number, whole or tree) for part, number in tree.occurrences() if is_flat(part))
 
 
-def pieces_of(tree: Tree) -> tuple[WorkPiece, ...]:
-    """A piece for each other part that is made: what is turned, sawn or welded."""
+def pieces_of(tree: Tree, whole: Tree | None = None) -> tuple[WorkPiece, ...]:
+    """A piece for each other part that is made: what is turned, sawn or welded; whole  as of `plates_of`."""
     return tuple(
-        WorkPiece(plate_name(part), part.title, part.size, part.material.name, number, part.shape, part.shape.volume)
+        WorkPiece(
+            plate_name(part),
+            part.title,
+            part.size,
+            part.material.designation,
+            number,
+            part.shape,
+            part.shape.volume,
+            part,
+            whole or tree,
+        )
         for part, number in tree.occurrences()
         if part.material is not None and part.shape is not None and not is_flat(part)
     )
+
+
+View = TypeVar("View", Plate, WorkPiece)
+
+
+def tolerated(made: View) -> View:
+    """A plate or piece with what the features of its part must hold."""
+    if not isinstance(made.part, Part) or not isinstance(made.tree, Tree):
+        return made
+    return replace(made, features=tolerances_of(made.tree).get(made.part.id, ()))
 
 
 def is_flat(part: Part) -> bool:
@@ -39,12 +64,20 @@ def plate_name(part: Part) -> str:
     return part.id.rpartition("/")[2]
 
 
-def _plate(part: Part, number: int) -> Plate:
+def _plate(part: Part, number: int, whole: Tree) -> Plate:
+    assert part.material is not None
     if part.drawing is not None:
-        return replace(part.drawing, name=plate_name(part), title=part.title.capitalize(), number=number)
+        return replace(
+            part.drawing,
+            name=plate_name(part),
+            title=part.title.capitalize(),
+            number=number,
+            material=part.material.designation,
+            part=part,
+            tree=whole,
+        )
     shape = part.shape
     assert isinstance(shape, Prism)
-    assert part.material is not None
     outline = counter_clockwise(shape.section.outline)
     bores = [(cut, as_hole(cut)) for cut in shape.section.holes]
     return Plate(
@@ -52,7 +85,7 @@ def _plate(part: Part, number: int) -> Plate:
         title=part.title.capitalize(),
         outline=outline.points if shape.section.smooth else outline,
         thickness=shape.length,
-        material=part.material.name,
+        material=part.material.designation,
         holes=tuple(hole for _, hole in bores if hole is not None),
         cutouts=tuple(counter_clockwise(cut) for cut, hole in bores if hole is None),
         area=area(outline),
@@ -60,4 +93,6 @@ def _plate(part: Part, number: int) -> Plate:
         paths=part.paths,
         marks=part.marks,
         notes=part.notes,
+        part=part,
+        tree=whole,
     )

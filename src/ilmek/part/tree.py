@@ -62,10 +62,14 @@ class Joint:
 
 @record
 class Occurrence:
-    """A part in a body, at one or more positions in its frame."""
+    """A part in a body, at one or more positions in its frame.
+
+    turning  it turns on what it sits, as a roller or an eye, and no body follows it
+    """
 
     part: Part
     positions: tuple[Placement, ...] = (IDENTITY,)
+    turning: bool = False
 
 
 @record

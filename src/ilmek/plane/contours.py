@@ -7,6 +7,7 @@ where b < 0 and right of it where b > 0; b = 1 is a half turn to the left. Point
 
 import math
 from functools import lru_cache
+from typing import NamedTuple
 
 import numpy as np
 
@@ -93,6 +94,42 @@ def keyed_bore(radius: float, width: float, depth: float, number: int = 1) -> Co
     sweep = 2 * (math.pi / number - math.asin(half / radius))
     points = np.concatenate([step**k * one for k in range(number)])
     return Contour(points, np.tile([math.tan(sweep / 4), 0.0, 0.0, 0.0], number))
+
+
+class KeyedCircle(NamedTuple):
+    """A circle with keyways: centre, radius, width of each, distance of its floor from the centre [m], directions."""
+
+    centre: complex
+    radius: float
+    width: float
+    floor: float
+    directions: tuple[complex, ...]
+
+
+def as_keyed(contour: Contour) -> KeyedCircle | None:
+    """The bore or shaft with keyways that a contour is; None: it is none.
+
+    >>> as_keyed(keyed_bore(0.010, 0.006, 0.0028)).width, as_keyed(circle(0j, 0.01))
+    (0.006, None)
+    """
+    points, after, bulges = contour.points, following(contour.points), contour.bulges
+    arcs = np.flatnonzero(np.abs(bulges) >= STRAIGHT)
+    if not len(arcs) or len(points) != 4 * len(arcs):
+        return None
+    centres = [arc_centre(complex(points[k]), complex(after[k]), float(bulges[k])) for k in arcs]
+    floors = (arcs + 2) % len(points)  # after an arc and the side of a groove
+    out, across = (points[floors] + after[floors]) / 2 - centres[0], after[floors] - points[floors]
+    radii = np.abs(points - centres[0])
+    circles = np.ptp(np.delete(radii, np.concatenate([floors, (floors + 1) % len(points)]))) + np.ptp(centres)
+    spread = np.ptp(np.abs(out)) + np.ptp(np.abs(across)) + float(np.max(np.abs(dot(out, across))))
+    if circles + spread > _SAME * radii[arcs[0]]:
+        return None
+    width, floor = float(np.abs(across[0])), float(np.abs(out[0]))
+    return KeyedCircle(centres[0], float(radii[arcs[0]]), width, floor, tuple((out / floor).tolist()))
+
+
+_SAME = 1e-6
+"""Deviation over the radius that counts as rounding."""
 
 
 def counter_clockwise(contour: Contour) -> Contour:

@@ -56,6 +56,8 @@ class WorkPiece:
 
     size    section and length, for people        number  pieces to be made
     shape   a shape of the package `part`         volume  of it, exact [m^3]
+    part    of the package `part`, of which it is the view; None: of none        tree  in which it meets others
+    features  what they must hold, where they are added
     """
 
     name: str
@@ -65,6 +67,9 @@ class WorkPiece:
     number: int
     shape: object
     volume: float
+    part: object = None
+    tree: object = None
+    features: tuple[object, ...] = ()
 
 
 @record
@@ -81,6 +86,8 @@ class Plate:
     number    pieces to be made        notes  what else the workshop must know: fits, a keyway's standard
     solid     the part itself, where the outline is its development, or a groove is in it; None: the outline,
               `thickness` thick
+    part      of the package `part`, of which it is the view; None: of none        tree  in which it meets others
+    features  what they must hold, where they are added
     """
 
     name: str
@@ -96,6 +103,9 @@ class Plate:
     number: int = 1
     notes: tuple[str, ...] = ()
     solid: RoundSolid | WorkPiece | None = None
+    part: object = None
+    tree: object = None
+    features: tuple[object, ...] = ()
 
 
 @record

@@ -221,10 +221,7 @@ class BeatUpParams(Params):
     def link_material(self) -> Material:
         """Material of the links, with the given density."""
         material = self.strength.of_links
-        if self.density in {None, material.density}:
-            return material
-        name = f"{material.name} of {format_quantity(self.density, 'kg/m^3')}"
-        return replace(material, name=name, density=self.density)
+        return material if self.density is None else replace(material, density=self.density)
 
     @property
     def gravity_vector(self) -> complex:

@@ -252,10 +252,10 @@ def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY)
 
 
 def _eyes(parts: CompensatorParts, pin: complex, towards: complex) -> tuple[Occurrence, ...]:
-    """The eyes of the springs on their pins at a point, in a direction; none where no spring of the table is enough."""
+    """The eyes of the springs, which swing on their pins at a point, in a direction; none where no spring is enough."""
     at = parts.supports
     places = _places([pin], at.spring_stations, turned=towards)
-    return () if at.sprung.spring is None else (Occurrence(parts.eye, places),)
+    return () if at.sprung.spring is None else (Occurrence(parts.eye, places, turning=True),)
 
 
 def _rollers(

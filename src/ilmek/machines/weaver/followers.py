@@ -88,7 +88,7 @@ def _sizes(weaver: Weaver) -> tuple[float, float]:
 def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
     roller, bolt = _roller(weaver)
     fork, _ = _sizes(weaver)
-    parts = Occurrence(_fork(weaver, cam)), Occurrence(roller), Occurrence(bolt, (placement(z=-fork),))
+    parts = Occurrence(_fork(weaver, cam)), Occurrence(roller, turning=True), Occurrence(bolt, (placement(z=-fork),))
     if cam.name not in weaver.shape.levers:
         return parts
     return *parts, Occurrence(lever_pin(weaver), (placement(-_pin_height(weaver, cam)),))

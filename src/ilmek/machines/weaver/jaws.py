@@ -184,7 +184,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     title = f"roller's arm of the {name} jaws"
     roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
-    yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),))
+    yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),), turning=True)
     for number, rod in enumerate(by.grippers):
         long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)

@@ -1,0 +1,137 @@
+"""Which features of size of a tree's parts meet, and how one moves in the other: at rest, every drive at angle 0.
+
+A bore and a journal meet where they have the same size, the same axis, and lie along it beside each other. How they
+move follows from the joints between their bodies: of the chains from the body that carries both.
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.part.features import FeatureOfSize, features_of_size
+from ilmek.part.part import Part
+from ilmek.part.placement import Placement
+from ilmek.part.poses import Chain, chains, poses
+from ilmek.part.tree import JointKind, Tree
+from ilmek.records import record
+from ilmek.units import um
+
+SAME = 1 * um
+"""Distance of axes, difference of sizes [m], and of directions that counts as rounding."""
+
+_BESIDE = 100 * um
+"""Least length along the axis over which features meet [m]."""
+
+
+@record
+class SeatFeature:
+    """A feature of a part, by its number among `features_of_size` of the part's shape."""
+
+    part: Part
+    number: int
+    feature: FeatureOfSize
+
+
+@record
+class Meeting:
+    """A bore and what is in it.
+
+    joint   how one moves in the other: fixed, pin, slide          body   id of the body that moves, or that has both
+    ends    the inner one ends in the bore: the tip of a screw
+    """
+
+    bore: SeatFeature
+    inner: SeatFeature
+    joint: JointKind
+    body: str
+    ends: bool
+
+
+@record
+class _Placed:
+    """A feature where it stands."""
+
+    seat: SeatFeature
+    chain: Chain
+    turning: bool
+
+
+def meetings(tree: Tree) -> tuple[Meeting, ...]:
+    """The meetings of different parts, those of like pairs of features in the same bodies once."""
+    placed, lines = _placed(tree)
+    if not placed:
+        return ()
+    kept: dict[tuple[object, ...], Meeting] = {}
+    for bore, inner, ends in _pairs(placed, lines):
+        joint, body = _joint(bore, inner)
+        meeting = Meeting(bore.seat, inner.seat, joint, body, ends)
+        names = (seat.part.id for seat in (bore.seat, inner.seat))
+        kept.setdefault((*names, bore.seat.number, inner.seat.number, joint, body, ends), meeting)
+    return tuple(kept.values())
+
+
+def _placed(tree: Tree) -> tuple[list[_Placed], Float[np.ndarray, "features 8"]]:
+    """The features where they stand; and origins, directions, sizes and lengths of them."""
+    placed, lines, own = [], [], dict[str, tuple[SeatFeature, ...]]()
+    for chain in chains(tree):
+        here = poses(chain, "", np.zeros(1))
+        body = Placement(here.origin[0], here.rotation[0])
+        for occurrence in chain[-1].body.occurrences:
+            part = occurrence.part
+            if part.id not in own:
+                shaped = () if part.shape is None else features_of_size(part.shape)
+                own[part.id] = tuple(SeatFeature(part, number, feature) for number, feature in enumerate(shaped))
+            for position in occurrence.positions if own[part.id] else ():
+                stands = body.after(position)
+                for seat in own[part.id]:
+                    feature = seat.feature
+                    origin = stands.points(feature.position.origin)
+                    along = stands.rotation @ feature.position.rotation[:, 2]
+                    placed.append(_Placed(seat, chain, occurrence.turning))
+                    lines.append([*origin, *along, feature.size, feature.length])
+    return placed, np.array(lines).reshape(-1, 8)
+
+
+def _pairs(
+    placed: Sequence[_Placed], lines: Float[np.ndarray, "features 8"]
+) -> Iterator[tuple[_Placed, _Placed, bool]]:
+    """Bore and inner feature of each meeting, and whether the inner one ends in the bore."""
+    inside = np.array([one.seat.feature.inside for one in placed])
+    square = np.array([one.seat.feature.square for one in placed])
+    inner = np.flatnonzero(~inside)
+    inner = inner[np.argsort(lines[inner, 6])]
+    sizes = lines[inner, 6]
+    for bore in np.flatnonzero(inside).tolist():
+        first, last = np.searchsorted(sizes, lines[bore, 6] + np.array([-SAME, SAME]))
+        near = inner[first:last]
+        origin, along, length = lines[bore, :3], lines[bore, 3:6], lines[bore, 7]
+        away, other = lines[near, :3] - origin, lines[near, 3:6]
+        begin, turned = away @ along, other @ along
+        same = np.abs(other - turned[:, None] * along).max(1, initial=0.0) < SAME
+        same &= np.abs(away - begin[:, None] * along).max(1, initial=0.0) < SAME
+        same &= square[near] == square[bore]
+        end = begin + turned * lines[near, 7]
+        low, high = np.minimum(begin, end), np.maximum(begin, end)
+        same &= np.minimum(high, length) - np.maximum(low, 0.0) > _BESIDE
+        for k in np.flatnonzero(same).tolist():
+            if placed[near[k]].seat.part is not placed[bore].seat.part:
+                yield placed[bore], placed[near[k]], bool(-SAME <= end[k] <= length + SAME)
+
+
+def _joint(bore: _Placed, inner: _Placed) -> tuple[JointKind, str]:
+    """How two features move in each other, and the id of the body that does; of both where they stand."""
+    common = sum(1 for one, other in zip(bore.chain, inner.chain, strict=False) if one == other)
+    moving = [
+        link for chain in (inner.chain, bore.chain) for link in chain[common:] if link.body.joint.kind not in _STANDING
+    ]
+    if not moving and (bore.turning or inner.turning):
+        return JointKind.PIN, inner.chain[-1].name
+    if not moving:
+        return JointKind.FIXED, inner.chain[-1].name
+    kinds = {link.body.joint.kind for link in moving}
+    return JointKind.PIN if kinds & _TURNING else JointKind.SLIDE, moving[-1].name
+
+
+_STANDING = {JointKind.FIXED, JointKind.MISSING}
+_TURNING = {JointKind.PIN, JointKind.ROLLING, JointKind.TRANSMISSION}
