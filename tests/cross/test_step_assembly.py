@@ -9,12 +9,15 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
+from default_machines import default_report
 
 from ilmek.errors import OutputError
 from ilmek.io.colours import colour_of
+from ilmek.jobs.workshop import write_workshop
 from ilmek.machines.catalogue import find_machine
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
@@ -352,3 +355,10 @@ def test_a_feature_that_is_not_on_the_solid_is_refused() -> None:
     (journal,) = tolerances_of(tree)[part.id]
     with pytest.raises(OutputError, match=r"journal-1 of beat-up/pin is not on its solid"):
         part_bytes(part, (replace(journal, nominal=2 * journal.nominal),))
+
+
+def test_the_files_of_a_workshop_have_the_tolerances_of_their_parts(tmp_path: Path) -> None:
+    write_workshop(default_report("beat-up"), tmp_path / "parts")
+    features = tolerances_of(_tree("beat-up", {}))["beat-up/rocker"]
+    assert _Text((tmp_path / "parts" / "rocker.step").read_bytes()).sizes() == _wanted_sizes(features)
+    assert [one.tolerance for one in features] == ["G7", "P7"]
