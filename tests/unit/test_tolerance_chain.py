@@ -1,17 +1,22 @@
-"""Tolerances along a cam shaft: piles of random sheets, coils at their limits, shims in list and space."""
+"""Tolerances along a cam shaft: piles of random sheets, coils at their limits, shims in list and space; of a loom."""
 
 import itertools
 
 import numpy as np
 import pytest
 from cloths import cloth
+from default_machines import default_design
 from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.sheet_tolerances import CLASSES, sheet_tolerance, statistical_sum, worst_sum
+from ilmek.elements.tolerance_chains import ToleranceLink, ToleranceStack
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.tolerance_chains import BAR, FACE, GRIPPER, tolerance_stacks
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams
 from ilmek.machines.shedding.tree import tree
 from ilmek.part.bill import bill
+from ilmek.part.meetings import meetings
 from ilmek.report import Check
 from ilmek.units import mm
 
@@ -113,3 +118,45 @@ def test_shims_are_in_the_list() -> None:
     titles = {line.name: line.number for line in bill(tree(made()))}
     assert titles["shims of the cams"] == titles["guide cam beside shims"] == 599 // made().chain.interval
     assert titles["guide cam"] + titles["guide cam beside shims"] == 601
+
+
+def test_random_assemblies_keep_the_closures_of_a_loom() -> None:
+    """Every link of 10⁵ looms anywhere within its tolerance: sizes normal, cut off at their limits; play even."""
+    random = np.random.default_rng(3)
+    stacks = tolerance_stacks(default_design("automated-loom"))
+    assert [one.title for one in stacks] == [
+        "height of the shed",
+        "opener between two warps",
+        "gripper beside a warp",
+    ]
+    for one in stacks:
+        closure = np.zeros(100_000)
+        for link in one.links:
+            shape = random.uniform(-1, 1, len(closure)) if link.play else random.normal(0, 1 / 3, len(closure))
+            closure += link.ratio * link.deviation * np.clip(shape, -1, 1)
+        assert one.statistical < np.abs(closure).max() <= one.worst
+        assert np.mean(np.abs(closure) > one.statistical) < 0.0035
+        assert np.quantile(np.abs(closure), 0.997) > 0.8 * one.statistical
+        assert one.statistical < one.worst < one.room
+
+
+def test_a_gripper_in_two_bores_moves_its_tip_farther_than_they_are_off() -> None:
+    loom = default_design("automated-loom")
+    guided = [
+        one for one in meetings(loom_tree(loom)) if one.inner.part.id == GRIPPER and one.bore.part.id in {FACE, BAR}
+    ]
+    middles = {one.bore.part.id: sum(one.along) / 2 for one in guided}
+    off = {FACE: 7e-6, BAR: -4e-6}
+    slope, tip = np.polyfit([middles[FACE], middles[BAR]], [off[FACE], off[BAR]], 1)
+    (stack,) = (one for one in tolerance_stacks(loom) if one.title == "gripper beside a warp")
+    ratios = {part: next(link.ratio for link in stack.links if link.play and word in link.name) for part, word in WORDS}
+    assert sum(ratios[part] * off[part] for part in off) == pytest.approx(tip)
+    assert slope != 0
+
+
+WORDS = (FACE, "face"), (BAR, "cross-bar")
+
+
+def test_one_link_that_is_play_keeps_its_worst_case() -> None:
+    alone = ToleranceStack("", 1.0, (ToleranceLink("", 0.2, -2.0, play=True),))
+    assert (alone.worst, alone.statistical) == (0.4, 0.4)

@@ -39,6 +39,7 @@ class Meeting:
 
     joint   how one moves in the other: fixed, pin, slide          body   id of the body that moves, or that has both
     ends    the inner one ends in the bore: the tip of a screw
+    along   where the bore begins and ends along the axis of the inner one, from where that begins [m]
     """
 
     bore: SeatFeature
@@ -46,6 +47,7 @@ class Meeting:
     joint: JointKind
     body: str
     ends: bool
+    along: tuple[float, float]
 
 
 @record
@@ -63,9 +65,9 @@ def meetings(tree: Tree) -> tuple[Meeting, ...]:
     if not placed:
         return ()
     kept: dict[tuple[object, ...], Meeting] = {}
-    for bore, inner, ends in _pairs(placed, lines):
+    for bore, inner, ends, along in _pairs(placed, lines):
         joint, body = _joint(bore, inner)
-        meeting = Meeting(bore.seat, inner.seat, joint, body, ends)
+        meeting = Meeting(bore.seat, inner.seat, joint, body, ends, along)
         names = (seat.part.id for seat in (bore.seat, inner.seat))
         kept.setdefault((*names, bore.seat.number, inner.seat.number, joint, body, ends), meeting)
     return tuple(kept.values())
@@ -95,8 +97,8 @@ def _placed(tree: Tree) -> tuple[list[_Placed], Float[np.ndarray, "features 8"]]
 
 def _pairs(
     placed: Sequence[_Placed], lines: Float[np.ndarray, "features 8"]
-) -> Iterator[tuple[_Placed, _Placed, bool]]:
-    """Bore and inner feature of each meeting, and whether the inner one ends in the bore."""
+) -> Iterator[tuple[_Placed, _Placed, bool, tuple[float, float]]]:
+    """Bore and inner feature of each meeting, whether the inner one ends in the bore, and where that lies along it."""
     inside = np.array([one.seat.feature.inside for one in placed])
     square = np.array([one.seat.feature.square for one in placed])
     inner = np.flatnonzero(~inside)
@@ -116,7 +118,8 @@ def _pairs(
         same &= np.minimum(high, length) - np.maximum(low, 0.0) > _BESIDE
         for k in np.flatnonzero(same).tolist():
             if placed[near[k]].seat.part is not placed[bore].seat.part:
-                yield placed[bore], placed[near[k]], bool(-SAME <= end[k] <= length + SAME)
+                first, last = sorted((float(-begin[k] * turned[k]), float((length - begin[k]) * turned[k])))
+                yield placed[bore], placed[near[k]], bool(-SAME <= end[k] <= length + SAME), (first, last)
 
 
 def _joint(bore: _Placed, inner: _Placed) -> tuple[JointKind, str]:

@@ -129,6 +129,24 @@ class ToleratedFeature:
         return " ".join((self.duty.value, *(f"[{name}]" for name in self.mates[:1])))
 
 
+def play_of(tree: Tree, outer: str, inner: str) -> float:
+    """Largest clearance [m] of a part in a bore of another, by their ids; below 0 it is an interference.
+
+    Raises ParameterError where they do not meet with fits.
+    """
+    tolerances = tolerances_of(tree)
+    pairs = [
+        bore.upper - journal.lower
+        for bore in tolerances.get(outer, ())
+        for journal in tolerances.get(inner, ())
+        if inner in bore.mates and outer in journal.mates and bore.nominal == journal.nominal
+        if not bore.depth and not journal.depth
+    ]
+    if not pairs:
+        raise ParameterError(f"the fit of {inner} in {outer}", allowed="parts that meet")
+    return max(pairs)
+
+
 @record
 class _Met:
     """A feature with its meetings, and what it does in each."""

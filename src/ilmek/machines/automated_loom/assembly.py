@@ -16,6 +16,7 @@ from ilmek.machines.automated_loom.nearest_parts import (
     passes,
     range_of_a_head,
 )
+from ilmek.machines.automated_loom.tolerance_chains import chain_checks, chain_table
 from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEVIATION
 from ilmek.part.contacts import TOUCHING, Contacts, contacts, open_parts
@@ -81,7 +82,7 @@ class LoomAssembly:
     @property
     def holds(self) -> bool:
         """Whether every check of it holds."""
-        return all(check.ok for check in self.checks)
+        return all(check.ok for check in _checks(self))
 
     @property
     def through(self) -> tuple[NearParts, ...]:
@@ -96,7 +97,7 @@ class LoomAssembly:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Parts through each other, in the air, or without a joint; parts of two machines that come too near."""
-        return _checks(self)
+        return (*_checks(self), *chain_checks(self.loom))
 
     @property
     def tables(self) -> tuple[Table, ...]:
@@ -108,7 +109,7 @@ class LoomAssembly:
             for pair in [near.approach]
         )
         heads = columns("part", "and", "least [mm]", "cyclogram", "at [deg]", "heads")
-        return (Table("loom-nearest-parts", "Nearest parts", heads, rows),)
+        return Table("loom-nearest-parts", "Nearest parts", heads, rows), chain_table(self.loom)
 
 
 @lru_cache(maxsize=4)
