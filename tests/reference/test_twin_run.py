@@ -1,5 +1,6 @@
 """The twin beside a plain simulation event by event, and beside times computed by hand."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,7 @@ from small_programme import TIMES, small_programme
 from ilmek.loom.operations import ROW_ENDS, LoomSetup, RowOperations, Stop, TubeChange
 from ilmek.loom.twin.carpet_run import run_carpet
 from ilmek.loom.twin.durations import durations_of, ns, stop_duration
-from ilmek.loom.twin.faults import StopParams, fault_table
+from ilmek.loom.twin.faults import RATES, Exposure, StopParams, expected_standstill, fault_table
 from ilmek.loom.twin.kernel import STOPPED, TIME, TRIED
 from ilmek.loom.twin.random import exponential, word
 from ilmek.loom.twin.seed_runs import run_seeds
@@ -108,3 +109,23 @@ def test_without_faults_nothing_is_lost_and_every_knot_is_tied_once() -> None:
     assert run.sums[TRIED] == run.sums[STOPPED] == 0
     assert sorted(tied) == [(row << 32) + column for row in range(12) for column in range(40)]
     assert run.uses.sum(axis=(0, 2)).tolist() == [run.time] * 4
+
+
+@pytest.mark.parametrize("retries", [0, 2])
+def test_expected_standstill_is_the_mean_of_many_runs(retries: int) -> None:
+    """Within 4 standard errors where the loom halts, and where its heads go on but faults seldom meet in a phase."""
+    setup = (programme := small_programme(12, 36, 3, 4)).setup
+    yarn = setup.knots * sum(setup.knot_yarn) / len(setup.knot_yarn)
+    params = replace(MANY, looms=1, retries=retries)
+    rare = params.with_values({name: rate / 50 for name, rate in zip(RATES, params.rates, strict=True)})
+    means = []
+    for stops, others, seeds in ((params, "stop", 1000), (rare, "finish", 20_000), (params, "finish", 1000)):
+        table = fault_table(replace(stops, others=others), setup)
+        stopped = run_seeds(programme, table, range(10**6, 10**6 + seeds))[:, STOPPED] / 1e9
+        expected = expected_standstill(stops, Exposure(setup.knots, yarn, setup.rows, setup.columns))
+        means.append(((stopped.mean() - expected) / expected, stopped.std() / math.sqrt(seeds) / expected))
+    (halts, error), (seldom, rough), (goes_on, _) = means
+    assert error < rough < 0.02
+    assert abs(halts) < 4 * error
+    assert abs(seldom) < 4 * rough
+    assert goes_on < halts - 4 * error  # others tie on meanwhile

@@ -65,11 +65,12 @@ def loose() -> Report:
 
 
 def test_a_price_list_from_a_text_changes_what_it_names_and_nothing_else():
-    prices = read_prices("bearing each = 9  # a remark\n\nservo per W = 1; control each = 0")
+    prices = read_prices("bearing each = 9  # a remark\n\nservo per W = 1; control each = 0; milling s per cm3 = 2")
     assert prices["bearing"].each == 9
     assert prices["servo"] == replace(PRICES["servo"], per_W=1.0)
     assert prices["control"].each == 0
-    assert {kind for kind in PRICES if prices[kind] != PRICES[kind]} == {"bearing", "servo", "control"}
+    assert prices["milling"] == replace(PRICES["milling"], time_per_cm3=2.0)
+    assert {kind for kind in PRICES if prices[kind] != PRICES[kind]} == {"bearing", "servo", "control", "milling"}
 
 
 @pytest.mark.parametrize(
@@ -91,10 +92,8 @@ def test_a_line_that_is_no_price_is_told(text, said):
 
 def test_the_price_is_linear_in_every_rate():
     """Twice all rates, twice the price; and the sum over kinds priced alone is the whole."""
-    double = {
-        k: replace(r, each=2 * r.each, per_kg=2 * r.per_kg, per_m=2 * r.per_m, per_W=2 * r.per_W)
-        for k, r in PRICES.items()
-    }
+    money = ("each", "per_kg", "per_m", "per_W", "per_m2", "per_h")
+    double = {k: replace(r, **{name: 2 * getattr(r, name) for name in money}) for k, r in PRICES.items()}
     assert sum(price_of(part, double) for part in listed().parts) == pytest.approx(2 * listed().price)
     assert listed().price > 0
 

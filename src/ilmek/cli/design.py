@@ -8,7 +8,7 @@ import click
 
 from ilmek.cli.call_outputs import CallOutputs, call_outputs
 from ilmek.cli.options import animation_option, force_option, json_option, motion_option, rates_option
-from ilmek.cli.report import find_table, headline_of, show_report, show_report_table
+from ilmek.cli.report import headline_of, show_report, show_report_table, tables_named
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
@@ -57,7 +57,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
 @click.option("--aim", metavar="cost|price|time", help="The same as --set aim=price: what a loom's choice makes least.")
 @rates_option
 @json_option
-@click.option("--table", metavar="NAME", help="Print this table of the report alone, like cost of a loom.")
+@click.option("--table", metavar="NAME", help="Print these tables of the report alone, like cost of a loom.")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option
 @motion_option
@@ -146,9 +146,13 @@ def command(  # noqa: PLR0917 - click calls it by name
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
             drawn=page_to is not None or animation_to is not None,
         )
-        shown = None if table is None else find_table(made.report, table)
+        shown = () if table is None else tables_named(made.report, table)
         _give(made, call, motion, mechanism_to, pose)
-    show_report_table(shown) if shown and not call.quiet else _show(made, call, mechanism_to, parts_to)
+    if shown and not call.quiet:
+        for one in shown:
+            show_report_table(one)
+    else:
+        _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
 
 

@@ -35,14 +35,14 @@ def show_report(report: Report) -> None:
     show_self_tests(report.all_self_tests)
 
 
-def find_table(report: Report, name: str) -> Table:
-    """The first table of a report with a name, or a name that ends so: `cost` of `loom-cost`.
+def tables_named(report: Report, name: str) -> tuple[Table, ...]:
+    """The tables of a report with a name, or a name that ends so: `cost` of `loom-cost`.
 
     Raises ParameterError, naming all tables, where there is none.
     """
-    for table in report.tables:
-        if f"-{table.name}".endswith(f"-{name}"):
-            return table
+    tables = tuple(table for table in report.tables if f"-{table.name}".endswith(f"-{name}"))
+    if tables:
+        return tables
     names = ", ".join(table.name for table in report.tables) or "none"
     raise ParameterError(f"no table {name!r} in the report of {report.machine}", allowed=f"its tables: {names}")
 

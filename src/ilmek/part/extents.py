@@ -8,7 +8,6 @@ radius at most.
 
 import math
 from collections.abc import Iterable, Iterator
-from itertools import product
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -16,11 +15,10 @@ from scipy.spatial import ConvexHull
 from ilmek.arrays import Float, FloatArray
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.shapes import Prism, Shape, Sum, Turned
+from ilmek.part.shapes import Corner, box_corners, shape_box
 from ilmek.part.tree import Tree
-from ilmek.plane.contours import bounds
 from ilmek.records import record
-from ilmek.units import mm, turn
+from ilmek.units import turn
 
 _EVERY = turn / 60
 """Greatest rotation between two angles at which a motion is looked at [rad]."""
@@ -29,11 +27,6 @@ _MOST = 1000
 """Most angles of both kinds: of a beat that strikes a hundred times over a row, every few of its angles, in each stroke
 others.
 """
-
-_DEVIATION = 1 * mm
-"""Of the convex pieces of shapes of other kinds [m]."""
-
-Corner = Float[np.ndarray, " 3"]
 
 
 @record
@@ -95,42 +88,13 @@ def around(found: Iterable[Extent]) -> tuple[Corner, Corner]:
     return np.min([one.low for one in found], axis=0), np.max([one.high for one in found], axis=0)
 
 
-def shape_box(shape: Shape) -> tuple[Corner, Corner]:
-    """Least and greatest corner of a shape in its own axes [m].
-
-    >>> from ilmek.part.shapes import box
-    >>> [corner.tolist() for corner in shape_box(box(2.0, 4.0, 3.0))]
-    [[-1.0, -2.0, 0.0], [1.0, 2.0, 3.0]]
-    """
-    if isinstance(shape, Prism):
-        low, high = bounds(shape.section.outline)
-        return np.array([low.real, low.imag, 0.0]), np.array([high.real, high.imag, shape.length])
-    if isinstance(shape, Turned):
-        low, high = bounds(shape.profile.outline)
-        radius = high.imag
-        return np.array([-radius, -radius, low.real]), np.array([radius, radius, high.real])
-    if isinstance(shape, Sum):
-        placed = [
-            position.points(_corners(*shape_box(member.shape)))
-            for member in shape.members
-            for position in member.positions
-        ]
-    else:
-        placed = list(shape.pieces(_DEVIATION))
-    return np.min([points.min(0) for points in placed], axis=0), np.max([points.max(0) for points in placed], axis=0)
-
-
-def _corners(low: Corner, high: Corner) -> Float[np.ndarray, "8 3"]:
-    return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))))
-
-
 def _of_chain(chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.ndarray, "8 3"]]) -> Iterator[Extent]:
     body, pieces, parts = chain[-1].body, list[Float[np.ndarray, "n 8 3"]](), list[str]()
     for occurrence in body.occurrences:
         part, positions = occurrence.part, occurrence.positions
         if part.shape is not None:
             if part.id not in boxes:
-                boxes[part.id] = _corners(*shape_box(part.shape))
+                boxes[part.id] = box_corners(*shape_box(part.shape))
             turned = np.array([position.rotation for position in positions]).transpose(0, 2, 1)
             pieces.append(boxes[part.id] @ turned + np.array([position.origin for position in positions])[:, None])
             parts += [part.id] * len(positions)

@@ -15,11 +15,12 @@ and of a turned shape with those of its profile, x -> z and y -> r      [Pappus;
 
 import math
 from functools import lru_cache
-from typing import Protocol
+from itertools import product
+from typing import Protocol, TypeAlias
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import ComplexArray, Float
 from ilmek.errors import ParameterError
 from ilmek.part.convex import Points, circumscribed, convex_pieces, frustums, prism_corners
 from ilmek.part.mesh import extruded, joined, revolved
@@ -39,6 +40,9 @@ _ON_AXIS = 1e-9
 ROUND = 3e-3
 """Deviation of the rings of a turned mesh over its radius, at most."""
 
+_BOX_DEVIATION = 1 * mm
+"""Of the convex pieces by which shapes of other kinds are boxed [m]."""
+
 CHORD = 0.05 * mm
 """Deviation of meshes and convex pieces from the shape where none is given [m]."""
 
@@ -46,9 +50,14 @@ CHORD = 0.05 * mm
 _shared = lru_cache(maxsize=1024)
 """A loom has the same boxes and tubes many times: each is made once, with its area and moments."""
 
+Corner: TypeAlias = Float[np.ndarray, " 3"]
+
 
 class Shape(Protocol):
     """What every shape answers, in the part's own axes."""
+
+    def __hash__(self) -> int:
+        """By identity, as of every record."""
 
     @property
     def volume(self) -> float:
@@ -210,6 +219,35 @@ def _fewer(loop: ComplexArray, deviation: float) -> ComplexArray:
     """The loop with fewer points, as `thinned`; all of them where it is thinner than the deviation."""
     few = thinned(loop, deviation)
     return few if len(few) > 2 else loop
+
+
+def shape_box(shape: Shape) -> tuple[Corner, Corner]:
+    """Least and greatest corner of a shape in its own axes [m].
+
+    >>> [corner.tolist() for corner in shape_box(box(2.0, 4.0, 3.0))]
+    [[-1.0, -2.0, 0.0], [1.0, 2.0, 3.0]]
+    """
+    if isinstance(shape, Prism):
+        low, high = bounds(shape.section.outline)
+        return np.array([low.real, low.imag, 0.0]), np.array([high.real, high.imag, shape.length])
+    if isinstance(shape, Turned):
+        low, high = bounds(shape.profile.outline)
+        radius = high.imag
+        return np.array([-radius, -radius, low.real]), np.array([radius, radius, high.real])
+    if isinstance(shape, Sum):
+        placed = [
+            position.points(box_corners(*shape_box(member.shape)))
+            for member in shape.members
+            for position in member.positions
+        ]
+    else:
+        placed = list(shape.pieces(_BOX_DEVIATION))
+    return np.min([points.min(0) for points in placed], axis=0), np.max([points.max(0) for points in placed], axis=0)
+
+
+def box_corners(low: Corner, high: Corner) -> Float[np.ndarray, "8 3"]:
+    """The corners of a box between its least and its greatest one [m]."""
+    return np.array(list(product(*zip(low.tolist(), high.tolist(), strict=True))))
 
 
 @_shared

@@ -2,8 +2,34 @@
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 NOT_WEIGHED = math.nan
+
+
+@dataclass(frozen=True, slots=True)
+class MakingStep:
+    """A step in the making of a piece: its material, or a process, with what its price depends on.
+
+    kind    of material or process                 mass      bought, or treated [kg]
+    length  cut or joined [m]                      area      cut, finished or coated [m²]
+    volume  removed [m³]                           features  piercings, bores, folds
+    """
+
+    kind: str
+    mass: float = 0.0
+    length: float = 0.0
+    area: float = 0.0
+    volume: float = 0.0
+    features: int = 0
+
+
+class Joints(NamedTuple):
+    """Joints to fit: pins, slides, and contacts (cams, rolling, screws, transmissions)."""
+
+    pins: float = 0.0
+    slides: float = 0.0
+    contacts: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,6 +39,7 @@ class BillLine:
     kind    by which it is priced                  mass    of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where its price depends on them
     drives  how many drive an axis together; 0: none           part    id of the part in the machine's tree; "": in none
+    steps   in the making of one; none: it is bought           joints  of the bodies that it leads, for one of it
     """
 
     name: str
@@ -25,6 +52,8 @@ class BillLine:
     power: float = 0.0
     drives: int = 0
     part: str = ""
+    steps: tuple[MakingStep, ...] = ()
+    joints: Joints = Joints()
 
     @property
     def mass_all(self) -> float:

@@ -114,7 +114,8 @@ def fault_table(params: StopParams, setup: LoomSetup) -> FaultTable:
     with random calls and one operator (M/M/1; D. R. Cox and W. L. Smith, Queues, 1961, chapter 2).
     Raises ParameterError for an operator who has more work than time.
     """
-    calls = expected_calls(params, setup)
+    yarn = setup.knots * sum(setup.knot_yarn) / len(setup.knot_yarn)
+    calls = expected_calls(params, Exposure(setup.knots, yarn, setup.rows, setup.columns))
     work = sum(count * time for count, time in zip(calls, params.repairs, strict=True))
     times = setup.times
     woven = setup.knots * times.knot / setup.heads + setup.rows * times.row_ends[-1]
@@ -138,11 +139,28 @@ def fault_table(params: StopParams, setup: LoomSetup) -> FaultTable:
     )
 
 
-def expected_calls(params: StopParams, setup: LoomSetup) -> tuple[float, ...]:
-    """Mean number of calls of the operator for the carpet, of each of `CAUSES`, by the mean of the yarns."""
-    yarn = setup.knots * sum(setup.knot_yarn) / len(setup.knot_yarn)
-    passes, warps = 2 * setup.rows, 2 * setup.columns
-    exposures = (yarn, yarn, setup.knots, passes, passes, passes * warps)
+class Exposure(NamedTuple):
+    """What of a carpet can stop the loom: knots, pile yarn in them [m], rows and columns of knots."""
+
+    knots: float
+    yarn: float
+    rows: float
+    columns: float
+
+
+def expected_calls(params: StopParams, exposure: Exposure) -> tuple[float, ...]:
+    """Mean number of calls of the operator for the carpet, of each of `CAUSES`."""
+    passes, warps = 2 * exposure.rows, 2 * exposure.columns
+    exposures = (exposure.yarn, exposure.yarn, exposure.knots, passes, passes, passes * warps)
     lasting = params.retry_fails**params.retries
     shares = (lasting if cause is Fault.MISSED_GRIP else 1.0 for cause in CAUSES)
     return tuple(rate * many * share for rate, many, share in zip(params.rates, exposures, shares, strict=True))
+
+
+def expected_standstill(params: StopParams, exposure: Exposure) -> float:
+    """Mean time for which a loom waits for its operator [s], until he comes and until it is mended: sum n_i (r + t_i).
+
+    Where the other heads finish their phase, and one waits while a slower one ties, the loom stands for less.
+    """
+    calls = expected_calls(params, exposure)
+    return sum(number * (params.response + repair) for number, repair in zip(calls, params.repairs, strict=True))

@@ -1,10 +1,11 @@
 """What a carpet costs on a loom, without its yarn, and what the loom costs that ties it.
 
-    made    = parts + fitter's wage * (screws * time of a screw + axes * time of an axis + commissioning)
-    sold    = made * (1 + margin)
-    annuity = sold * i / (1 - (1 + i)^-n);  sold / n without interest
+    annuity = sold * i / (1 - (1 + i)^-n);  sold / n without interest                        [sold: `machine_cost`]
     carpets a year = hours * availability / (weaving time + changeover)
+    availability = (1 - failures) (weaving time + changeover) / (weaving time + changeover + stops)
     changeover = dressing + 4.5 h, where it is not given
+
+The stops are those that the twin's causes are expected to give for a carpet, until the operator has mended them.
 
     cost = (annuity + upkeep * sold + rent * floor) / carpets a year + wage * persons * hours / carpets a year
            + price of energy * energy + finishing * area
@@ -15,10 +16,9 @@ hand = knots / knots a day * hours a day * wage + finishing * area. Rates: `Cost
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
-from ilmek.elements.prices import PriceRates
 from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.machine_cost import MachineCost
 from ilmek.records import computed, record
 
 YEAR = 365.25 * 86400.0
@@ -37,38 +37,11 @@ def annuity_factor(interest: float, years: float) -> float:
 
 
 @record
-class MachineCost:
-    """What a loom costs its maker: its parts, and the screws and axes by which its assembly is paid."""
-
-    parts: float
-    screws: float
-    axes: float
-
-    def made(self, rates: CostRates) -> float:
-        """Price of the loom with assembly and setting to work."""
-        work = self.screws * rates.screw_time + self.axes * rates.axis_time + rates.commissioning
-        return self.parts + rates.fitter_wage * work
-
-    def plus(self, other: "MachineCost") -> "MachineCost":
-        """With another."""
-        return MachineCost(self.parts + other.parts, self.screws + other.screws, self.axes + other.axes)
-
-    def times(self, number: float) -> "MachineCost":
-        """A number of times."""
-        return MachineCost(number * self.parts, number * self.screws, number * self.axes)
-
-
-def with_control(cost: MachineCost, prices: Mapping[str, PriceRates]) -> MachineCost:
-    """A cost without the amplifiers of the control, with those of its axes."""
-    return replace(cost, parts=cost.parts + cost.axes * prices["axis of the control"].each)
-
-
-@record
 class CarpetCost:
     """Cost of a carpet of a number of knots and an area [m^2], woven in a time [s] with an energy [J], on a loom.
 
     dressing  of the loom for a carpet [s]      floor  that the loom needs, with the aisle round it [m^2]
-    machine   what the loom costs its maker
+    machine   what the loom costs its maker     stops  expected standstill for the operator [s]
     """
 
     rates: CostRates
@@ -79,14 +52,24 @@ class CarpetCost:
     dressing: float
     floor: float
     machine: MachineCost
+    stops: float = 0.0
 
     @computed("", "price of the loom: parts, made with assembly and setting to work, sold with the maker's margin")
     def machine_price(self) -> dict[str, float]:
         return {"parts": self.machine.parts, "made": self.machine.made(self.rates), "sold": self.sold}
 
+    @computed("1", "pieces, screws and joints to fit, axes and sensors to wire")
+    def fitted(self) -> dict[str, float]:
+        return self.machine.fitting._asdict()
+
+    @computed("%", "share of the hours in which the loom runs or changes carpets: less failures and the twin's stops")
+    def availability(self) -> float:
+        given, busy = self.rates.availability, self.time + self.changeover
+        return (1 - self.rates.failures) * busy / (busy + self.stops) if given is None else given
+
     @computed("1", "carpets that the loom weaves in a year")
     def carpets_per_year(self) -> float:
-        return self.rates.hours * self.rates.availability / (self.time + self.changeover)
+        return self.rates.hours * self.availability / (self.time + self.changeover)
 
     @computed("", "cost of a carpet without yarn, by cause")
     def cost_shares(self) -> dict[str, float]:

@@ -1,33 +1,21 @@
 """The cost of the carpet of a loom, and of the same carpet with other numbers of heads and other kinds of beat."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
-from ilmek.elements.prices import PriceRates, price_of
-from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, with_control
+from ilmek.loom.twin.faults import Exposure, StopParams, expected_standstill
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.design import LoomDesign, ready_loom
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.estimate import estimated_time
+from ilmek.machines.automated_loom.machine_cost import machine_cost, with_control
 from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import AUTO
-from ilmek.machines.automated_loom.parts import PartsList, motors
+from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
-from ilmek.report import BillLine
-
-_SCREWS = "fastener"
-
-
-def machine_cost(lines: Iterable[BillLine], prices: Mapping[str, PriceRates]) -> MachineCost:
-    """The cost of the lines of a parts list."""
-    lines = tuple(lines)
-    return MachineCost(
-        sum(price_of(line, prices) for line in lines),
-        sum(line.number for line in lines if line.kind == _SCREWS),
-        motors(lines),
-    )
 
 
 def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float) -> CarpetCost:
@@ -47,7 +35,17 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
         dressing=float(off_loom(loom).dressing_time),
         floor=(fence.right - fence.left + margins) * (fence.front - fence.rear + margins),
         machine=machine_cost(listed.parts, listed.prices),
+        stops=standstill_of(loom),
     )
+
+
+def standstill_of(loom: LoomDesign) -> float:
+    """Time for which the twin's causes stop the loom for a carpet, as expected [s].
+
+    A weaver ties on where a pile yarn breaks.
+    """
+    knots = loom.rows * loom.columns if loom.heads else 0
+    return expected_standstill(StopParams(), Exposure(knots, knots * loom.params.billed, loom.rows, loom.columns))
 
 
 def rates_of(loom: LoomDesign, weavers: int) -> CostRates:

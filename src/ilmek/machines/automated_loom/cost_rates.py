@@ -9,7 +9,7 @@ from ilmek.params import Params, kind, param
 
 @dataclass(frozen=True, slots=True)
 class CostRates(Params):
-    """Wage, hours, capital, energy, floor and the making of the machine."""
+    """Wage, hours, capital, energy, floor, and the assembly of the machine."""
 
     wage: float = param(
         8 / 3600, unit="1/h", at_least=0.0, at_most=1.0, doc="cost of an hour of a person; usual: 2 to 40 an hour"
@@ -18,8 +18,15 @@ class CostRates(Params):
     hours: float = kind.time(
         4000 * 3600.0, unit="h", above=0.0, at_most=8784 * 3600.0, doc="hours a year of work; usual: 2,000 to 8,000 h"
     )
-    availability: float = param(
-        0.85, unit="%", above=0.0, at_most=1.0, doc="share of the hours in which the loom runs; usual: 60 to 95 %"
+    availability: float | None = param(
+        None,
+        unit="%",
+        above=0.0,
+        at_most=1.0,
+        doc="share of the hours in which the loom runs or changes carpets, 60 to 95 %; default: by stops and failures",
+    )
+    failures: float = param(
+        0.1, unit="%", at_least=0.0, below=1.0, doc="share of the hours for upkeep and failures; usual: 5 to 20 %"
     )
     changeover: float | None = kind.time(
         None,
@@ -43,11 +50,27 @@ class CostRates(Params):
     finishing: float = param(
         12.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="shearing and washing of the carpet; usual: 5 to 30"
     )
+    piece_time: float = kind.time(
+        40.0, at_least=0.0, at_most=1e5, doc="cleaning and placing of a piece; usual: 10 to 120 s"
+    )
     screw_time: float = kind.time(
         90.0, at_least=0.0, at_most=1e5, doc="fitting of a screw and what it holds; 60 to 300 s"
     )
+    pin_time: float = kind.time(
+        300.0, at_least=0.0, at_most=1e5, doc="fitting of a pin's joint, until it turns freely; usual: 120 to 900 s"
+    )
+    slide_time: float = kind.time(600.0, at_least=0.0, at_most=1e5, doc="aligning of a slide; usual: 300 to 3,600 s")
+    contact_time: float = kind.time(
+        300.0, at_least=0.0, at_most=1e5, doc="setting of a cam's follower or a transmission; usual: 120 to 1,200 s"
+    )
     axis_time: float = kind.time(
         6 * 3600.0, unit="h", at_least=0.0, at_most=1e6, doc="wiring and setting of an axis; usual: 3 to 10 h"
+    )
+    sensor_time: float = kind.time(
+        900.0, at_least=0.0, at_most=1e5, doc="wiring and test of a sensor or button; usual: 600 to 3,600 s"
+    )
+    cabinet_time: float = kind.time(
+        24 * 3600.0, unit="h", at_least=0.0, at_most=1e6, doc="building of the control's cabinet; usual: 16 to 80 h"
     )
     commissioning: float = kind.time(
         80 * 3600.0, unit="h", at_least=0.0, at_most=1e7, doc="putting the loom to work; usual: 40 to 300 h"

@@ -47,7 +47,7 @@ class Foot:
         """The foot, upwards along z from the floor, of the mass of its shape in steel."""
         shape = stepped((self.pad, PAD), (self.screw, SCREW))
         bought = Bought(f"{self.name}, pad {self.pad / mm:g} mm", shape.volume * STEEL.density)
-        return bought_part(name, "levelling foot", "pin or bush", shape, bought)
+        return bought_part(name, "levelling foot", "levelling foot", shape, bought)
 
 
 FEET = tuple(

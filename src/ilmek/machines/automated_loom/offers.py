@@ -27,9 +27,9 @@ from ilmek.elements.prices import PriceRates, read_prices
 from ilmek.errors import LoomError, ParameterError
 from ilmek.loom.times import Times
 from ilmek.machines import WEFT_CARRIERS
-from ilmek.machines.automated_loom.carpet_cost import CarpetCost, MachineCost, with_control
+from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import BeatOption
-from ilmek.machines.automated_loom.cost import machine_cost, rates_of
+from ilmek.machines.automated_loom.cost import rates_of, standstill_of
 from ilmek.machines.automated_loom.design import (
     LoomDesign,
     ReadyLoom,
@@ -42,6 +42,7 @@ from ilmek.machines.automated_loom.design import (
 )
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
+from ilmek.machines.automated_loom.machine_cost import Fitting, MachineCost, machine_cost, with_control
 from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
@@ -133,7 +134,7 @@ def branches(params: AutomatedLoomParams, kind: str, journal: SearchJournal) -> 
     else:
         cycles = _cycles(knotting.weaver.params) if quicker else (slowest,)
     fit = knotting.most(looms[0].task.columns, looms[0].task.cloth.knot_pitch)
-    least = [head_cost(ready.head, read_prices(params.prices)).times(1 - SLACK) for ready in looms]
+    least = [head_cost(ready.head, read_prices(params.prices)).share(1 - SLACK) for ready in looms]
     return tuple(
         HeadBranch(kind, ready, cycles, fit, cost, _looms(ready, journal))
         for ready, cost in zip(looms, least, strict=True)
@@ -158,7 +159,7 @@ def undesigned_arms(cams: Sequence[HeadBranch], *, designed: bool) -> tuple[Head
     assert ready.head.weaver is not None
     head, prices = ready.head.weaver.params, read_prices(ready.params.prices)
     inside = replace(head.arms, time=1e-3, yarn=0.0)
-    arms = MachineCost(ARM_SERVOS * prices["servo"].each, 0, ARM_SERVOS)
+    arms = MachineCost(ARM_SERVOS * prices["servo"].each, fitting=Fitting(ARM_SERVOS, axes=ARM_SERVOS))
     if designed:
         try:
             inside, parts = arms_for(ready.params)
@@ -166,7 +167,7 @@ def undesigned_arms(cams: Sequence[HeadBranch], *, designed: bool) -> tuple[Head
             return ()
         arms = machine_cost(parts, prices)
     cycles = _cycles(replace(head, arms=inside)) if len(own) > 1 else own
-    heads = (arms.plus(branch.head.times(ARMS_REST)) for branch in cams)
+    heads = (arms.plus(branch.head.share(ARMS_REST)) for branch in cams)
     return tuple(
         replace(branch, kind=ARMS, cycles=cycles, head=least) for branch, least in zip(cams, heads, strict=True)
     )
@@ -186,19 +187,19 @@ class LoomRest:
     """What a designed loom costs without its machines and the control of its axes.
 
     frame      with all that it carries           creel      and sensors that each head has, for one of them
-    equipment  all other                          share      of a head in what of it is more for more heads
+    equipment  all other                          more       pieces of a head in what of it is more for more heads
     """
 
     offer: LoomOffer
     frame: MachineCost
     equipment: MachineCost
     creel: MachineCost
-    share: MachineCost
+    more: MachineCost
     cost: CarpetCost
 
     def equipment_for(self, heads: int) -> MachineCost:
         """The least cost of the equipment of a loom with another number of heads."""
-        return self.equipment.plus(self.share.times(-max(0, self.offer.heads - heads)))
+        return self.equipment.plus(self.more.times(-max(0, self.offer.heads - heads)))
 
 
 def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
@@ -208,14 +209,16 @@ def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
     others = [line for line in listed.parts if line.part not in before]
     shared, of_a_head = [line for line in others if line.part in more], [p for p in listed.parts if p.part in OF_A_HEAD]
     creel, share = (machine_cost(lines, listed.prices).times(1 / loom.knotters) for lines in (of_a_head, shared))
-    return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, share, found.cost)
+    pieces = replace(share, batches=0.0)
+    return LoomRest(offer, frame_cost(loom), machine_cost(others, listed.prices), creel, pieces, found.cost)
 
 
 def bare_rest(offer: LoomOffer, loom: LoomDesign) -> LoomRest:
     """The rest of a loom that is not designed whole: its frame without equipment, on no floor."""
-    params, none = loom.params, MachineCost(0.0, 0.0, 0.0)
+    params, none = loom.params, MachineCost(0.0)
     dressing, area = float(off_loom(loom).dressing_time), params.width * params.length
-    cost = CarpetCost(rates_of(loom, loom.weavers), loom.rows * loom.columns, area, 1.0, 0.0, dressing, 0.0, none)
+    rates, knots = rates_of(loom, loom.weavers), loom.rows * loom.columns
+    cost = CarpetCost(rates, knots, area, 1.0, 0.0, dressing, 0.0, none, standstill_of(loom))
     return LoomRest(offer, frame_cost(loom), none, none, none, cost)
 
 
@@ -254,7 +257,7 @@ class Bounds:
             if option.kind not in branch.looms:
                 continue
             loom, alike = branch.looms[option.kind], (self.simplest.offer.weft, self.simplest.offer.beat)
-            frame = self._frame(loom) if (weft, option.kind) == alike else self.frame.times(1 - OTHER_SLACK)
+            frame = self._frame(loom) if (weft, option.kind) == alike else self.frame.share(1 - OTHER_SLACK)
             number = params.heads or (knotters(params, branch.most, ready.head) if ready.head.weaver is None else 0)
             busy = [_least_times(ready, option, cycle) for cycle in branch.cycles]
             for heads in (number,) if number else range(1, branch.most + 1):
@@ -278,8 +281,8 @@ class Bounds:
     def _frame(self, loom: LoomDesign) -> MachineCost:
         """The least cost of a frame, by that of a loom; by another's where it has no room for one."""
         with contextlib.suppress(ParameterError):
-            return frame_cost(loom).times(1 - SLACK)
-        return self.frame.times(1 - OTHER_SLACK)
+            return frame_cost(loom).share(1 - SLACK)
+        return self.frame.share(1 - OTHER_SLACK)
 
     def _least(
         self, weft: str, heads: int, loom: LoomDesign, head: MachineCost, frame: MachineCost
@@ -288,9 +291,9 @@ class Bounds:
         alike = [rest for rest in self.rests.values() if rest.offer.weft == weft]
         share = 1 - (SLACK if alike else OTHER_SLACK)
         rest = max(alike or [self.simplest], key=lambda rest: rest.equipment_for(heads).parts)
-        cost = frame.plus(rest.equipment_for(heads).times(share)).plus(machines_cost(loom))
+        cost = frame.plus(rest.equipment_for(heads).share(share)).plus(machines_cost(loom))
         cost = with_control(cost.plus(head.plus(rest.creel).times(heads)), self.prices)
-        return cost.times(1 - ROUNDING), share * rest.cost.floor
+        return cost.share(1 - ROUNDING), share * rest.cost.floor
 
     @property
     def simplest(self) -> LoomRest:

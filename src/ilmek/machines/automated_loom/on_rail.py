@@ -24,11 +24,10 @@ from ilmek.machines.weaver.drive_parts import drive_front
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import carriage_guide, drive_of
 from ilmek.part import catalogue
-from ilmek.part.extents import Corner
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, box
+from ilmek.part.shapes import Corner, Prism, box
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.units import mm

@@ -21,10 +21,9 @@ from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supp
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
-from ilmek.part.extents import shape_box
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
-from ilmek.part.shapes import box
+from ilmek.part.shapes import box, shape_box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import peak_acceleration, peak_speed

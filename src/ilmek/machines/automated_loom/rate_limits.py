@@ -36,9 +36,11 @@ class RateLimits:
 def rate_limits(chosen: CarpetCost, others: Sequence[CarpetCost]) -> tuple[RateLimits, ...]:
     """The nearest values of the rates from which on one of other looms costs less than the chosen one.
 
-    None of them is cheaper at the rates as they are. Rates that cannot change the choice are left out.
+    None of them is cheaper at the rates as they are. Rates that cannot change the choice are left out, and the
+    availability where it follows from the stops and failures of each loom.
     """
-    every = (_limits(chosen, others, rate) for rate in declared(CostRates))
+    rates = (rate for rate in declared(CostRates) if rate.name != "availability" or chosen.rates.availability)
+    every = (_limits(chosen, others, rate) for rate in rates)
     return tuple(limits for limits in every if limits.below or limits.above)
 
 

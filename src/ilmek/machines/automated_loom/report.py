@@ -1,13 +1,12 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.carpet.pile import pile_check
-from ilmek.elements.prices import PriceRates, price_of
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check, row_check
@@ -22,9 +21,11 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_ta
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares, weavers_needed
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
+from ilmek.machines.automated_loom.machine_cost import price_shares
 from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import COST
 from ilmek.machines.automated_loom.parts import PartsList, motors
+from ilmek.machines.automated_loom.price_tables import parts_table, price_table, prices_tables
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
 from ilmek.machines.automated_loom.search import LoomSearch
@@ -35,7 +36,7 @@ from ilmek.machines.weaver.carriage_drive import tension_check
 from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.records import computed, record
-from ilmek.report import BillLine, CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
+from ilmek.report import CamTable, Check, Json, Report, Table, at_least, at_most, columns, reason_json
 from ilmek.timing.cyclogram import check_all, check_apart
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import format_quantity, turn
@@ -82,6 +83,10 @@ class LoomAnalysis:
     def choice_bound(self) -> Json:
         search = self.loom.search
         return search.as_json() if search else None
+
+    @computed("", "price of the loom as sold, by cause: made parts by process, bought parts, work, margin")
+    def price_shares(self) -> dict[str, float]:
+        return price_shares(self.listed.parts, self.listed.prices, self.cost.rates, self.cost.machine)
 
     weaving_time = computed("h", "the carpet, estimated; a programme gives it exactly", lambda it: it.time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.time / it.loom.rows)
@@ -271,11 +276,11 @@ def _least_room(loom: LoomDesign) -> float:
 
 def tables(found: LoomAnalysis) -> tuple[Table, ...]:
     """Time by number of heads, parts, prices, motions of a row, clearances."""
-    costs = _heads_table(found), _cost_table(found), *_rates_table(found)
+    costs = _heads_table(found), _cost_table(found), price_table(found.price_shares), *_rates_table(found)
     listed = (
         *costs,
         parts_table(found.listed.parts, found.listed.prices),
-        _prices_table(found.listed),
+        *prices_tables(found.listed.prices),
         _row_table(found.loom),
     )
     return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
@@ -338,26 +343,6 @@ def _moved(limits: RateLimits, search: LoomSearch) -> Iterator[str]:
     for limit in (limits.below, limits.above):
         yield "any" if limit is None else format_quantity(limit[0], unit)
         yield "" if limit is None else search.unlike(search.others[limit[1]][0])
-
-
-def parts_table(lines: Iterable[BillLine], prices: Mapping[str, PriceRates]) -> Table:
-    """The parts of a loom with their masses and prices."""
-    heads = columns("part | number | description | material | mass of one [kg] 3 | mass of all [kg] | price of all")
-    rows = tuple(
-        (
-            *(line.name, line.number, line.description, line.material, line.mass),
-            line.number * line.mass,
-            price_of(line, prices),
-        )
-        for line in lines
-    )
-    return Table("loom-parts", "Parts of the loom", heads, rows)
-
-
-def _prices_table(listed: PartsList) -> Table:
-    rows = tuple((kind, r.each, r.per_kg, r.per_m, r.per_W) for kind, r in listed.prices.items())
-    heads = columns("kind of part", "each", "per kg", "per m", "per W")
-    return Table("loom-prices", "Prices used; set others with `prices`", heads, rows)
 
 
 def _row_table(loom: LoomDesign) -> Table:

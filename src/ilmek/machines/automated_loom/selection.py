@@ -21,11 +21,11 @@ from typing import TypeAlias
 from ilmek.elements.prices import read_prices
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines.automated_loom.assembly import assembly
-from ilmek.machines.automated_loom.carpet_cost import MachineCost
 from ilmek.machines.automated_loom.design import LoomDesign, head_for, ready_loom, with_beat
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
+from ilmek.machines.automated_loom.machine_cost import MachineCost
 from ilmek.machines.automated_loom.offers import (
     Bounds,
     HeadBranch,

@@ -217,7 +217,7 @@ def _on_follower(design: CamDesign, middles: ComplexArray) -> Iterator[Occurrenc
     stem = bought_part(
         "cam/follower",
         "arm of the follower" if swings(design) else "stem of the follower",
-        "machined link",
+        "part to design",
         box(side, side, length),
         Bought("to design", mass),
         size="not designed",

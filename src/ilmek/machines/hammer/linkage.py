@@ -20,7 +20,7 @@ from itertools import islice
 
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import MOTORS, SERVO
-from ilmek.elements.prices import PRICES
+from ilmek.elements.prices import PRICES, piece_price
 from ilmek.machines import beat_up
 from ilmek.machines.beat_up.beam import BeatBeam, beam_for
 from ilmek.machines.beat_up.beater import across, rectangle
@@ -42,6 +42,8 @@ from ilmek.machines.hammer.comb import BAR_ID, comb_mass, with_depth
 from ilmek.machines.hammer.params import MOST_BALLAST, MOST_BEATERS, HammerParams
 from ilmek.machines.link_tree import GAP
 from ilmek.machines.linkage_strength import FLAT_BARS, linkage_strength, pins_bear, strength_checks
+from ilmek.part.bill import line_of
+from ilmek.part.flat_link import flat_link
 from ilmek.part.part import Part
 from ilmek.records import computed, group, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
@@ -210,10 +212,9 @@ def _unit(ground: float, swing: float | None) -> beat_up.BeatUp:
 def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     """Price of what differs between the options, roughly: comb, ballast, links, and the cheaper of both starts."""
     speed, number = params.beat_speed or 1.0, params.rockers
-    unit, steel, link = _unit(params.ground, params.swing), PRICES["steel bar"], PRICES["machined link"]
+    unit, steel = _unit(params.ground, params.swing), PRICES["structural steel"]
     comb, ballast = comb_mass(params), params.ballast or 0.0
-    section = (params.link_width or 0.0) * (params.link_thickness or 0.0) * params.links.of_links.density
-    links = sum(link.price(section * unit.lengths[name]) for name in ("crank", "coupler", "beater"))
+    links = sum(_of_link(params, unit.lengths[name]) for name in ("crank", "coupler", "beater"))
     swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
     work = 2.5 * swing + fabric.energy(params.force or needed) * params.cloth.warps
     torque = unit.drive_torque_max * (comb + ballast) * speed**2 / params.start.efficiency
@@ -223,7 +224,14 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     servo = PRICES["servo"].price(power=min(powers)) + 300.0 if powers else math.inf
     if torque > CLUTCHES[-1]:
         clutch = math.inf
-    return PRICES["laser-cut part"].price(comb) + steel.price(ballast) + number * links + min(clutch, servo)
+    return steel.price(comb + ballast) + number * links + min(clutch, servo)
+
+
+def _of_link(params: HammerParams, length: float) -> float:
+    """Price of a link of a length [m] as one of a batch, without bores."""
+    bar = flat_link(length, params.link_width or 0.0, params.link_thickness or 0.0)
+    link = Part("link", "link", "machined link", shape=bar, material=params.links.of_links)
+    return piece_price(line_of(link), PRICES)
 
 
 def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLinkage:

@@ -11,12 +11,12 @@ from ilmek.elements.prices import read_prices
 from ilmek.machines.automated_loom.assembly import joint_check, mesh_check
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import deadline_check
-from ilmek.machines.automated_loom.cost import machine_cost
 from ilmek.machines.automated_loom.drives import drive_checks
 from ilmek.machines.automated_loom.frame import column_checks, part_id
+from ilmek.machines.automated_loom.machine_cost import machine_cost
 from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
-from ilmek.machines.automated_loom.report import parts_table
+from ilmek.machines.automated_loom.price_tables import parts_table
 from ilmek.machines.hand_loom.design import HandLoom
 from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
 from ilmek.machines.hand_loom.layout import CylinderBracket

@@ -151,6 +151,6 @@ def _loads(  # noqa: PLR0917
         side = _cube(mass)
         purchase = Bought(format_quantity(mass, "g"), mass)
         room = box(side, side / flat, flat * side)
-        part = Part(f"{NAME}/{name}", title, "turned part", shape=room, purchase=purchase, envelope=True)
+        part = Part(f"{NAME}/{name}", title, "tool", shape=room, purchase=purchase, envelope=True)
         middle = x if flat == 1.0 else x - side / 2
         yield Occurrence(part, (placement(middle, z=z - flat * side / 2),))

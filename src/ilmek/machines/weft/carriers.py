@@ -86,7 +86,7 @@ def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placemen
     title = "eye and brake of a shuttle"
     shape = bar(_eye(size), params.wall)
     bought = Bought("eye and brake", params.fittings / 2)
-    part = bought_part(FITTINGS, title, "pin or bush", shape, bought, size="one in each end wall")
+    part = bought_part(FITTINGS, title, "tool", shape, bought, size="one in each end wall")
     end = size.length / 2
     return part, (along(end), along(-end - params.wall))
 

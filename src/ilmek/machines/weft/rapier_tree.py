@@ -84,9 +84,9 @@ class RapierSide:
         far = -made.gripper - made.length
         gripper = box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper)
         weighed = Bought("gripper", params.gripper_mass), Bought("carriage", params.carriage_mass)
-        jaws = bought_part(GRIPPER, "gripper of the rapier", "machined link", gripper, weighed[0], size="two jaws")
+        jaws = bought_part(GRIPPER, "gripper of the rapier", "tool", gripper, weighed[0], size="two jaws")
         held = box(SIDE, SIDE, CLAMP)
-        clamp = bought_part(CARRIAGE, "carriage of the rapier", "machined link", held, weighed[1], size="with clamp")
+        clamp = bought_part(CARRIAGE, "carriage of the rapier", "tool", held, weighed[1], size="with clamp")
         parts = (
             Occurrence(rapier_tube(params, made.tube, made.length), (along(far),)),
             Occurrence(jaws, (along(-made.gripper),)),
@@ -120,7 +120,7 @@ class RapierSide:
 
         def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *stations: Station) -> RigidBody:
             name, title, text = names
-            part = bought_part(name, title, "machined link", size, Bought(title, mass), size=text)
+            part = bought_part(name, title, "tool", size, Bought(title, mass), size=text)
             return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*stations))
 
         shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)

@@ -27,10 +27,9 @@ from ilmek.machines.automated_loom.supports import rail_middle
 from ilmek.machines.weaver.drive_parts import drive_front, reducer_left
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD
-from ilmek.part.extents import Corner
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, placement
-from ilmek.part.shapes import Placed, Sum, box
+from ilmek.part.shapes import Corner, Placed, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm, turn

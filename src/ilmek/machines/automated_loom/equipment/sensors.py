@@ -29,9 +29,9 @@ from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
 from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
 from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
-from ilmek.part.extents import Corner, shape_box
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
+from ilmek.part.shapes import Corner, shape_box
 from ilmek.part.tree import GROUND, Occurrence, RigidBody, Tree
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most

@@ -12,9 +12,10 @@ from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, half_width
 from ilmek.machines.weaver.tree import head_tree
-from ilmek.part.extents import Corner, Extent, around, extents
+from ilmek.part.extents import Extent, around, extents
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
+from ilmek.part.shapes import Corner
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.records import record
 from ilmek.units import mm

@@ -17,7 +17,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.parts import PartsList, parts_of_loom
-from ilmek.part.bill import line_of
+from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
 from ilmek.report import BillLine, Check
 
@@ -65,7 +65,7 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
     branches = equipment(loom)
     own = {part.id for tree in equipment_trees(loom) for part, _ in tree.occurrences()}
     whole = joined((*machine_branches(loom), *branches))
-    return tuple(line_of(part, number) for part, number in whole.occurrences() if part.id in own)
+    return tuple(line for line in bill(whole) if line.part in own)
 
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
