@@ -141,6 +141,7 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
         served,
         found.listed,
         off_loom(found.loom),
+        found.loom.params.dressing,
         frame_modes(found.loom, found.listed.frame),
     )
 

@@ -118,7 +118,7 @@ def design(params: HandLoomParams) -> HandLoom:
         width=task.width,
         winding=HAND,
         hands=hands,
-        carpet_length=params.length,
+        carpet_length=params.woven_size[1],
         free_length=long,
         shed_lift=shed.params.opening,
         shed_span=shed.params.heddle_height,

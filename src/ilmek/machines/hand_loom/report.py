@@ -170,7 +170,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
         area=params.width * params.length,
         time=loom.rows * loom.row_time,
         energy=0.0,
-        dressing=float(off_loom_of(loom).dressing_time),
+        dressing=float(params.dressing.dressing_time),
         floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
         machine=machine_cost(lines, read_prices(params.prices)),
     )
@@ -179,7 +179,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
 
 def results(found: HandLoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom)
+    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom), found.loom.params.dressing
 
 
 def off_loom_of(loom: HandLoom) -> OffLoom:
