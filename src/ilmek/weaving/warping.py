@@ -11,12 +11,17 @@ the first and the last bar lie at its cylinders. Rates are assumed by this proje
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 from ilmek.params import Params, kind
 from ilmek.records import computed, record
+from ilmek.report import Table, columns
 from ilmek.weaving.cloth import Cloth
+
+DRAWN_IN = ("warp", "knot", "warp of the knot", "shed", "lifted by", "slot of the spacer")
+"""Heading of the drawing-in list: warps and slots from the left, knots of a row."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,3 +116,21 @@ class Warping:
             tied = 0 <= own < 2 * self.knots
             knot, of_knot = (own // 2 + 1, own % 2 + 1) if tied else (None, None)
             yield WarpEnd(index + 1, knot, of_knot, index % 2 == 0)
+
+    def drawn(self, guide: Callable[[WarpEnd], str]) -> Iterator[tuple[int | str, ...]]:
+        """Lines of the drawing-in list, as DRAWN_IN; guide: what lifts a warp."""
+        for end in self.ends():
+            of_knot = (end.knot, end.of_knot) if end.knot and end.of_knot else ("", "")
+            yield end.number, *of_knot, "odd" if end.odd else "even", guide(end), end.number
+
+    def tables(self, guide: Callable[[WarpEnd], str]) -> tuple[Table, ...]:
+        """Acts of dressing with their times, and the first and last warps of selvedges and knots, drawn in."""
+        lines, acts = list(self.drawn(guide)), self.dressing_acts
+        before = (self.cloth.warps - 2 * self.knots) // 2
+        edges = (0, before, before + 2 * self.knots, len(lines))
+        kept = sorted({at for first, last in pairwise(edges) if last > first for at in (first, last - 1)})
+        title = f"Drawing-in: first and last warps of selvedges and knots; bars in order: {', '.join(self.bars)}"
+        return (
+            Table("dressing", "Dressing of the loom", columns("act", "time [min]"), tuple(acts.items())),
+            Table("drawing-in", title, columns(*DRAWN_IN), tuple(lines[at] for at in kept)),
+        )

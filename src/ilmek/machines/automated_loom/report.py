@@ -278,6 +278,7 @@ def tables(found: LoomAnalysis) -> tuple[Table, ...]:
         parts_table(found.listed.parts, found.listed.prices),
         _prices_table(found.listed),
         _row_table(found.loom),
+        *found.loom.params.dressing.tables(found.loom.warp_guide),
     )
     return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
 

@@ -252,6 +252,7 @@ def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
     acts = tuple(found.loom.row_acts.items())
     return (
         Table("hand-loom-row", "Time of a row by its acts", columns("act", "time [s]"), acts),
+        *found.loom.params.dressing.tables(found.loom.warp_guide),
         parts_table(found.lines, read_prices(found.loom.params.prices)),
         Table("hand-loom-absent", "What a hand loom does not have", columns("not there", "why"), ABSENT),
     )
