@@ -42,9 +42,13 @@ def making_steps(
         MakingStep(name, time, an_hour * time + (shares["energy"] if name == "weaving" else 0.0))
         for name, time in zip(ON_LOOM, times, strict=True)
     ]
-    return [
-        *on_loom,
+    return [*on_loom, *finishing_steps(rates, area)]
+
+
+def finishing_steps(rates: CostRates, area: float) -> tuple[MakingStep, ...]:
+    """The steps of making of a carpet of an area [m^2] off the loom, in order."""
+    return (
         MakingStep("inspection", rates.inspection_time * area, rates.inspection * area),
         MakingStep("shearing", rates.shearing_time * area, rates.shearing * area),
         MakingStep("washing", rates.washing_time, rates.washing * area),
-    ]
+    )
