@@ -245,11 +245,31 @@ def test_curves_of_the_cost_are_those_of_the_looms() -> None:
 
 def test_time_between_two_carpets_follows_the_dressing_of_the_loom() -> None:
     found = loom("comb", 1, replace(RATES, changeover=None))
-    winding = (0.6 * 1.03 + 2 * 0.1 + 0.4) / 1.0
-    dressing = 3600 + found.warps * (12 + winding)
+    winding = (0.6 / 0.99 * 1.03 + 2 * 0.1 + 0.4) / 1.0
+    dressing = 1800 + found.warps * (12 + winding) + 2 * math.ceil(found.warps / 20) * 30
     hours = 4000 * 3600 * 0.9 / float(found.cost.carpets_per_year)
     assert hours - found.time - standstill(found) == pytest.approx(dressing + 4.5 * 3600)
     assert loom("comb", 1).cost.changeover == 5 * 3600
+
+
+@pytest.mark.parametrize("changeover", [None, 2 * 3600.0])
+def test_the_steps_of_making_cost_what_the_carpet_costs(changeover: float | None) -> None:
+    """By hand: the loom's hour over the hours that the carpet holds it; 1.5, 3.5 and 7 a square metre off the loom."""
+    found = loom("comb", 1, replace(RATES, changeover=changeover, shearing_time=600.0))
+    cost, area = found.cost, 0.45 * 0.6
+    steps = {one["name"]: (one["time"], one["cost"]) for one in cost.making_steps}
+    assert list(steps) == ["warping", "weaving", "taking down", "inspection", "shearing", "washing"]
+    off = cost.cost_shares["energy"] + 12 * area
+    between = cost.dressing + 4.5 * 3600 if changeover is None else changeover
+    dressing = min(cost.dressing, between)
+    hour = (cost.cost_per_carpet - off) / (between + found.weaving_time)
+    assert steps["warping"] == pytest.approx((dressing, hour * dressing))
+    assert steps["weaving"] == pytest.approx((found.weaving_time, hour * found.weaving_time + off - 12 * area))
+    assert steps["taking down"] == pytest.approx((between - dressing, hour * (between - dressing)))
+    assert steps["inspection"] == pytest.approx((900 * area, 1.5 * area))
+    assert steps["shearing"] == pytest.approx((600 * area, 3.5 * area))
+    assert steps["washing"] == pytest.approx((48 * 3600, 7 * area))
+    assert sum(part for _, part in steps.values()) == pytest.approx(cost.cost_per_carpet)
 
 
 def test_payment_pays_off_the_loan() -> None:

@@ -13,6 +13,7 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import Quality, parse_quality, write_quality
 from ilmek.carpet.sizes import CarpetSize, parse_size
 from ilmek.carpet.usual_pile import MassBand, with_counts
+from ilmek.carpet.washing import WashParams
 from ilmek.carpet.yarn import Yarn
 from ilmek.carpet.yarn_plan import YarnPlanParams
 from ilmek.elements.carpet_yarns import CarpetYarnParams
@@ -123,7 +124,8 @@ def test_warp_of_the_worked_example() -> None:
     """640 knots need 1280 warps; in wool 8/3 they weigh 960 g (iran-carpet.com 1726) if each is 2.00 m long: the 1.56 m
     of the carpet and 44 cm for crimp and ends, within the `up to 60 cm` of the same source.
     """
-    ground = GroundParams(crimp=0.0, selvedge_warps=0, yarns=CarpetYarnParams(warp="wool", warp_density=3 / 8 * g))
+    yarns, unwashed = CarpetYarnParams(warp="wool", warp_density=3 / 8 * g), WashParams(shrink_along=0.0)
+    ground = GroundParams(crimp=0.0, selvedge_warps=0, yarns=yarns, washing=unwashed)
     plan = YarnPlanParams(fringe=0.1, loom_waste=0.24)
     warp = yarn_bill(worked_example(), plan, ground).ground[0]
     assert (warp.name, warp.length) == ("warp", pytest.approx(1280 * 2.00))

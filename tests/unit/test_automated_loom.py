@@ -24,7 +24,7 @@ from ilmek.machines.automated_loom import (
     estimated_time,
     production_time,
 )
-from ilmek.machines.automated_loom.cyclogram import BEATER
+from ilmek.machines.automated_loom.cyclogram import BEATER, TAKE_UP
 from ilmek.machines.automated_loom.figures import figures, time_against_pitch, time_of_one_knotter
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.report import Drawing, Plot, Report, Timing
@@ -196,6 +196,7 @@ def test_pitch_and_quality_follow_each_other(settings: dict[str, Any], pitch: fl
         (dict(open_share=1.0), "a shed of 60 mm is never as open as open_share=1 of it"),
         (dict(beat_end=105 * deg), "the shed is free of the shuttle from 108.4 deg on"),
         (dict(take_up_end=150 * deg), "the take-up ends before the beat"),
+        (dict(width=20.0), "a carpet of 2000 × 180 cm is 2000 × 183.8 cm on the loom; at most 12 m wide"),
     ],
 )
 def test_looms_that_cannot_be(settings: dict[str, Any], said: str) -> None:
@@ -205,7 +206,7 @@ def test_looms_that_cannot_be(settings: dict[str, Any], said: str) -> None:
 
 @pytest.mark.parametrize(
     "settings",
-    [dict(width=20.0), dict(width=-1.0), dict(heads=0), dict(knots_across=0.0), dict(colours=300), dict(knot="granny")],
+    [dict(width=60.0), dict(width=-1.0), dict(heads=0), dict(knots_across=0.0), dict(colours=300), dict(knot="granny")],
 )
 def test_parameters_out_of_bounds(settings: dict[str, Any]) -> None:
     with pytest.raises(ParameterError):
@@ -316,19 +317,66 @@ def test_the_coarsest_carpet_has_its_loom() -> None:
     assert not any(series.label.startswith(("75 mm", "100 mm")) for series in plot.series)
 
 
-def test_a_carpet_woven_longer_has_its_length_off_the_loom() -> None:
-    """Warps of cotton at 15 N, 1.35 kN a strain of 1: 1.1 %; with 1 % of washing 0.979 of the length stays."""
-    made = reported()
-    size, tension, warp = made["size_off_loom"], made["tension"], yarn("cotton", usual_warp_density(2 * mm, "cotton"))
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {},
+        {"length": 0.9013, "knots_along": 33 / dm},
+        {"yarns.warp": "wool", "finish.shrink_along": 0.03, "finish.shrink_across": 0.02},
+        {"tension": 40.0, "warp_pitch": 2.5 * mm, "length": 1.0},
+    ],
+)
+def test_the_finished_carpet_has_the_size_and_the_knots_that_are_asked_for(settings: dict[str, Any]) -> None:
+    """What the take-up winds, cut off and washed: the rows that are woven times its stroke, without the strain."""
+    made = design(AutomatedLoomParams.read({"aim": "price", "beat": "comb", "width": 0.3, **settings}))
+    wash, asked = (settings.get(f"finish.shrink_{name}") for name in ("along", "across")), made.params
+    along, across = (default if one is None else one for one, default in zip(wash, (0.01, 0.0), strict=True))
+    warp = yarn(settings.get("yarns.warp", "cotton"), made.task.yarns.warp.linear_density)
+    strained = 1 + made.warp_tension.params.cloth.warp_tension / warp.stiffness
+    stroke = made.row_cyclogram.track(TAKE_UP).stroke
+    finished = made.rows * stroke / strained * (1 - along)
+    wide = (made.warps - asked.selvedge_warps) * made.task.cloth.warp_pitch * (1 - across)
+    assert finished == pytest.approx(asked.length, abs=stroke / 2)
+    assert wide == pytest.approx(asked.width, abs=made.knot_pitch / 2)
+    assert made.rows / finished == pytest.approx(settings.get("knots_along", made.columns / wide))
+    assert made.columns / wide == pytest.approx(0.5 / settings.get("warp_pitch", 2 * mm))  # 2.5 mm gives 20/dm
+    thick = made.weaver.params.pile_height + 3 * made.task.yarns.warp.diameter
+    wound = math.pi * (made.side.roll**2 - made.side.lower.radius**2) / thick
+    assert wound == pytest.approx(made.rows * stroke, abs=stroke / 2)
+    assert made.warp_tension.params.carpet_length == pytest.approx(made.rows * stroke, abs=stroke / 2)
+
+
+def test_the_warps_of_a_carpet_are_as_long_as_it_is_woven_without_their_strain() -> None:
+    made, tension = reported(), 15.0
+    warp = yarn("cotton", usual_warp_density(2 * mm, "cotton"))
     assert made["warp_strain"] == pytest.approx(tension / warp.stiffness)
-    assert size["length"] / 1.8 == pytest.approx(0.99 / (1 + made["warp_strain"]))
-    assert size["width"] == pytest.approx(1.2 * 0.995)
-    longer = reported(length=1.8 + made["woven_longer"])
-    assert longer["size_off_loom"]["length"] == pytest.approx(1.8)
-    assert made["warp_cut"] == pytest.approx(1.8 * 1.03 + 2 * 0.1 + 0.4)
-    assert made["dressing_time"] == pytest.approx(hour + made["warps"] * (12 + made["warp_cut"]))
+    woven = 1.8 / 0.99 * (1 + tension / warp.stiffness)
+    assert (made["woven_size"]["length"], made["woven_longer"]) == pytest.approx((woven, woven - 1.8))
+    assert made["warp_cut"] == pytest.approx(woven / (1 + tension / warp.stiffness) * 1.03 + 2 * 0.1 + 0.4)
     slack = reported(tension=tension / 2)
-    assert slack["size_off_loom"]["length"] > size["length"]
+    assert (slack["rows"], slack["warp_cut"]) == (made["rows"], pytest.approx(made["warp_cut"]))
+    assert slack["woven_longer"] < made["woven_longer"]
+
+
+def test_warps_are_wound_between_bars_drawn_in_and_tied() -> None:
+    """608 warps of 2.47 m at 1 m/s, 12 s each; 31 bundles of 20 at both ends, 30 s each; half an hour to set up."""
+    made = reported()
+    each = made["warp_cut"]
+    assert made["dressing_time"] == pytest.approx(0.5 * hour + 608 * (12 + each) + 2 * 31 * 30)
+    assert made["warp_mass"] == pytest.approx(608 * each * usual_warp_density(2 * mm, "cotton"))
+    assert made["warping_bars"] == ["first bar", "lease bar 1", "lease bar 2", "last bar"]
+    assert made["bar_load"] == pytest.approx(608 * 0.05 * 15)
+    params = AutomatedLoomParams.read({"length": 6.0, "width": 0.02, "selvedge_warps": 5, "warping.bar_distance": 2.5})
+    long = params.dressing
+    assert long.bars[3:] == ("turning bar 1", "turning bar 2", "last bar")  # 6.84 m in three legs
+    assert long.bar_load == pytest.approx(2 * 15 * 0.05 * 15)
+    ends = list(long.ends())
+    assert [(one.knot, one.of_knot) for one in ends] == [
+        *[(None, None)] * 2,
+        *[(knot, of) for knot in range(1, 6) for of in (1, 2)],
+        *[(None, None)] * 3,
+    ]
+    assert [one.number for one in ends if one.odd] == [1, 3, 5, 7, 9, 11, 13, 15]
 
 
 def test_the_mass_off_the_loom_is_that_of_the_yarns_in_the_carpet() -> None:

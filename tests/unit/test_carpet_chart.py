@@ -168,7 +168,7 @@ def test_bill_of_the_ground(chart: Chart) -> None:
     yarns = CarpetYarnParams(warp_density=1e-3, straight_weft_density=2e-3, sinuous_weft_density=0.5e-3)
     params = GroundParams(weft_share=0.0, yarns=yarns)
     warp, straight, sinuous, ends, _ = yarn_bill(chart, ground=params).ground
-    assert warp.length == pytest.approx((2 * 600 + 8) * (0.9 * 1.03 + 0.6))
+    assert warp.length == pytest.approx((2 * 600 + 8) * (0.9 / 0.99 * 1.03 + 0.6))
     across = 0.6 + 8 * 0.5e-3  # the wefts run over the selvedges
     assert straight.length == pytest.approx(900 * (across + 0.02)) == sinuous.length
     assert ends.length == pytest.approx(2 * 24 * (across + 0.02))  # 20 mm of picks of 0.835 mm, at each end

@@ -186,12 +186,13 @@ def test_time_and_cost_of_a_hand_woven_carpet_by_a_calculation_of_its_own(report
     rows, knots = 450, 150 * 8 * 3600 / 8000
     results = report.as_json()["results"]
     acts = 2 * 3 * 4 + 2 * ((300 * 2 + 8) * 2e-3 / 0.15 + 4) + 2 * 13 * 0.5 / 2
-    winding = results["winding_time"] * 4e-3 / 0.15
+    row = 4e-3 * (1 + results["warp_strain"]) / 0.99  # off the loom and washed 25 rows are in a decimetre
+    winding = results["winding_time"] * row / 0.15
     assert results["row_time"] == pytest.approx(knots + acts + winding)
     hours = rows * results["row_time"] / 3600
     assert results["weaving_time"] == pytest.approx(hours * 3600)
-    warp = 1.8 * 1.03 + 2 * 0.1 + 0.4  # with crimp, fringes and what is lost in the loom
-    carpets = 4000 * 0.9 / (hours + 4.5 + (3600 + 608 * (12 + warp / 1.0)) / 3600)
+    warp = 1.8 / 0.99 * 1.03 + 2 * 0.1 + 0.4  # unwashed, with crimp, fringes and what is lost in the loom
+    carpets = 4000 * 0.9 / (hours + 4.5 + (1800 + 608 * (12 + warp / 1.0) + 2 * 31 * 30) / 3600)
     shares = results["cost_shares"]
     assert shares["operators"] == pytest.approx(8 * 2 * 4000 / carpets)
     assert shares["energy"] == 0.0
@@ -226,3 +227,10 @@ def test_a_carpet_is_woven_on_a_hand_loom_with_chart_time_and_wage_and_no_progra
     assert results["weaving_time"] == pytest.approx(woven.loom["weaving_time"])
     assert "nothing of the loom is driven" in woven.warnings[0]
     assert not [text for _, text in loom_pairs(woven) if "by hand" in text]
+    strings = (tmp_path / "woven" / "drawing-in.csv").read_text(encoding="utf-8").splitlines()
+    assert strings[5:7] == ["5,1,1,odd,string heddle 3,5", "6,1,2,even,shed rod,6"]  # after four warps of the selvedge
+    assert len(strings) == 1 + 2 * 48 + 8
+    steps = {one["name"]: one["cost"] for one in results["making_steps"]}
+    assert steps["yarn"] == results["price"]
+    assert sum(steps.values()) == pytest.approx(results["price"] + woven.making.cost.cost_per_carpet)
+    assert results["woven_longer"] == pytest.approx(0.5 * (1 + woven.loom["warp_strain"]) / 0.99 - 0.5)

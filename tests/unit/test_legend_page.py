@@ -9,6 +9,7 @@ from pypdf import PdfReader
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
+from ilmek.carpet.washing import WashParams
 from ilmek.io.chart.legend import mounting_lines
 from ilmek.io.chart.pdf import write_chart_pdf
 from ilmek.io.yarn_file import default_yarns, read_yarns
@@ -41,15 +42,17 @@ def test_the_yarn_to_buy_stands_beside_the_symbols(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("rows", "columns"), [(40, 30), (41, 31), (7, 1200)])
 def test_the_mounting_is_that_of_counted_warps(rows: int, columns: int) -> None:
-    """Warps laid one by one, rows beaten one by one."""
+    """Warps laid one by one, rows beaten one by one, on the loom: they come nearer in washing, and off it."""
     size = f"{columns / 2.5}x{rows / 4}cm"
     chart = Chart(np.zeros((rows, columns), dtype=int), default_yarns()[:2], size, "25x40/dm", "symmetric")
-    made = mounting(chart, GroundParams(selvedge_warps=6, fringe=0.05, loom_waste=0.3))
-    warps = [at * 0.002 for at in range(6 + 2 * columns)]
+    washing = WashParams(shrink_along=0.02, shrink_across=0.05)
+    ground = GroundParams(selvedge_warps=6, fringe=0.05, loom_waste=0.3, warp_strain=0.01, washing=washing)
+    made = mounting(chart, ground)
+    warps = [at * 0.002 / 0.95 for at in range(6 + 2 * columns)]
     assert (made.warps, made.selvedge_warps) == (len(warps), 6)
-    assert made.width == pytest.approx(warps[-1] + 0.002)
-    assert made.warp_length == pytest.approx(rows * 0.0025 * 1.03 + 0.4)
-    assert made.row_mark == pytest.approx(sum(0.0025 for _ in range(10)))
+    assert made.width == pytest.approx(warps[-1] + 0.002 / 0.95)
+    assert made.warp_length == pytest.approx(rows * 0.0025 / 0.98 * 1.03 + 0.4)
+    assert made.row_mark == pytest.approx(sum(0.0025 * 1.01 / 0.98 for _ in range(10)))
     assert made.knot_mark == pytest.approx(warps[20])
     lines = dict(mounting_lines(chart, made))
     below = sum(1 for row in range(rows) if row + 1 <= rows / 2)

@@ -3,6 +3,7 @@
 import csv
 import json
 import shutil
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -77,6 +78,23 @@ def test_measures_of_the_example_save_its_late_order(example: tuple[dict[str, An
     assert measures["overtime"]["cost"] == found["loom_cost"] < found["cost"]
     assert measures["later due date"]["time"] == pytest.approx(68 * 3600, abs=3 * 3600)
     assert "yarn at once" in measures
+
+
+def test_a_carpet_of_a_plan_is_finished_by_its_steps_of_making(example: tuple[dict[str, Any], Path]) -> None:
+    """After the loom 900 s and 360 s a square metre, then two days to dry; 12 EUR a square metre. On it: its cost."""
+    found = example[0]
+    areas = {order["name"]: order["carpets"][0]["making_steps"][3]["time"] / 900 for order in found["orders"]}
+    assert areas["Tabriz"] == pytest.approx(1.4 * 2.0)
+    for order in found["orders"]:
+        for one in order["carpets"]:
+            steps = {step["name"]: step for step in one["making_steps"]}
+            assert steps["weaving"]["time"] == one["weaving_time"]
+            lost = one["cost"] - sum(steps[name]["cost"] for name in ("warping", "weaving", "taking down"))
+            assert lost == pytest.approx(0.0, abs=3e-4) or one["late"]
+            off = [steps[name] for name in ("inspection", "shearing", "washing")]
+            assert sum(step["cost"] for step in off) == pytest.approx(12 * areas[order["name"]])
+            after = datetime.fromisoformat(one["finished"]) - datetime.fromisoformat(one["end"])
+            assert 0 <= after.total_seconds() - 1260 * areas[order["name"]] - 48 * 3600 < 60
 
 
 def test_the_files_of_a_plan_agree(example: tuple[dict[str, Any], Path]) -> None:

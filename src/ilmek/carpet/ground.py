@@ -7,6 +7,9 @@ Both run from edge to edge of the cloth, selvedges included, and on by the turn 
 At both ends a strip of plain weave follows, close picks of the sinuous weft, each beside the last. At both sides the
 selvedge is overcast with pile yarn, turn beside turn: a helix about the selvedge's warps and wefts.
 
+Sizes and qualities are those of the finished carpet; its yarns are laid in the carpet on the loom, which is longer and
+wider [ilmek.carpet.washing].
+
 Warp and wefts are those of `ilmek.elements.carpet_yarns`, the same as of the loom's machines.
 
 Sources: warp counts and the rule `warps = 2 × knots across, length = carpet + up to 60 cm`, iran-carpet.com 1726, 1804;
@@ -20,6 +23,7 @@ import scipy
 
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
+from ilmek.carpet.washing import WashParams
 from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams, CarpetYarns, YarnProperties, carpet_yarns
 from ilmek.elements.yarns import MATERIALS
 from ilmek.params import Params, nested, param
@@ -31,6 +35,9 @@ SELVEDGE_WARPS = 8
 
 WEFT_TURN = 20 * mm
 """Weft beyond the cloth for a row [m]: the turn into the next row, or both ends tucked in; assumed by this project."""
+
+WARP_STRAIN = 0.01114
+"""Usual elastic strain of the warps on the loom: cotton, at the tension of the thesis' loom [1]."""
 
 WEFT_SHARE = 0.5
 """Share of the sinuous weft in the amplitude of a crossing, the rest the warps'; assumed by this project."""
@@ -56,11 +63,26 @@ class GroundParams(Params):
         at_most=1.0,
         doc="share of the sinuous weft in the amplitude of a crossing, the rest the warps",
     )
+    warp_strain: float = param(
+        WARP_STRAIN, at_least=0.0, at_most=1.0, doc="elastic strain of the warps on the loom, which goes off it"
+    )
     yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of the yarns")
+    washing: WashParams = nested(WashParams, doc="washing of the carpet")
+
+    @property
+    def lengthening(self) -> float:
+        """Length on the loom over that of the finished carpet [1]."""
+        return self.washing.lengthening(self.warp_strain)
+
+    def warp_pitch(self, quality: Quality) -> float:
+        """Distance of two warps on the loom [m]."""
+        return quality.warp_pitch * self.washing.widening
 
     def warp_length(self, length: float) -> float:
-        """Length of a warp to be wound for a carpet of a length [m]: with its crimp, both ends and the loom's waste."""
-        return length * (1 + self.crimp) + 2 * self.fringe + self.loom_waste
+        """Length of a warp to be wound, at no tension, for a finished carpet of a length [m]: unwashed, with its crimp,
+        both ends and the loom's waste.
+        """
+        return length * self.washing.lengthening() * (1 + self.crimp) + 2 * self.fringe + self.loom_waste
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,7 +162,7 @@ def ground_yarns(
     The wefts bind the selvedges too. The ends are of the sinuous weft; their picks lie beside each other.
     """
     params = params or GroundParams()
-    pitch = quality.warp_pitch
+    pitch = params.warp_pitch(quality)
     yarns = carpet_yarns(params.yarns, pitch)
     thin = yarns.sinuous_weft
     cloth = (2 * columns + params.selvedge_warps) * pitch
@@ -165,13 +187,13 @@ def selvedge_yarn(
     A turn about it is a helix of the rise d:  s = sqrt((2 (b + t) + pi d)² + d²), one for each d of the length.
     """
     params = params or GroundParams()
-    pitch = quality.warp_pitch
+    pitch = params.warp_pitch(quality)
     yarns = carpet_yarns(params.yarns, pitch)
     pile = MATERIALS[params.yarns.pile].diameter(linear_density)
     if params.selvedge_warps == 0:
         return GroundYarn(Sentence("ground.selvedges"), "selvedge", params.yarns.pile, 0.0, 0.0)
     around = 2 * (params.selvedge_warps / 2 * pitch + yarns.warp.diameter + yarns.sinuous_weft.diameter)
-    total = 2 * size.length / pile * math.hypot(around + math.pi * pile, pile)
+    total = 2 * size.length * params.lengthening / pile * math.hypot(around + math.pi * pile, pile)
     return GroundYarn(Sentence("ground.selvedges"), "selvedge", params.yarns.pile, total, total * linear_density)
 
 

@@ -1,8 +1,9 @@
 """Mounting: the warps of a carpet on the loom, and the marks by which its knots are counted and checked.
 
-    warps = 2 · columns + selvedge warps,   width on the loom = warps · pitch,   pitch = 1/(2 · across)
+    warps = 2 · columns + selvedge warps,   width on the loom = warps · pitch,   pitch = widening/(2 · across)
 
-Every 10th row and every 10th knot has a mark: 10/along of the length, 10/across of the width [ilmek.carpet.ground].
+Every 10th row and every 10th knot has a mark: 10 lengthening/along of the length on the loom, 10 widening/across of the
+width; the finished carpet is shorter and narrower [ilmek.carpet.washing].
 """
 
 from ilmek.carpet.chart import Chart
@@ -43,20 +44,20 @@ def mounting(chart: Chart, ground: GroundParams | None = None) -> Mounting:
 
     >>> from ilmek import read_yarns
     >>> made = mounting(Chart([[0] * 5, [1] * 5, [0] * 5], read_yarns()[:2], "10x6cm", "5x5/dm", "symmetric"))
-    >>> made.warps, made.pitch, made.width, made.row_mark, made.middle_row, made.middle_knot
-    (18, 0.01, 0.18, 0.2, 1.5, 2.5)
+    >>> made.warps, made.pitch, made.width, round(made.row_mark, 4), made.middle_row, made.middle_knot
+    (18, 0.01, 0.18, 0.2043, 1.5, 2.5)
     """
     ground, quality = ground or GroundParams(), chart.quality
-    warps = 2 * chart.columns + ground.selvedge_warps
+    warps, pitch = 2 * chart.columns + ground.selvedge_warps, ground.warp_pitch(quality)
     return Mounting(
         warps,
         ground.selvedge_warps,
-        quality.warp_pitch,
-        warps * quality.warp_pitch,
+        pitch,
+        warps * pitch,
         ground.warp_length(chart.size.length),
         ground.fringe,
-        TENS / quality.along,
-        TENS / quality.across,
+        TENS / quality.along * ground.lengthening,
+        TENS * 2 * pitch,
         chart.rows / 2,
         chart.columns / 2,
     )

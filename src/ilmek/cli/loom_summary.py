@@ -15,7 +15,8 @@ def cost_in_words(cost: CarpetCost, yarn: float | None, *, driven: bool) -> str:
     """What a carpet costs, on the loom and, where this is driven, by hand; yarn: price of the yarn to buy."""
     of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
     by_hand = f"; tied by hand {cost.hand_cost:,.2f}" if driven else ""
-    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}{by_hand}"
+    steps = ", ".join(f"{one.name} {one.cost:,.2f}" for one in cost.steps)
+    return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}{by_hand}; {steps}"
 
 
 def price_in_words(cost: CarpetCost, *, driven: bool) -> str:
@@ -53,7 +54,7 @@ def fewer_in_words(loom: LoomDesign) -> str:
 def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
     made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
-    time, cost, driven = woven.loomed.weaving_time, woven.loomed.cost, woven.loomed.hand is None
+    time, cost, driven = woven.loomed.weaving_time, woven.making.cost, woven.loomed.hand is None
     if made is None or time is None or cost is None:
         return []
     within = "" if deadline is None else f", the deadline is {time_in_words(deadline)}"
@@ -67,7 +68,7 @@ def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     search = design and design.search
     chosen = [f"{choice.name} {choice.chosen}" for choice in woven.loom.choices]
     return [
-        ("weaving time", f"{time_in_words(time)}{within}; {how}"),
+        ("weaving time", f"{time_in_words(time)}{within}; {how}; {woven.making.size_in_words}"),
         of_knots,
         ("cost", cost_in_words(cost, woven.charted.bill.price, driven=driven)),
         ("loom", price_in_words(cost, driven=driven)),

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 
 from ilmek.elements.making import RATES
 from ilmek.errors import ParameterError
-from ilmek.report import BillLine, MakingStep
+from ilmek.report import BillLine, ProcessStep
 
 _RATES = {
     "each": "each",
@@ -72,16 +72,16 @@ class PriceRates:
         """
         return self.each + self.per_kg * mass + self.per_m * length + self.per_W * power
 
-    def of_step(self, step: MakingStep) -> float:
+    def of_step(self, step: ProcessStep) -> float:
         """Price of a step in the making of a piece, without its set-up.
 
         >>> milling = PriceRates(per_h=60.0, piece=30.0, time_per_cm3=3.0)
-        >>> round(milling.of_step(MakingStep("milling", volume=10e-6)), 12)
+        >>> round(milling.of_step(ProcessStep("milling", volume=10e-6)), 12)
         1.0
         """
         return self.per_kg * step.mass + self.per_m2 * step.area + self.per_h * self.time(step) / _HOUR
 
-    def time(self, step: MakingStep) -> float:
+    def time(self, step: ProcessStep) -> float:
         """Time of a step [s]."""
         cut = step.length * self.time_per_m + step.area / _CM**2 * self.time_per_cm2
         return self.piece + step.features * self.feature + cut + step.volume / _CM**3 * self.time_per_cm3

@@ -22,6 +22,7 @@ FILES = (
     FileNote("rows.txt", "the rows to weave by as text"),
     FileNote("chart.json", "the results as data, SI"),
     FileNote("yarn.csv", "the yarn to buy"),
+    FileNote("drawing-in.csv", "the drawing-in list: knot, cam or heddle, and slot of each warp"),
     FileNote("proposed.toml", "shades proposed from the picture itself: a yarn list for --yarns"),
     FileNote("paper.html", "the doubtful cells of the squared paper beside their reading, to correct"),
     FileNote("programme.ilmek", "the loom programme; show it with `ilmek inspect`"),

@@ -10,6 +10,7 @@ from ilmek.arrays import Rgb
 from ilmek.carpet.bill import YarnBill, YarnNeed, yarn_bill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.fitting import Fit
+from ilmek.carpet.ground import GroundParams
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.pile import PileParams, fill_check, pile_fill
 from ilmek.carpet.recipe.outcome import edit_checks
@@ -57,6 +58,7 @@ class ChartResult:
     notes       changes made to the picture, and files that are left out
     source      the fitted picture, made small; None of a chart as input, and where it is not wanted
     whole       the same of the picture before it was cropped to the carpet's proportions; None where it was not
+    ground      of the loom, where there is one
     """
 
     order: ResolvedOrder
@@ -66,6 +68,7 @@ class ChartResult:
     notes: tuple[str, ...]
     source: Rgb | None = None
     whole: Rgb | None = None
+    ground: GroundParams | None = None
 
     @property
     def pile(self) -> PileParams:
@@ -97,7 +100,7 @@ class ChartResult:
     @property
     def printing(self) -> Printing:
         """What the printed files have besides the chart."""
-        ground = self.order.order.plan.ground()
+        ground = self.order.order.plan.ground(self.ground)
         return Printing(self.order.order.files.digits, self.bill, mounting(self.chart, ground))
 
     @property

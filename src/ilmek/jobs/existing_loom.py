@@ -114,6 +114,14 @@ def heads_used(existing: ExistingLoom, chart: Chart) -> int:
     return min(made.heads, heads_that_fit(chart.columns, made.knot_pitch, made.head_width))
 
 
+def lengthening(existing: ExistingLoom, yarns: CarpetYarnParams) -> float:
+    """Length of a carpet of these yarns on the loom, over that of the finished one [1]: at the loom's own tension."""
+    cloth = existing.design.task.cloth
+    return existing.design.params.finish.lengthening(
+        replace(cloth, tension=cloth.warp_tension, yarns=yarns).warp_strain
+    )
+
+
 def for_rows(existing: ExistingLoom, row_pitch: float) -> LoomDesign:
     """The same loom with the take-up set to another distance of rows [m]."""
     made = existing.design
@@ -146,8 +154,8 @@ def carpet_checks(
         must(
             "loom: as in its file", not existing.differs, f"{existing.path.name}{f' differs in {same}' if same else ''}"
         ).with_cure("design the loom again with this version of ilmek, or leave its file as it was written"),
-        *_fit_checks(made, chart),
-        *_row_checks(existing, chart),
+        *_fit_checks(made, chart, lengthening(existing, yarns)),
+        *_row_checks(existing, lengthening(existing, yarns) / chart.quality.along),
         *((colours_check(chart, heads, params),) if heads else ()),
         *_yarn_checks(made, carpet_yarns(yarns, made.task.cloth.warp_pitch), knot_yarn),
     )
@@ -165,12 +173,12 @@ def colours_check(chart: Chart, heads: int, params: AutomatedLoomParams) -> Chec
     ).with_cure(f"set --colours {params.head_tubes}, or more heads, or take a loom with {needed} tubes a head")
 
 
-def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
-    """Warps, their pitch, the knot and the length."""
+def _fit_checks(made: LoomDesign, chart: Chart, longer: float) -> tuple[Check, ...]:
+    """Warps, their pitch, the knot and the length, on the loom so much longer than the finished one's."""
     params, quality, warp_pitch = made.params, chart.quality, made.task.cloth.warp_pitch
-    own = 0.5 / warp_pitch
+    own, woven = 0.5 / warp_pitch * params.finish.widening, params.woven_size[1]
     pitch, dense = format_quantity(warp_pitch, "mm"), f"{own * dm:.4g}"
-    widest = format_quantity((made.warps - params.selvedge_warps) * warp_pitch, "cm")
+    widest = format_quantity((made.warps - params.selvedge_warps) / (2 * own), "cm")
     source = f"cams, slots and heads of the loom stand at warps {pitch} apart: {dense} knots/dm"
     return (
         at_most(
@@ -187,14 +195,18 @@ def _fit_checks(made: LoomDesign, chart: Chart) -> tuple[Check, ...]:
             "carpet: knot", not made.heads or chart.knot == params.knot, f"the heads tie the {params.knot} knot"
         ).with_cure(f"set --knot {params.knot}"),
         at_most(
-            "carpet: length", chart.size.length, params.length, "m", "warp and roll of the loom's cylinders"
-        ).with_cure(f"set a size of at most {format_quantity(params.length, 'm')} length"),
+            "carpet: length on the loom",
+            chart.size.length * longer,
+            woven,
+            "m",
+            "warp and roll of the loom's cylinders",
+        ).with_cure(f"set a size of at most {format_quantity(woven / longer, 'm')} length"),
     )
 
 
-def _row_checks(existing: ExistingLoom, chart: Chart) -> tuple[Check, ...]:
-    """The distance of rows: what the beat leaves, and what the take-up moves."""
-    row_pitch, own = 1 / chart.quality.along, existing.design.task.cloth.row_distance
+def _row_checks(existing: ExistingLoom, row_pitch: float) -> tuple[Check, ...]:
+    """The distance of rows on the loom [m]: what the beat leaves, and what the take-up moves."""
+    own = existing.design.task.cloth.row_distance
     most = row_pitch * (1 + existing.design.params.row_tolerance)
     source = "row pitch of the quality, and row_tolerance; fabric as assumed by this project"
     dense = f"{existing.design.params.quality.along * dm:.4g}"

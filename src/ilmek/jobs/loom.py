@@ -18,6 +18,7 @@ from ilmek.jobs.existing_loom import (
     colours_check,
     for_rows,
     heads_used,
+    lengthening,
     read_existing_loom,
     row_pitch_left,
     yarns_on,
@@ -286,7 +287,7 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
     chart, yarns = charted.chart, params_for(loom_order, charted).yarns
     heads = min(heads_used(existing, chart), loom_order.wishes.heads or existing.design.heads)
     checks = carpet_checks(existing, chart, heads, yarns, yarn_of_a_knot(charted))
-    row_pitch = 1 / chart.quality.along
+    row_pitch = lengthening(existing, yarns) / chart.quality.along
     made, left = for_rows(existing, row_pitch), row_pitch_left(existing, row_pitch)
     if not all(check.ok for check in checks):
         return LoomResult(existing.report, checks, made, row_pitch_left=left)

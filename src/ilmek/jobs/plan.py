@@ -1,10 +1,12 @@
 """Plan a factory: several carpets on looms that exist, which loom weaves what when, and at what cost."""
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import LoomError, ParameterError, did_you_mean
 from ilmek.factory.heuristic import first_plan
 from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
@@ -17,6 +19,7 @@ from ilmek.io.orders_file import read_orders
 from ilmek.jobs.chart import job_json
 from ilmek.jobs.order import recipe_parameters
 from ilmek.jobs.plan_inputs import FactoryInputs, PlannedOrder, read_inputs
+from ilmek.machines.automated_loom.making import ON_LOOM, MakingStep
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import Check, Json, at_most
@@ -269,14 +272,30 @@ def _order_json(done: PlanResult, index: int) -> dict[str, Json]:
     }
 
 
+def _steps(done: PlanResult, one: PlannedCarpet) -> tuple[MakingStep, ...]:
+    """The steps of making of a carpet: on the loom at the file's cost; after it at the rates of the loom, in euros."""
+    inputs = done.inputs
+    job, loom = inputs.factory.jobs[one.job], inputs.factory.looms[one.loom]
+    times = loom.dressing_time(same=one.same), job.weaving[one.loom], loom.doffing
+    on_loom = (
+        MakingStep(name, minute * time, loom.cost_of(time) / MONEY) for name, time in zip(ON_LOOM, times, strict=True)
+    )
+    finishing = inputs.orders[job.order].fits[one.loom].finishing
+    known = inputs.orders_file.currency == EURO
+    return (*on_loom, *(step if known else replace(step, cost=None) for step in finishing))
+
+
 def _carpet_json(done: PlanResult, one: PlannedCarpet) -> dict[str, Json]:
-    factory = done.inputs.factory
+    factory, steps = done.inputs.factory, _steps(done, one)
+    finishing = sum(step.time or 0.0 for step in steps[len(ON_LOOM) :])
     return {
         "loom": factory.looms[one.loom].name,
         "start": _iso(done, one.start),
         "dressed": _iso(done, one.dressed),
         "woven": _iso(done, one.woven),
         "end": _iso(done, one.end),
+        "finished": _iso(done, one.end + math.ceil(finishing / minute)),
+        "making_steps": [step.as_json() for step in steps],
         "weaving_time": minute * factory.jobs[one.job].weaving[one.loom],
         "same_setup": one.same,
         "cost": done.cost(one) / MONEY,

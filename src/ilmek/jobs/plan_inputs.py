@@ -27,7 +27,9 @@ from ilmek.jobs.loom_setup import loom_digest
 from ilmek.jobs.order import read_order
 from ilmek.jobs.weave import overlay_checks
 from ilmek.jobs.wishes import Wishes
+from ilmek.loom.operations import LoomSetup
 from ilmek.machines.automated_loom import MACHINE, AutomatedLoomParams, design
+from ilmek.machines.automated_loom.making import MakingStep, finishing_steps
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import Check, must
@@ -36,10 +38,14 @@ from ilmek.units import g, hour, minute
 
 @record
 class LoomFit:
-    """Whether a loom weaves a carpet: its weaving time without stops [s], None where it does not; checks that fail."""
+    """Whether a loom weaves a carpet: its weaving time without stops [s], None where it does not; checks that fail.
+
+    finishing  the steps of making after it, at the rates of the loom
+    """
 
     time: float | None
     failed: tuple[Check, ...] = ()
+    finishing: tuple[MakingStep, ...] = ()
 
 
 @record
@@ -172,7 +178,8 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
     failed = tuple(check for check in checks if not check.ok)
     if failed or loomed.programme is None:
         return LoomFit(None, failed)
-    return LoomFit(loomed.programme.duration)
+    finishing = finishing_steps(loom.design.params.cost, charted.chart.size.area)
+    return LoomFit(loomed.programme.duration, finishing=finishing)
 
 
 def _of_programme(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
@@ -180,7 +187,7 @@ def _of_programme(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> Planned
     assert entry.programme is not None
     with open_programme(entry.programme) as programme:
         chart, setup, time = _chart_of(programme), programme.setup, programme.totals.duration
-    fits = tuple(_programme_fit(setup.loom, time, loom) for loom in looms)
+    fits = tuple(_programme_fit(setup, time, loom) for loom in looms)
     return PlannedOrder(entry, yarn_bill(chart), setup_of(chart), fits)
 
 
@@ -191,14 +198,14 @@ def _chart_of(programme: ProgrammeFile) -> Chart:
     return Chart(np.array(rows[::-1], np.uint8), yarns, setup.size, setup.quality, setup.knot)
 
 
-def _programme_fit(digest: str, time: float, loom: ExistingLoom) -> LoomFit:
+def _programme_fit(setup: LoomSetup, time: float, loom: ExistingLoom) -> LoomFit:
     compiled = must(
         "programme: compiled for this loom",
-        loom_digest(loom.design.params) == digest,
+        loom_digest(loom.design.params) == setup.loom,
         "digest of the loom's parameters",
     ).with_cure("weave the picture on this loom: ilmek weave PICTURE --loom FILE")
     failed = tuple(check for check in (compiled, *loom.report.all_checks) if not check.ok)
-    return LoomFit(None if failed else time, failed)
+    return LoomFit(None if failed else time, failed, finishing_steps(loom.design.params.cost, setup.size.area))
 
 
 def setup_of(chart: Chart) -> tuple[object, ...]:

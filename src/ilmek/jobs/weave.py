@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.chart import Chart
+from ilmek.io.drawing_in import write_drawing_in
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.programme_file import write_programme
@@ -13,6 +14,7 @@ from ilmek.jobs.carpet_report import page_of
 from ilmek.jobs.chart import ChartResult, chart_results, job_json, make_charted, write_chart
 from ilmek.jobs.loom import LoomOrder, LoomResult, make_loomed, params_for
 from ilmek.jobs.loom_space import loom_in_space
+from ilmek.jobs.making import Making
 from ilmek.jobs.order import CarpetOrder
 from ilmek.jobs.yarn_warnings import currency_warning
 from ilmek.loom.explicit import CompiledProgramme
@@ -45,6 +47,11 @@ class WeaveResult:
     folder: Path
     written: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
+
+    @property
+    def making(self) -> Making:
+        """The carpet on its loom, and its making."""
+        return Making(self.charted.chart, self.charted.bill, self.loom_order.params, self.loomed)
 
     @property
     def loom(self) -> Report:
@@ -113,12 +120,13 @@ def _weave(
     charted = make_charted(order, progress.part(0.0, 0.4, "picture"), with_source=True)
     loom_order = replace(loom_order, params=params_for(loom_order, charted))
     loomed = make_loomed(loom_order, charted, progress.part(0.4, 0.5, "loom"))
-    charted = replace(charted, bill=yarn_bill(charted.chart, order.plan, loom_order.params.ground))
+    ground = loom_order.params.ground
+    charted = replace(charted, bill=yarn_bill(charted.chart, order.plan, ground), ground=ground)
     woven = WeaveResult(charted, loom_order, loomed, folder)
     left_out: list[str] = []
     with outputs.folder(folder) as work:
         of_chart, drawn = write_chart(charted, work, left_out, progress.part(0.5, 0.7, "chart"))
-        written = (*of_chart, *_write_programme(woven, work, progress.part(0.7, 0.8, "programme")))
+        written = (*of_chart, *_write_loom(woven, work, progress.part(0.7, 0.8, "programme")))
         write_json(work / "machine.json", machine_json(woven))
         written = ("report.html", "loom.html", *written, "machine.json", "report.json")
         woven = replace(woven, written=written, left_out=tuple(left_out))
@@ -148,13 +156,16 @@ def overlay_checks(chart: Chart) -> tuple[Check, ...]:
     return (must("every knot on two warps", False, source).with_cure(cure),)
 
 
-def _write_programme(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:
-    """Write the programme if the loom weaves the carpet; returns the names of the written files."""
-    setup, programme = woven.loomed.setup, woven.loomed.programme
-    if not woven.weaves or setup is None or programme is None:
+def _write_loom(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[str, ...]:
+    """Write drawing-in list and programme if the loom weaves the carpet; returns the names of the written files."""
+    setup, programme, made = woven.loomed.setup, woven.loomed.programme, woven.loomed.made
+    if not woven.weaves or made is None:
         return ()
+    write_drawing_in(folder / "drawing-in.csv", woven.making.warping, made.warp_guide)
+    if setup is None or programme is None:
+        return ("drawing-in.csv",)
     write_programme(folder / "programme.ilmek", CompiledProgramme(setup, programme), progress=progress)
-    return ("programme.ilmek",)
+    return ("drawing-in.csv", "programme.ilmek")
 
 
 def weave_results(woven: WeaveResult) -> JsonObject:
@@ -170,6 +181,7 @@ def weave_results(woven: WeaveResult) -> JsonObject:
         "heads": programme.heads if programme else 0 if tied and tied.weavers else None,
         "heads_max": tied and tied.heads_max,
         "weavers": tied and tied.weavers,
+        **woven.making.as_json(),
         "weaving_time": woven.loomed.weaving_time,
         "time_bound": programme and programme.bound,
         "time_naive": programme and programme.naive.time,
@@ -237,6 +249,7 @@ def _carpet_page(woven: WeaveResult, drawn: DrawnCarpet | None) -> CarpetPage:
         source=charted.source,
         whole=charted.whole,
         facts=_loom_facts(woven),
+        making=tuple(woven.making.in_words),
         good=GOOD,
         bad=BAD,
         checks=woven.checks,
@@ -269,7 +282,8 @@ def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
     time = woven.loomed.weaving_time
     if made is None or time is None:
         return ()
-    facts = _of_weavers(made, time) if programme is None else _of_heads(made, programme)
+    size = Fact("Woven", woven.making.size_in_words)
+    facts = (size, *(_of_weavers(made, time) if programme is None else _of_heads(made, programme)))
     if deadline is None:
         return facts
     met = time <= deadline

@@ -24,7 +24,7 @@ from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.profile import line_moment
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, shape_box
 from ilmek.plane.contours import area, bounds, length
-from ilmek.report import MakingStep
+from ilmek.report import ProcessStep
 from ilmek.units import mm
 
 WEB, KERF, ALLOWANCE, OFFCUT = 8 * mm, 3 * mm, 2 * mm, 0.05
@@ -89,11 +89,11 @@ def _is_round(prism: Prism) -> bool:
     return abs(area(outline)) > _ROUND * math.pi * radius**2
 
 
-Steps = Iterator[MakingStep]
+Steps = Iterator[ProcessStep]
 
 
-def _of_material(material: Material, volume: float) -> MakingStep:
-    return MakingStep(material.name, mass=material.density * volume)
+def _of_material(material: Material, volume: float) -> ProcessStep:
+    return ProcessStep(material.name, mass=material.density * volume)
 
 
 def _sheet(shape: Shape, material: Material) -> Steps:
@@ -106,12 +106,12 @@ def _sheet(shape: Shape, material: Material) -> Steps:
         thick, wide, deep, cut = _flat(plate)
         yield _of_material(material, thick * (wide + WEB) * (deep + WEB))
         piercings = len(plate.section.contours) if thick == plate.length else 1
-        yield MakingStep(LASER, length=cut, area=cut * thick, features=piercings)
+        yield ProcessStep(LASER, length=cut, area=cut * thick, features=piercings)
         folds = (len(plate.section.outline.points) - 4) // 2
         if thick != plate.length and folds > 0:
-            yield MakingStep(BENDING, features=folds)
+            yield ProcessStep(BENDING, features=folds)
     if len(plates) > 1:
-        yield MakingStep(WELDING, length=seam_length(shape))
+        yield ProcessStep(WELDING, length=seam_length(shape))
 
 
 def _flat(plate: Prism) -> tuple[float, float, float, float]:
@@ -157,9 +157,9 @@ def _milled(shape: Shape, material: Material) -> Steps:
     thick, wide, long = sorted(form.size)
     blank = thick * (wide + 2 * ALLOWANCE) * (long + 2 * ALLOWANCE)
     yield _of_material(material, blank * (1 + OFFCUT))
-    yield MakingStep(SAWING, area=thick * (wide + 2 * ALLOWANCE))
+    yield ProcessStep(SAWING, area=thick * (wide + 2 * ALLOWANCE))
     finished = max(form.surface - 2 * form.volume / thick, 0.0)
-    yield MakingStep(MILLING, area=finished, volume=max(blank - form.volume, 0.0), features=form.holes)
+    yield ProcessStep(MILLING, area=finished, volume=max(blank - form.volume, 0.0), features=form.holes)
 
 
 def _turned(shape: Shape, material: Material) -> Steps:
@@ -176,9 +176,9 @@ def _turned(shape: Shape, material: Material) -> Steps:
     blank = math.pi / 4 * diameter**2 * (long + KERF)
     yield _of_material(material, blank * (1 + OFFCUT))
     ends = math.pi / 2 * diameter**2
-    yield MakingStep(TURNING, area=ends if solid else form.surface, volume=max(blank - form.volume, 0.0))
+    yield ProcessStep(TURNING, area=ends if solid else form.surface, volume=max(blank - form.volume, 0.0))
     if milled:
-        yield MakingStep(MILLING, features=milled)
+        yield ProcessStep(MILLING, features=milled)
 
 
 def _cam(shape: Shape, material: Material) -> Steps:
@@ -186,8 +186,8 @@ def _cam(shape: Shape, material: Material) -> Steps:
     yield from _sheet(shape, material)
     if isinstance(shape, Prism):
         bores = sum(length(hole) for hole in shape.section.holes) * shape.length
-        yield MakingStep(MILLING, area=bores, features=len(shape.section.holes))
-        yield MakingStep(GRINDING, area=length(shape.section.outline) * shape.length)
+        yield ProcessStep(MILLING, area=bores, features=len(shape.section.holes))
+        yield ProcessStep(GRINDING, area=length(shape.section.outline) * shape.length)
 
 
 def _stock(shape: Shape, material: Material) -> Steps:
@@ -195,11 +195,11 @@ def _stock(shape: Shape, material: Material) -> Steps:
     form, section = form_of(shape), stock_section(shape)
     long = form.size[2] if _is_hollow(shape) else max(form.size)
     yield _of_material(material, section * (long + KERF) * (1 + OFFCUT))
-    yield MakingStep(SAWING, area=2 * section)
+    yield ProcessStep(SAWING, area=2 * section)
     removed = section * long - form.volume
     if removed > _LEAST_CUT * section * long:
         finished = form.surface if isinstance(shape, Turned) else 0.0
-        yield MakingStep(MILLING if isinstance(shape, Prism) else TURNING, area=finished, volume=removed)
+        yield ProcessStep(MILLING if isinstance(shape, Prism) else TURNING, area=finished, volume=removed)
 
 
 _LEAST_CUT = 1e-3
@@ -230,8 +230,8 @@ def _welded(shape: Shape, material: Material) -> Steps:
     yield from _stock(shape, material)
     if isinstance(shape, Prism):
         around = length(shape.section.outline)
-        yield MakingStep(WELDING, length=2 * around)
-        yield MakingStep(COATING, area=around * shape.length)
+        yield ProcessStep(WELDING, length=2 * around)
+        yield ProcessStep(COATING, area=around * shape.length)
 
 
 ROUTES: Mapping[str, Callable[[Shape, Material], Steps]] = {
@@ -248,7 +248,7 @@ ROUTES: Mapping[str, Callable[[Shape, Material], Steps]] = {
 """How the parts of each process are made."""
 
 
-def steps_of(part: Part) -> tuple[MakingStep, ...]:
+def steps_of(part: Part) -> tuple[ProcessStep, ...]:
     """The steps in the making of a part; none for one that is bought, or made as no route has it."""
     if part.material is None or part.shape is None or part.process not in ROUTES:
         return ()
@@ -256,7 +256,7 @@ def steps_of(part: Part) -> tuple[MakingStep, ...]:
 
 
 @lru_cache(maxsize=4096)
-def _steps(shape: Shape, material: Material, process: str) -> tuple[MakingStep, ...]:
+def _steps(shape: Shape, material: Material, process: str) -> tuple[ProcessStep, ...]:
     hardened = material.name in HARDENED
-    treated = (MakingStep(HARDENING, mass=material.density * shape.volume),) if hardened else ()
+    treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if hardened else ()
     return (*ROUTES[process](shape, material), *treated)

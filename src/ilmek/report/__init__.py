@@ -5,7 +5,7 @@ machine. Values are SI; the unit beside a value is the one to show it in.
 """
 
 from ilmek.records import DeclaredResult, computed, declared_results, group, record, result
-from ilmek.report.bill import NOT_WEIGHED, BillLine, Joints, MakingStep, Work
+from ilmek.report.bill import NOT_WEIGHED, BillLine, Joints, ProcessStep, Work
 from ilmek.report.check import Check, at_least, at_most, in_words, must, shown_value, snap_to_limit
 from ilmek.report.choice import Alternative, Choice, choose, failing
 from ilmek.report.document import BUILDABLE, NEAREST, Report
@@ -64,13 +64,13 @@ __all__ = [
     "Lane",
     "LawCurve",
     "Link",
-    "MakingStep",
     "Mark",
     "Move",
     "MovingDot",
     "MovingStroke",
     "Plate",
     "Plot",
+    "ProcessStep",
     "Reading",
     "Report",
     "Result",

@@ -8,7 +8,7 @@ NOT_WEIGHED = math.nan
 
 
 @dataclass(frozen=True, slots=True)
-class MakingStep:
+class ProcessStep:
     """A step in the making of a piece: its material, or a process, with what its price depends on.
 
     kind    of material or process                 mass      bought, or treated [kg]
@@ -52,7 +52,7 @@ class BillLine:
     power: float = 0.0
     drives: int = 0
     part: str = ""
-    steps: tuple[MakingStep, ...] = ()
+    steps: tuple[ProcessStep, ...] = ()
     joints: Joints = Joints()
 
     @property

@@ -40,6 +40,7 @@ class CarpetPage:
     whole          the picture before it was cropped to the carpet's proportions; default: it was not
     reading        how the picture was read: label, value and note of each line
     facts          further entries of the summary, after knots, colours and yarn (heads, weaving time, deadline)
+    making         steps of making: name, time and cost of each, as shown
     good, bad      sentence where every check holds; where not
     checks         all checks, those of machines with the machine's name
     files          the files of the folder
@@ -60,6 +61,7 @@ class CarpetPage:
     whole: Rgb | None = None
     reading: tuple[Fact, ...] = ()
     facts: tuple[Fact, ...] = ()
+    making: tuple[tuple[str, str, str], ...] = ()
     good: str = "Every check holds."
     bad: str = "Not every check holds."
     checks: tuple[Check, ...] = ()
@@ -106,6 +108,7 @@ def carpet_page(page: CarpetPage, left_out: list[str] | None = None, progress: P
         statistic_lines=_statistic_lines(page.statistics),
         files=page.files,
         loom=page.loom,
+        making=page.making,
     )
 
 

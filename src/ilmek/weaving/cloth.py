@@ -64,6 +64,11 @@ class Cloth(Params):
         return usual_tension(self.warp_pitch, self.carpet_yarns.warp.linear_density)
 
     @property
+    def warp_strain(self) -> float:
+        """Elastic strain of the warps at rest [1]: T / EA."""
+        return self.warp_tension / self.carpet_yarns.warp.stiffness
+
+    @property
     def pull(self) -> float:
         """Pull of all warps at rest [N]: n T."""
         return self.warps * self.warp_tension

@@ -43,6 +43,7 @@ from ilmek.params import Params
 from ilmek.part.plates import pieces_of
 from ilmek.report import BUILDABLE
 from ilmek.timing.cyclogram import Cyclogram
+from ilmek.weaving.warping import Warping
 
 __all__ = [
     "MACHINE",
@@ -90,6 +91,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
         PartsList,
         CarpetCost,
         OffLoom,
+        Warping,
         FrameModes,
         LoomAssembly,
     ),

@@ -12,6 +12,7 @@ The stops are those that the twin's causes are expected to give for a carpet, un
 
 The loom is paid back against weavers by hand after sold / (carpets a year * (hand - cost without annuity)) years, where
 hand = knots / knots a day * hours a day * wage + finishing * area. Rates: `CostRates`.
+By the steps of making: `making`.
 """
 
 import math
@@ -19,7 +20,9 @@ from collections.abc import Mapping
 
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.machine_cost import MachineCost
+from ilmek.machines.automated_loom.making import MakingStep, making_steps
 from ilmek.records import computed, record
+from ilmek.report import Json
 
 YEAR = 365.25 * 86400.0
 
@@ -83,6 +86,16 @@ class CarpetCost:
     def cost_per_area(self) -> float:
         cost: float = self.cost_per_carpet
         return cost / self.area
+
+    @computed("", "steps of making: time [s] and cost of each, without yarn")
+    def making_steps(self) -> list[Json]:
+        return [one.as_json() for one in self.steps]
+
+    @property
+    def steps(self) -> list[MakingStep]:
+        """The steps of making from the warping on, in order."""
+        warping = min(self.dressing, self.changeover)
+        return making_steps((warping, self.time, self.changeover - warping), self.cost_shares, self.rates, self.area)
 
     @computed("", "cost of the carpet tied by hand, without its yarn")
     def hand_cost(self) -> float:

@@ -12,7 +12,6 @@ from ilmek.machines.automated_loom.equipment.guards import POST, fence_of
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.machine_cost import machine_cost, with_control
-from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import AUTO
 from ilmek.machines.automated_loom.parts import PartsList
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
@@ -32,7 +31,7 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
         area=params.width * params.length,
         time=time,
         energy=energy,
-        dressing=float(off_loom(loom).dressing_time),
+        dressing=float(params.dressing.dressing_time),
         floor=(fence.right - fence.left + margins) * (fence.front - fence.rear + margins),
         machine=machine_cost(listed.parts, listed.prices),
         stops=standstill_of(loom),

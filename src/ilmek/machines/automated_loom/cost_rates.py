@@ -47,8 +47,27 @@ class CostRates(Params):
     aisle: float = kind.length(
         0.8, unit="m", at_least=0.0, at_most=20.0, doc="floor round the fence; usual: 0.6 to 1 m"
     )
-    finishing: float = param(
-        12.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="shearing and washing of the carpet; usual: 5 to 30"
+    inspection: float = param(
+        1.5, unit="1/m^2", at_least=0.0, at_most=1e6, doc="inspection and mending of the carpet; usual: 0.5 to 5"
+    )
+    inspection_time: float = param(
+        900.0,
+        unit="min/m^2",
+        at_least=0.0,
+        at_most=1e6,
+        doc="inspection and mending; usual: 5 to 60 min a square metre",
+    )
+    shearing: float = param(
+        3.5, unit="1/m^2", at_least=0.0, at_most=1e6, doc="shearing of the carpet; usual: 1.5 to 10"
+    )
+    shearing_time: float = param(
+        360.0, unit="min/m^2", at_least=0.0, at_most=1e6, doc="shearing; usual: 2 to 20 min a square metre"
+    )
+    washing: float = param(
+        7.0, unit="1/m^2", at_least=0.0, at_most=1e6, doc="washing, drying and stretching of the carpet; usual: 3 to 15"
+    )
+    washing_time: float = kind.time(
+        48 * 3600.0, unit="h", at_least=0.0, at_most=1e7, doc="washing and drying of a carpet; usual: 24 to 120 h"
     )
     piece_time: float = kind.time(
         40.0, at_least=0.0, at_most=1e5, doc="cleaning and placing of a piece; usual: 10 to 120 s"
@@ -85,3 +104,8 @@ class CostRates(Params):
         8000.0, above=0.0, at_most=1e6, doc="knots that a weaver ties a day; usual: 5,000 to 12,000"
     )
     weaver_day: float = kind.time(8 * 3600.0, unit="h", above=0.0, at_most=86400.0, doc="hours of a weaver's day")
+
+    @property
+    def finishing(self) -> float:
+        """Inspection, shearing and washing of the carpet, cost of an area [1/m^2]."""
+        return self.inspection + self.shearing + self.washing

@@ -40,6 +40,7 @@ from ilmek.report import BillLine, Choice
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.s_curve import move_time, travel_time
 from ilmek.units import format_quantity, turn
+from ilmek.weaving.warping import WarpEnd
 
 BEFORE_THE_ROW = ("weft", "weaver", "shedding")
 """Machines whose designs set the timing of a row; all others are designed for it."""
@@ -137,6 +138,11 @@ class LoomDesign:
     def warps(self) -> int:
         """Warps: two for each knot of a row, and the selvedges'."""
         return self.task.cloth.warps
+
+    def warp_guide(self, end: WarpEnd) -> str:
+        """What lifts a warp: its cam."""
+        cam, shaft = divmod(end.number - 1, len(self.shedding.shafts))
+        return f"cam {cam + 1} of shaft {shaft + 1}"
 
     @property
     def knot_pitch(self) -> float:

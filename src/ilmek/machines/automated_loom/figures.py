@@ -77,7 +77,7 @@ def time_against_pitch(loom: LoomDesign) -> Plot:
         pitch = factor * own
         if not _finest(loom) <= factor <= _coarsest(loom):
             continue
-        columns = round(params.width / (2 * pitch))
+        columns = round(params.woven_size[0] / (2 * pitch))
         numbers = range(1, loom.head.most(columns, 2 * pitch) + 1)
         total = estimated_times_at(loom, pitch, numbers)
         label = f"{format_quantity(pitch, 'mm', 3)}: {format_quantity(0.5 / pitch, '1/dm', 3)}"
@@ -96,7 +96,7 @@ def _finest(loom: LoomDesign) -> float:
 def _coarsest(loom: LoomDesign) -> float:
     """How much wider the pitch may be for the carpet still to be one, with two knots across and two rows at least."""
     params, quality, own = loom.params, loom.params.quality, loom.task.cloth.warp_pitch
-    fewest = min(params.width / (4 * own), params.length * quality.along / 2)
+    fewest = min(params.woven_size[0] / (4 * own), params.length * quality.along / 2)
     return min(fewest, min(0.5 / own, quality.along) / COARSEST)
 
 

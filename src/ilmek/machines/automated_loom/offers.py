@@ -43,7 +43,6 @@ from ilmek.machines.automated_loom.design import (
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD, more_for_heads
 from ilmek.machines.automated_loom.knotting import ARMS, KnottingHead
 from ilmek.machines.automated_loom.machine_cost import Fitting, MachineCost, machine_cost, with_control
-from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
@@ -216,7 +215,7 @@ def rest_of(offer: LoomOffer, found: LoomAnalysis) -> LoomRest:
 def bare_rest(offer: LoomOffer, loom: LoomDesign) -> LoomRest:
     """The rest of a loom that is not designed whole: its frame without equipment, on no floor."""
     params, none = loom.params, MachineCost(0.0)
-    dressing, area = float(off_loom(loom).dressing_time), params.width * params.length
+    dressing, area = float(params.dressing.dressing_time), params.width * params.length
     rates, knots = rates_of(loom, loom.weavers), loom.rows * loom.columns
     cost = CarpetCost(rates, knots, area, 1.0, 0.0, dressing, 0.0, none, standstill_of(loom))
     return LoomRest(offer, frame_cost(loom), none, none, none, cost)

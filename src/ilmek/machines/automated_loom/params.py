@@ -9,17 +9,18 @@ from ilmek.carpet.pile import PileParams, knot_length
 from ilmek.carpet.quality import COARSEST, FINEST, Quality
 from ilmek.carpet.sizes import LARGEST, SMALLEST, CarpetSize
 from ilmek.carpet.usual_pile import usual_linear_density, usual_pile_height
+from ilmek.carpet.washing import WashParams
 from ilmek.elements.carpet_yarns import CRIMP, CarpetYarnParams
 from ilmek.elements.knot_kinds import WRAPS
 from ilmek.errors import LoomError
 from ilmek.machines import BEATS, WEFT_CARRIERS, loom_machines
 from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.finish_params import FinishParams
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.weaver_hands import HAND, WeaverHands
 from ilmek.params import Overrides, Params, kind, nested, overrides, param
-from ilmek.units import deg, dm, format_quantity, mm, rpm, turn
+from ilmek.units import cm, deg, dm, format_number, format_quantity, mm, rpm, turn
 from ilmek.weaving.cloth import Cloth, warp_pitch_of, warp_tension_of
+from ilmek.weaving.warping import Warping, WarpingParams
 
 QUALITY = 25 / dm
 """Knots per metre where neither density nor pitch is given: the thesis' loom."""
@@ -46,15 +47,19 @@ class AutomatedLoomParams(Params):
     """The carpet, the heads, and the limits of what moves; the defaults are the thesis' loom with four heads."""
 
     aim: str = param(COST, choices=AIMS, doc="what is least in the choice of all that is left open")
-    width: float = kind.length(1.2, unit="m", at_least=SMALLEST, at_most=WIDEST, doc="width of the carpet's knots")
-    length: float = kind.length(1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the carpet")
+    width: float = kind.length(
+        1.2, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="width of the knots of the finished carpet"
+    )
+    length: float = kind.length(
+        1.8, unit="m", at_least=SMALLEST, at_most=LARGEST, doc="length of the finished carpet, shorn and washed"
+    )
     knots_across: float | None = kind.knot_density(
         None, at_least=COARSEST, at_most=FINEST, doc="knots along a row; default: what the warp pitch gives"
     )
     knots_along: float | None = kind.knot_density(
-        None, at_least=COARSEST, at_most=FINEST, doc="rows along the carpet; default: as across"
+        None, at_least=COARSEST, at_most=FINEST, doc="rows along the finished carpet; default: as across"
     )
-    warp_pitch: float | None = warp_pitch_of(None, "distance of two warps; default: two warps a knot")
+    warp_pitch: float | None = warp_pitch_of(None, "distance of two warps on the loom; default: two warps a knot")
     knot: str = param("symmetric", choices=tuple(WRAPS), doc="kind of knot")
     selvedge_warps: int = param(SELVEDGE_WARPS, at_least=0, at_most=200, doc="warps without knots, both edges together")
     yarns: CarpetYarnParams = nested(CarpetYarnParams, doc="materials and counts of warp, wefts and pile")
@@ -187,7 +192,8 @@ class AutomatedLoomParams(Params):
     drive_efficiency: float = param(0.7, at_least=0.01, at_most=1.0, doc="efficiency from the mains to a shaft")
     standby_power: float = kind.power(10.0, at_least=0.0, at_most=1e4, doc="power of an axis that stands still")
     cost: CostRates = nested(CostRates, doc="rates from which the cost of a carpet follows")
-    finish: FinishParams = nested(FinishParams, doc="washing of the carpet, and warping of the loom")
+    finish: WashParams = nested(WashParams, doc="washing of the carpet")
+    warping: WarpingParams = nested(WarpingParams, doc="warping frame, and dressing of the loom")
     prices: str | None = param(
         None, doc="prices other than those of the table: `bearing each = 9; servo per W = 1`, or @FILE with such lines"
     )
@@ -200,8 +206,8 @@ class AutomatedLoomParams(Params):
 
     @property
     def quality(self) -> Quality:
-        """The carpet's quality; by default knots across follow the warp pitch, and rows follow knots across."""
-        across = self.knots_across or 0.5 / self._pitch
+        """The finished carpet's quality; by default knots across follow the warp pitch, rows follow knots across."""
+        across = self.knots_across or self._knots_of_pitch
         return Quality(across, self.knots_along or across)
 
     @property
@@ -224,15 +230,25 @@ class AutomatedLoomParams(Params):
         return Cloth(
             warp_pitch=self._pitch,
             warps=2 * self.knot_grid[1] + self.selvedge_warps,
-            row_pitch=1 / self.quality.along,
+            row_pitch=self.ground.lengthening / self.quality.along,
             tension=self.tension,
             yarns=replace(self.yarns, pile_density=pile),
         )
 
     @property
+    def woven_size(self) -> tuple[float, float]:
+        """Width and length of the carpet on the loom [m]."""
+        return self.width * self.finish.widening, self.length * self.ground.lengthening
+
+    @property
     def _pitch(self) -> float:
         """Warp pitch [m]: as given, or two warps for each knot."""
-        return self.warp_pitch or 0.5 / (self.knots_across or QUALITY)
+        return self.warp_pitch or 0.5 / (self.knots_across or QUALITY) * self.finish.widening
+
+    @property
+    def _knots_of_pitch(self) -> float:
+        """Knots across the finished carpet that the warp pitch gives [1/m]."""
+        return 0.5 / self._pitch * self.finish.widening
 
     @property
     def pile(self) -> PileParams:
@@ -260,8 +276,15 @@ class AutomatedLoomParams(Params):
             crimp=float(str(crimp)),
             selvedge_warps=self.selvedge_warps,
             weft_turn=float(str(turn)),
+            warp_strain=Cloth(warp_pitch=self._pitch, tension=self.tension, yarns=self.yarns).warp_strain,
             yarns=self.yarns,
+            washing=self.finish,
         )
+
+    @property
+    def dressing(self) -> Warping:
+        """The warps to be wound and drawn in."""
+        return Warping(self.warping, self.cloth, self.knot_grid[1], self.ground.warp_length(self.length))
 
     @property
     def hand_knot(self) -> float:
@@ -269,10 +292,13 @@ class AutomatedLoomParams(Params):
         return self.cost.weaver_day / self.cost.weaver_knots
 
     def check_together(self) -> None:
-        """Raise LoomError where the warp pitch does not give the knots across, and for heads where weavers tie."""
+        """Raise LoomError where the warp pitch does not give the knots across, for a carpet that is too large on the
+        loom, and for heads where weavers tie.
+        """
         self._check_knotting()
         self._check_hands()
-        gives = 0.5 / self._pitch
+        self._check_size()
+        gives = self._knots_of_pitch
         if abs(self.quality.across / gives - 1) > _SAME:
             wanted, pitch = self.quality.across, format_quantity(self._pitch, "mm")
             needed = format_quantity(0.5 / wanted, "mm")
@@ -280,6 +306,14 @@ class AutomatedLoomParams(Params):
             allowed = f"{_per_dm(gives)} knots/dm is {'all' if finer else 'what'} that {pitch} pitch gives"
             do = f"{_per_dm(wanted)}/dm needs {needed}: set warp_pitch so, or leave it out"
             raise LoomError(f"{_per_dm(wanted)} knots/dm on a warp pitch of {pitch}", allowed=allowed, do=do)
+
+    def _check_size(self) -> None:
+        """Raise LoomError for a carpet that is wider on the loom than any loom."""
+        if self.woven_size[0] > WIDEST:
+            finished = CarpetSize(self.width, self.length)
+            woven = " × ".join(format_number(side / cm) for side in self.woven_size)
+            allowed, do = f"at most {format_quantity(WIDEST, 'm')} wide on the loom", "set a narrower carpet"
+            raise LoomError(f"a carpet of {finished} is {woven} cm on the loom", allowed=allowed, do=do)
 
     def _check_knotting(self) -> None:
         """Raise LoomError for what only heads have where weavers tie, and for weavers where heads do."""

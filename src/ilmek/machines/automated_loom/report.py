@@ -146,6 +146,7 @@ def results(found: LoomAnalysis) -> tuple[object, ...]:
         served,
         found.listed,
         off_loom(found.loom),
+        found.loom.params.dressing,
         frame_modes(found.loom, found.listed.frame),
     )
 
@@ -282,6 +283,7 @@ def tables(found: LoomAnalysis) -> tuple[Table, ...]:
         parts_table(found.listed.parts, found.listed.prices),
         *prices_tables(found.listed.prices),
         _row_table(found.loom),
+        *found.loom.params.dressing.tables(found.loom.warp_guide),
     )
     return (*listed, cloth_table(found.loom), *(yarn_tables(found.loom) if found.loom.heads else ()))
 

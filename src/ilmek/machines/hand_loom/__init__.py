@@ -27,6 +27,7 @@ from ilmek.machines.hand_loom.report import (
     tables,
 )
 from ilmek.report import BUILDABLE
+from ilmek.weaving.warping import Warping
 
 __all__ = ["MACHINE", "HandLoom", "HandLoomParams", "analyse", "design"]
 
@@ -37,7 +38,7 @@ MACHINE: Component[HandLoomParams, HandLoom, HandLoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, HandLoomAnalysis, Bench, CarpetCost, OffLoom, HandAssembly),
+    reported=(LoomVerdict, HandLoomAnalysis, Bench, CarpetCost, OffLoom, Warping, HandAssembly),
     checks=checks,
     tables=tables,
     figures=figures,

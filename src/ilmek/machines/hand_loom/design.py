@@ -25,6 +25,7 @@ from ilmek.machines.warp_tension import WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.design import USUAL
 from ilmek.machines.weaver_hands import HAND
 from ilmek.records import record
+from ilmek.weaving.warping import WarpEnd
 
 ACTS = 3
 """Acts of a change of the shed: rod, levers, locks."""
@@ -69,6 +70,10 @@ class HandLoom:
     def beat(self) -> HandBeat:
         """Comb and tools."""
         return self.machines["hand-beat"].design_as(HandBeat)
+
+    def warp_guide(self, end: WarpEnd) -> str:
+        """What lifts a warp: its string, or the rod that it passes in front."""
+        return f"string heddle {(end.number + 1) // 2}" if end.odd else "shed rod"
 
     @property
     def row_acts(self) -> dict[str, float]:
@@ -118,7 +123,7 @@ def design(params: HandLoomParams) -> HandLoom:
         width=task.width,
         winding=HAND,
         hands=hands,
-        carpet_length=params.length,
+        carpet_length=params.woven_size[1],
         free_length=long,
         shed_lift=shed.params.opening,
         shed_span=shed.params.heddle_height,

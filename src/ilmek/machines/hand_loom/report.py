@@ -170,7 +170,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
         area=params.width * params.length,
         time=loom.rows * loom.row_time,
         energy=0.0,
-        dressing=float(off_loom_of(loom).dressing_time),
+        dressing=float(params.dressing.dressing_time),
         floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
         machine=machine_cost(lines, read_prices(params.prices)),
     )
@@ -179,7 +179,7 @@ def analyse(loom: HandLoom) -> HandLoomAnalysis:
 
 def results(found: HandLoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom)
+    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom), found.loom.params.dressing
 
 
 def off_loom_of(loom: HandLoom) -> OffLoom:
@@ -252,6 +252,7 @@ def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
     acts = tuple(found.loom.row_acts.items())
     return (
         Table("hand-loom-row", "Time of a row by its acts", columns("act", "time [s]"), acts),
+        *found.loom.params.dressing.tables(found.loom.warp_guide),
         parts_table(found.lines, read_prices(found.loom.params.prices)),
         Table("hand-loom-absent", "What a hand loom does not have", columns("not there", "why"), ABSENT),
     )

@@ -167,8 +167,8 @@ class HandShed:
 
     @property
     def pulled_warps(self) -> int:
-        """Warps with a string: every other one."""
-        return self.params.cloth.warps // 2
+        """Warps with a string: every other one, the first too."""
+        return (self.params.cloth.warps + 1) // 2
 
     @property
     def pull(self) -> float:

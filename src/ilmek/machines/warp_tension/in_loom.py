@@ -20,7 +20,7 @@ def fit(task: LoomTask) -> WarpTensionParams:
             width=task.width,
             take_up_time=task.take_up_time,
             row_time=task.row_time,
-            carpet_length=params.length,
+            carpet_length=params.woven_size[1],
             free_length=task.side.warp_length,
             shed_lift=params.lift,
             shed_span=task.side.front_span,

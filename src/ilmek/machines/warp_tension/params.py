@@ -66,7 +66,9 @@ class WarpTensionParams(Params):
         None, unit="Nm", at_least=1e-6, at_most=1e4, doc="torque of the motor; default: of the smallest that is enough"
     )
     take_up_time: float = kind.time(1 * s, at_least=1 * ms, at_most=3600.0, doc="time to take up a row")
-    carpet_length: float = kind.length(1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet")
+    carpet_length: float = kind.length(
+        1.8 * m, unit="m", at_least=1 * mm, at_most=1000.0, doc="length of the carpet, woven"
+    )
     carpet_thickness: float = kind.length(
         0.0, at_least=0.0, at_most=0.1, doc="thickness of carpet wound on the cylinder; 0: it is not wound"
     )
