@@ -23,7 +23,8 @@ from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.shapes import Prism
-from ilmek.part.tolerances import Characteristic, FeatureKind, ToleratedFeature, tolerances_of
+from ilmek.part.tolerances import Characteristic, FeatureKind, ToleratedFeature
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.units import deg, mm
 

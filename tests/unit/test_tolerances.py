@@ -21,7 +21,8 @@ from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, disc, stepped, tube
 from ilmek.part.specification import specification
-from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, ToleratedFeature, tolerances_of
+from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, ToleratedFeature
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle
 from ilmek.units import mm, um

@@ -16,7 +16,8 @@ from ilmek.io.step_document import StepDocument
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
-from ilmek.part.tolerances import ToleratedFeature, tolerances_of
+from ilmek.part.tolerances import ToleratedFeature
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 
 

@@ -5,7 +5,7 @@ from typing import TypeVar
 
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
-from ilmek.part.tolerances import tolerances_of
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import area, as_hole, counter_clockwise
 from ilmek.report import Plate, WorkPiece

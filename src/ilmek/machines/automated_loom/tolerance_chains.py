@@ -14,7 +14,8 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.shedding.tolerance_chain import tolerance_chain
 from ilmek.part.meetings import Meeting, meetings
-from ilmek.part.tolerances import Characteristic, play_of, tolerances_of
+from ilmek.part.tolerances import Characteristic
+from ilmek.part.tolerancing import play_of, tolerances_of
 from ilmek.report import Check, Table, at_most, columns
 from ilmek.units import mm
 

@@ -1,0 +1,322 @@
+"""Tolerances of made parts from what meets in their joints: fits, form and position, surfaces.
+
+A feature is a cylinder or a square of a part's shape, or its keyway. Its fit is that of the meeting with another part,
+which follows from the joint between them [`meetings`]; both parts read it from there, and none types it a second time:
+
+    runs or slides                     H7/g6; on a journal that is also fixed in a part: G7/h6
+    fixed                              H7/m6; on a journal on which a part also runs: P7/h6; a bush in its hub H7/s6
+    with a keyway                      H7/h6; the keyway N9 in the shaft, JS9 in the hub
+    square                             H9/h9
+    seat of a rolling bearing          shaft k6, up to 18 mm js6; where its outer ring turns, of an insert bearing with
+                                       grub screws and of a freewheel h6; housing H7, of a freewheel N7
+    end of a screw                     thread 6H
+
+Sources: DIN 6885-1 (light fit), ISO 4379 (bushes), ISO 965-1 (threads); rolling bearings of the class Normal under
+normal loads: SKF, Rolling bearings, tables of fits, of roughness and of geometrical tolerances of seats, IT5 / 2 of a
+shaft and IT6 / 2 of a housing; freewheels: INA, HF. The other fits are usual choices, as are the surfaces.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.bearing_table import INSERT
+from ilmek.elements.bearings import find_bearing
+from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
+from ilmek.elements.keyways import Keyway
+from ilmek.errors import ParameterError
+from ilmek.part.features import FeatureOfSize, features_of_size
+from ilmek.part.meetings import Meeting, SeatFeature, meetings
+from ilmek.part.part import Part
+from ilmek.part.placement import Placement, placement
+from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
+from ilmek.part.tree import JointKind, Tree
+from ilmek.records import record
+from ilmek.units import mm, um
+
+
+def play_of(tree: Tree, outer: str, inner: str) -> float:
+    """Largest clearance [m] of a part in a bore of another, by their ids; below 0 it is an interference.
+
+    Raises ParameterError where they do not meet with fits.
+    """
+    tolerances = tolerances_of(tree)
+    pairs = [
+        bore.upper - journal.lower
+        for bore in tolerances.get(outer, ())
+        for journal in tolerances.get(inner, ())
+        if inner in bore.mates and outer in journal.mates and bore.nominal == journal.nominal
+        if not bore.depth and not journal.depth
+    ]
+    if not pairs:
+        raise ParameterError(f"the fit of {inner} in {outer}", allowed="parts that meet")
+    return max(pairs)
+
+
+@record
+class _Met:
+    """A feature with its meetings, and what it does in each."""
+
+    seat: SeatFeature
+    others: tuple[tuple[FitDuty, SeatFeature, Meeting], ...]
+
+    @property
+    def duty(self) -> FitDuty:
+        """The first of its duties, in the order in which they decide."""
+        keyed = (FitDuty.KEYED,) if self.seat.feature.keyway is not None else ()
+        duties = {*keyed, *(duty for duty, _, _ in self.others)}
+        return next(duty for duty in FitDuty if duty in duties)
+
+    def has(self, duty: FitDuty) -> bool:
+        """Whether it does this, too."""
+        return any(own == duty for own, _, _ in self.others)
+
+
+@lru_cache(maxsize=8)
+def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
+    """The tolerated features of the made parts of a tree by their ids, those of size along with their keyways."""
+    met = dict(_met(tree))
+    journals = {key: _journal(one, met) for key, one in met.items() if not one.seat.feature.inside}
+    features: dict[str, list[ToleratedFeature]] = defaultdict(list)
+    for key, one in met.items():
+        if one.seat.part.material is not None:
+            tolerance = journals[key] if key in journals else _bore(one, journals)
+            features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
+    return {part: tuple(_related(_named(own))) for part, own in features.items()}
+
+
+_Key = tuple[str, int]
+
+
+def _met(tree: Tree) -> Iterator[tuple[_Key, _Met]]:
+    """The features that meet another, or have a keyway."""
+    others: dict[_Key, list[tuple[FitDuty, SeatFeature, Meeting]]] = defaultdict(list)
+    seats: dict[_Key, SeatFeature] = {}
+    for part, _ in tree.occurrences():
+        if part.shape is not None and part.material is not None:
+            for number, feature in enumerate(features_of_size(part.shape)):
+                if feature.keyway is not None:
+                    seats[part.id, number] = SeatFeature(part, number, feature)
+    for meeting in meetings(tree):
+        for own, other in ((meeting.bore, meeting.inner), (meeting.inner, meeting.bore)):
+            duty = _duty(meeting, own, other)
+            if duty is not None:
+                seats[own.part.id, own.number] = own
+                others[own.part.id, own.number].append((duty, other, meeting))
+    return ((key, _Met(seats[key], tuple(others[key]))) for key in sorted(seats))
+
+
+def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | None:
+    """What a feature does in a meeting; None: nothing that a fit is needed for, as a hole around a screw."""
+    if other.part.process == "fastener":
+        return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
+    if other.part.process == "bearing":
+        return FitDuty.HOUSING if own is meeting.bore else FitDuty.BEARING
+    if meeting.joint is not JointKind.FIXED:
+        return FitDuty.RUNNING
+    return FitDuty.KEYED if own.feature.keyway or other.feature.keyway else FitDuty.FIXED
+
+
+_SMALL = 18 * mm
+"""Bore up to which a bearing's shaft is js6."""
+
+
+def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
+    """Tolerance class of a journal or a square."""
+    if one.seat.feature.square:
+        return "h9"
+    if one.duty is FitDuty.BEARING:
+        return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+    if one.duty is FitDuty.RUNNING:
+        return "h6" if one.has(FitDuty.FIXED) or one.has(FitDuty.KEYED) else "g6"
+    if one.duty is FitDuty.KEYED:
+        return "h6"
+    own = (other for (part, _), other in met.items() if part == one.seat.part.id)
+    return "s6" if any(other.seat.feature.inside and other.has(FitDuty.RUNNING) for other in own) else "m6"
+
+
+def _bearing_shaft(other: SeatFeature, meeting: Meeting) -> str:
+    """Tolerance class of the seat of a bearing's inner ring; h6 where the load does not turn on it."""
+    part = other.part
+    try:
+        inserted = part.purchase is None or find_bearing(part.purchase.row).kind == INSERT
+    except ParameterError:  # a freewheel, an idler
+        inserted = True
+    if inserted or meeting.joint is JointKind.FIXED:
+        return "h6"
+    return "js6" if other.feature.size <= _SMALL + um else "k6"
+
+
+def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
+    """Tolerance class of a bore: by that of the journal in it."""
+    if one.duty is FitDuty.SCREWED:
+        return "6H"
+    if one.seat.feature.square:
+        return "H9"
+    if one.duty is FitDuty.HOUSING:
+        return "N7" if any(_is_freewheel(other.part) for _, other, _ in one.others) else "H7"
+    classes = {
+        journals[other.part.id, other.number]
+        for duty, other, _ in one.others
+        if duty in {FitDuty.RUNNING, FitDuty.FIXED}
+    }
+    if one.duty in {FitDuty.RUNNING, FitDuty.FIXED} and classes == {"h6"}:
+        return "G7" if one.duty is FitDuty.RUNNING else "P7"
+    return "H7"
+
+
+def _is_freewheel(part: Part) -> bool:
+    return part.purchase is not None and part.purchase.row.startswith("HF")
+
+
+_ROUGH = {
+    FitDuty.HOUSING: 1.6 * um,
+    FitDuty.BEARING: 0.8 * um,
+    FitDuty.RUNNING: 0.4 * um,
+    FitDuty.KEYED: 1.6 * um,
+    FitDuty.FIXED: 1.6 * um,
+    FitDuty.SCREWED: 3.2 * um,
+}
+"""Ra by duty [m]; a bore in which a journal runs is twice as rough."""
+
+_SIDES = 3.2 * um
+"""Ra of a keyway's sides [m]."""
+
+_KINDS = {
+    (True, False): FeatureKind.BORE,
+    (False, False): FeatureKind.JOURNAL,
+    (True, True): FeatureKind.SQUARE_BORE,
+    (False, True): FeatureKind.SQUARE,
+}
+
+
+def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
+    """The feature with its size, form and surface."""
+    feature, duty = one.seat.feature, one.duty
+    size = round(feature.size, 9)
+    threaded = duty is FitDuty.SCREWED
+    zone = None if threaded else tolerance_zone(tolerance, size)
+    mates = dict.fromkeys(other.part.id for _, other, _ in one.others)
+    rough = _ROUGH[duty] * (2 if duty is FitDuty.RUNNING and feature.inside else 1)
+    return ToleratedFeature(
+        part=one.seat.part.id,
+        name="",
+        kind=FeatureKind.THREAD if threaded else _KINDS[feature.inside, feature.square],
+        position=feature.position,
+        length=feature.length,
+        nominal=size,
+        tolerance=tolerance,
+        lower=0.0 if zone is None else zone.lower,
+        upper=0.0 if zone is None else zone.upper,
+        roughness=rough,
+        duty=duty,
+        geometric=tuple(_form(duty, size)),
+        mates=tuple(mates),
+        joint=next((meeting.body for own, _, meeting in one.others if own is duty), ""),
+    )
+
+
+def _form(duty: FitDuty, size: float) -> Iterator[GeometricTolerance]:
+    grade = {FitDuty.BEARING: 5, FitDuty.HOUSING: 6}.get(duty)
+    if grade is not None:
+        reason = "the ring of a bearing takes the form of its seat"
+        yield GeometricTolerance(Characteristic.CYLINDRICITY, tolerance_grade(grade, size) / 2, reason=reason)
+
+
+def _with_keyways(own: ToleratedFeature, feature: FeatureOfSize) -> Iterator[ToleratedFeature]:
+    yield own
+    if feature.keyway is not None:
+        for angle in (0.0, *feature.others):
+            turned = placement(about=(0.0, 0.0, 1.0), angle=angle)
+            yield _keyway(own, feature.keyway, turned, inside=feature.inside)
+
+
+def _keyway(own: ToleratedFeature, row: Keyway, turned: Placement, *, inside: bool) -> ToleratedFeature:
+    tolerance = "JS9" if inside else "N9"
+    zone, deviation = tolerance_zone(tolerance, row.width), _deeper(row)
+    return replace(
+        own,
+        kind=FeatureKind.HUB_KEYWAY if inside else FeatureKind.SHAFT_KEYWAY,
+        position=own.position.after(turned),
+        nominal=row.width,
+        tolerance=tolerance,
+        lower=zone.lower,
+        upper=zone.upper,
+        roughness=_SIDES,
+        depth=own.nominal + (row.in_hub if inside else -row.in_shaft),
+        depth_lower=0.0 if inside else -deviation,
+        depth_upper=deviation if inside else 0.0,
+        geometric=(),
+    )
+
+
+def _deeper(row: Keyway) -> float:
+    """Allowed deviation of t1 and t2 [m]: DIN 6885-1, keys up to 6 mm high, and higher ones."""
+    return 0.1 * mm if row.height <= 6 * mm + um else 0.2 * mm
+
+
+def _named(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
+    """The features with their names: of each kind in order."""
+    numbers: dict[FeatureKind, int] = defaultdict(int)
+    named = []
+    for feature in features:
+        numbers[feature.kind] += 1
+        named.append(replace(feature, name=f"{feature.kind.value.replace(' ', '-')}-{numbers[feature.kind]}"))
+    return named
+
+
+def _related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
+    """The features with their tolerances of position and run-out, from datums among them."""
+    seats = [one for one in features if one.kind is FeatureKind.JOURNAL and one.duty is FitDuty.BEARING]
+    datums: dict[str, str] = {}
+    if seats:
+        axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
+        datums = {one.name: letter for one, letter in zip(dict.fromkeys(axis), "AB", strict=False)}
+        return [_turning_true(one, datums) for one in features]
+    bores = [one for one in features if one.kind is FeatureKind.BORE and one.duty in _LINKED]
+    if len(bores) < _TWO or not _parallel(bores):
+        return list(features)
+    datums = {one.name: letter for one, letter in zip(bores, "AB", strict=False)}
+    return [_located(one, datums) if one in bores else one for one in features]
+
+
+_LINKED = {FitDuty.RUNNING, FitDuty.FIXED, FitDuty.HOUSING, FitDuty.BEARING}
+_TWO = 2
+
+
+def _parallel(features: Sequence[ToleratedFeature]) -> bool:
+    along = [one.position.rotation[:, 2] for one in features]
+    return all(bool(np.abs(np.cross(one, along[0])).max() < um) for one in along)
+
+
+def _turning_true(one: ToleratedFeature, datums: Mapping[str, str]) -> ToleratedFeature:
+    """A feature of a shaft with the run-out that it needs about its bearings."""
+    letter, common = datums.get(one.name, ""), ("-".join(datums.values()),)
+    if one.kind is not FeatureKind.JOURNAL or (letter and len(datums) == 1):
+        return replace(one, datum=letter)
+    total = one.duty is FitDuty.BEARING
+    characteristic = Characteristic.TOTAL_RUN_OUT if total else Characteristic.RUN_OUT
+    reason = "the bearings lie in line" if total else "what is on the shaft turns true"
+    value = tolerance_grade(5 if total else 7, one.nominal)
+    run_out = GeometricTolerance(characteristic, value, common, reason=reason)
+    return replace(one, datum=letter, geometric=(*one.geometric, run_out))
+
+
+def _located(one: ToleratedFeature, datums: Mapping[str, str]) -> ToleratedFeature:
+    """A bore of a link with its position: no more beside its place than its joint has play."""
+    letter = datums.get(one.name, "")
+    before = tuple(other for name, other in datums.items() if other != letter)[: 1 if letter else 2]
+    if letter == "A":
+        return replace(one, datum=letter)
+    loose = fit("H7/g6", one.nominal).largest_clearance
+    value = max(_STEP, loose // _STEP * _STEP)
+    reason = "a pin's distance may err by the play of its joint"
+    position = GeometricTolerance(Characteristic.POSITION, value, before, round=True, reason=reason)
+    return replace(one, datum=letter, geometric=(*one.geometric, position))
+
+
+_STEP = 5 * um
+"""Step of tolerances of position [m]."""
