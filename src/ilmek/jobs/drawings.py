@@ -12,6 +12,7 @@ from ilmek.records import JsonObject
 from ilmek.report import Plate, Report, WorkPiece
 from ilmek.report.left_out import made_or_left_out
 from ilmek.report.sheet import DrawingSheet
+from ilmek.units import counted
 from ilmek.viz.drawings.compose import Issue, sheets_of
 from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
 from ilmek.viz.drawings.index import index_sheets, part_rows
@@ -49,7 +50,10 @@ def write_drawings(  # noqa: PLR0917
             entries.append(_sheet(sheet, part, work))
             book.append(sheet)
     if without:
-        left_out.append(f"{without} sheets of parts of several shapes are left out: pip install 'ilmek[step]'")
+        sheets_of_sums = counted(
+            without, "sheet of a part of several shapes is", "sheets of parts of several shapes are"
+        )
+        left_out.append(f"{sheets_of_sums} left out: pip install 'ilmek[step]'")
     first = index_sheets(report, part_rows(report, parts), issue)
     write_sheets_pdf(work / BOOK, (*first, *book), f"Drawings: {report.title}")
     progress(1.0)

@@ -6,10 +6,9 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import along
 from ilmek.report import Contour
-from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.paper import table
-from ilmek.viz.drawings.picture import SheetPicture, millimetres
+from ilmek.viz.drawings.picture import SheetPicture
 from ilmek.viz.drawings.view import DrawnView
 
 PITCH, ZERO = "pitch curve", "zero"
@@ -44,23 +43,21 @@ def polar_radii(curve: ComplexArray | Contour, degrees: FloatArray = _DEGREES) -
     return radii
 
 
-def cam_circles(view: DrawnView, part: DrawnPart) -> None:
-    """Base circle, and prime circle where the roller's path is known, with their diameters."""
+def cam_circles(part: DrawnPart) -> dict[str, float]:
+    """Radius of the base circle, and of the prime circle where the roller's path is known [m]."""
     assert isinstance(part.shape, Prism)
-    circles = {"base circle": part.shape.section.outline, "prime circle": part.paths.get(PITCH)}
-    for name, curve in circles.items():
-        if curve is None:
-            continue
-        points = along(curve, 1e-6) if isinstance(curve, Contour) else curve
-        radius = float(np.abs(points).min())
-        ring = Contour(np.array([radius, -radius], dtype=complex), np.ones(2))
-        view.contour(LineKind.CENTRE, ring)
-        view.leader(
-            f"{name} ⌀{millimetres(2 * radius)}", 0j, radius * view.scale, kind=DimensionKind.DIAMETER,
-            value=2 * radius,
-        )  # fmt: skip
-    reach = np.asarray(part.marks[ZERO])
-    view.leader("0°: zero mark", complex(reach[np.argmax(np.abs(reach))]) * view.scale, 0.0, kind=None)
+    circles = {}
+    for name, curve in {"base circle": part.shape.section.outline, "prime circle": part.paths.get(PITCH)}.items():
+        if curve is not None:
+            points = along(curve, 1e-6) if isinstance(curve, Contour) else curve
+            circles[name] = float(np.abs(points).min())
+    return circles
+
+
+def mark_zero(view: DrawnView, part: DrawnPart) -> None:
+    """The name of the mark at the angle 0."""
+    line = np.asarray(part.marks[ZERO])
+    view.leader("0°: zero mark", complex(line[np.argmax(np.abs(line))]) * view.scale, 0.0, kind=None)
 
 
 def radius_tables(part: DrawnPart) -> tuple[SheetPicture, ...]:

@@ -120,7 +120,7 @@ def end_view(part: CoaxialPart, scale: float, fits: Fits) -> DrawnView:
     for bore in (*part.ends, *part.bores):
         view.contour(LineKind.VISIBLE, keyed_contour(bore))
     view.cross(0j, radii[-1])
-    for bores, kind in ((part.ends, FeatureKind.SHAFT_KEYWAY), (part.bores, FeatureKind.HUB_KEYWAY)):
+    for bores, kind in ((part.ends, FeatureKind.JOURNAL), (part.bores, FeatureKind.BORE)):
         for bore in bores:
-            keyway(view, bore, fits.suffix(bore.width, kind))
+            keyway(view, bore, fits, kind)
     return view

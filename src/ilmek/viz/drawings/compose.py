@@ -10,7 +10,7 @@ from ilmek.part.shapes import Prism, Turned
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, SheetText
-from ilmek.viz.drawings.cam import cam_circles, is_cam, radius_tables
+from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.fits import Fits
@@ -71,14 +71,15 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     fit_table = fits.table()
     tables = () if fit_table is None else (fit_table,)
     if isinstance(shape, Prism) and is_long(shape.section, shape.length):
-        flat = flat_part(shape.section)
+        flat = flat_part(shape.section, fits)
         section, more = outline_view(flat, scale, fits)
         return Arrangement({"front": bar_view(flat, shape.length, scale), "right": section}, (*tables, *more))
     if isinstance(shape, Prism):
-        flat = flat_part(shape.section, smooth=part.smooth)
-        front, more = outline_view(flat, scale, fits, part.paths, part.marks)
+        flat = flat_part(shape.section, fits, smooth=part.smooth)
+        circles = cam_circles(part) if is_cam(part) else None
+        front, more = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
         if is_cam(part):
-            cam_circles(front, part)
+            mark_zero(front, part)
         low, high = bounds(flat.outline)
         below = (high - low).real > (high - low).imag * 1.2
         edge = edge_view(flat, shape.length, scale, below=below)
@@ -209,7 +210,7 @@ def _projected(views: dict[str, DrawnView]) -> list[SheetPicture]:
     if "corner" in views:
         view, box = views["corner"], joined_box([one.box for one in pictures])
         left = pictures[1].box[0] if "right" in views else box[2] + _BETWEEN
-        top = front.box[1] - _BETWEEN if "below" in views else box[1] - _BETWEEN
+        top = min(front.box[1], pictures[1].box[1] if "right" in views else box[1]) - _PAD
         pictures.append(_top_left(view.picture, complex(left, top)))
     return pictures
 
@@ -227,7 +228,7 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
     lines = [*part.notes]
     if part.file:
-        lines.append(f"Contour: {part.file}, 1:1, all edges cut at once; profile tolerance 0.1 (ISO 1101)")
+        lines.append(f"Contour: {part.file}, scale 1:1")
     if not lines:
         return None
     rows = [fitting(f"{number}  {line}", 168.0, 2.5, 2.5)[0] for number, line in enumerate(lines, 1)]

@@ -1,7 +1,7 @@
 """Features of a contour that a drawing dimensions: corners, arcs, bores with keyways, patterns of holes."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -121,11 +121,11 @@ class HoleGroup:
         return self.holes[0].radius
 
 
-def hole_groups(holes: Sequence[Hole]) -> tuple[HoleGroup, ...]:
-    """The holes by size, those of one pitch circle as one group."""
-    sizes: dict[float, list[Hole]] = {}
+def hole_groups(holes: Sequence[Hole], classes: Callable[[Hole], str]) -> tuple[HoleGroup, ...]:
+    """The holes by size and tolerance class, those of one pitch circle as one group."""
+    sizes: dict[tuple[float, str], list[Hole]] = {}
     for hole in holes:
-        sizes.setdefault(round(hole.radius, 8), []).append(hole)
+        sizes.setdefault((round(hole.radius, 8), classes(hole)), []).append(hole)
     return tuple(_pattern(tuple(group)) for group in sizes.values())
 
 

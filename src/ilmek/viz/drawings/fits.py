@@ -19,31 +19,57 @@ def deviation(value: float) -> str:
     return "0" if abs(value) < 0.05 * um else f"{value * 1e3:+.3f}".replace("-", "−")
 
 
+def limits(lower: float, upper: float) -> str:
+    """Limit deviations in brackets; "" where both are 0: those of a thread stand in its class.
+
+    >>> limits(-20e-6, -7e-6)
+    ' (−0.007/−0.020)'
+    """
+    return f" ({deviation(upper)}/{deviation(lower)})" if lower or upper else ""
+
+
 @record
 class Fits:
     """The tolerated features of a part."""
 
     features: tuple[ToleratedFeature, ...] = ()
 
-    def suffix(self, diameter: float, kind: FeatureKind) -> str:
-        """Class and deviations behind a diameter [m] of a bore, journal or keyway: ` H7 (+0.021/0)`; "": none."""
+    def suffix(self, size: float, kind: FeatureKind, centre: complex | None = None) -> str:
+        """Class, deviations and datum letter behind a size [m]: ` H7 (+0.021/0) [A]`; "": it has no fit.
+
+        centre  of a bore in the section of a plate; None: anywhere
+        """
         for feature in self.features:
-            if feature.kind is kind and abs(feature.nominal - diameter) < 2 * SAME and feature.tolerance:
-                return f" {feature.tolerance} ({deviation(feature.upper)}/{deviation(feature.lower)})"
+            at = complex(*feature.position.origin[:2])
+            there = centre is None or abs(at - centre) < 2 * SAME
+            if feature.kind is kind and there and abs(feature.nominal - size) < 2 * SAME:
+                datum = f" [{feature.datum}]" if feature.datum else ""
+                return f" {feature.tolerance}{limits(feature.lower, feature.upper)}{datum}"
+        return ""
+
+    def depth(self, size: float) -> str:
+        """Deviations behind the depth of a keyway by its width [m]; "": it has no fit."""
+        for feature in self.features:
+            if feature.depth > 0 and abs(feature.nominal - size) < 2 * SAME:
+                return limits(feature.depth_lower, feature.depth_upper)
         return ""
 
     def table(self) -> SheetPicture | None:
         """Size, deviations, roughness and geometric tolerances of each kind of feature, with the reason."""
         rows = list(dict.fromkeys(self._rows()))
-        return table(("Feature", "Size", "Deviations", "Ra µm", "Geometry", "For"), rows, "Fits") if rows else None
+        return table(HEADER, rows, "Fits, form and position") if rows else None
 
     def _rows(self) -> Iterator[tuple[str, ...]]:
         for feature in self.features:
-            round_one = feature.kind in {FeatureKind.BORE, FeatureKind.JOURNAL}
-            size = f"{'⌀' if round_one else ''}{millimetres(feature.nominal)} {feature.tolerance}".strip()
-            limits = f"{deviation(feature.upper)} / {deviation(feature.lower)}" if feature.tolerance else ""
+            size = f"{_SIGNS.get(feature.kind, '')}{millimetres(feature.nominal)} {feature.tolerance}"
             geometry = ", ".join(
                 " ".join((limit.characteristic, f"{'⌀' * limit.round}{millimetres(limit.value)}", *limit.datums))
                 for limit in feature.geometric
             )
-            yield feature.kind.value, size, limits, f"{feature.roughness / um:g}", geometry, feature.reason[:40]
+            roughness = f"{feature.roughness / um:g}"
+            yield feature.kind.value, size, feature.datum, roughness, geometry, feature.duty.value
+
+
+HEADER = ("Feature", "Size", "Datum", "Ra", "Form, position", "It")
+_SIGNS = {FeatureKind.BORE: "⌀", FeatureKind.JOURNAL: "⌀", FeatureKind.THREAD: "M", FeatureKind.SQUARE: "□"}
+_SIGNS[FeatureKind.SQUARE_BORE] = "□"

@@ -68,7 +68,7 @@ class FlatPart:
         return sum(len(group.holes) for group in self.groups if not group.pitch) >= TABLE_FROM
 
 
-def flat_part(section: Profile, *, smooth: bool = False) -> FlatPart:
+def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -> FlatPart:
     """The features of a section; a smooth outline is a curve, with no corners to dimension."""
     holes, cuts = split_holes(section.holes)
     bores = tuple(bore for bore in map(keyed, cuts) if bore is not None)
@@ -81,23 +81,44 @@ def flat_part(section: Profile, *, smooth: bool = False) -> FlatPart:
     centres = [*(hole.at for hole in holes), *(bore.centre for bore in bores), *([ring.at] if ring else [])]
     shaft = keyed(outline)
     centres += [shaft.centre] if shaft else []
-    datum = bounds(outline)[0]
-    if any(abs(centre) < SAME for centre in centres):
-        datum = 0j
-    elif ring is not None:
-        datum = ring.at
+    features = contour_features(outline)
+    datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
-    return FlatPart(outline, contour_features(outline), ring, hole_groups(holes), bores, others, datum, curve)
+    groups = hole_groups(holes, lambda hole: bore_suffix(fits, hole))
+    return FlatPart(outline, features, ring, groups, bores, others, datum, curve)
+
+
+def _datum(features: ContourFeatures, corner: complex, centres: list[complex], holes: list[Hole]) -> complex:
+    """The origin where a bore is there, else the lower left corner if there is one, else the largest hole or an arc."""
+    if any(abs(centre) < SAME for centre in centres):
+        return 0j
+    if any(abs(point - corner) < SAME for point in features.corners):
+        return corner
+    if holes:
+        return max(holes, key=lambda hole: hole.radius).at
+    return next(iter((*centres, *(arc.centre for arc in features.arcs))), corner)
+
+
+def bore_suffix(fits: Fits, hole: Hole) -> str:
+    """Fit or thread behind the diameter of a hole; "": none."""
+    fit = fits.suffix(2 * hole.radius, FeatureKind.BORE, hole.at)
+    thread = fits.suffix(2 * hole.radius, FeatureKind.THREAD, hole.at)
+    return fit or (f" M{millimetres(2 * hole.radius)}{thread}" if thread else "")
 
 
 def outline_view(
     flat: FlatPart,
     scale: float,
     fits: Fits = NO_FITS,
+    *,
     paths: Mapping[str, ComplexArray | Contour] | None = None,
     marks: Mapping[str, ComplexArray] | None = None,
+    circles: Mapping[str, float] | None = None,
 ) -> tuple[DrawnView, tuple[SheetPicture, ...]]:
-    """The view on the outline with its dimensions, and its hole table where it has one."""
+    """The view on the outline with its dimensions, and its hole table where it has one.
+
+    circles  about the origin to draw and to label by their names: radii [m]
+    """
     view = DrawnView(scale)
     view.contour(LineKind.VISIBLE, flat.outline)
     for cut in (*flat.cutouts, *(keyed_contour(bore) for bore in flat.bores)):
@@ -114,9 +135,13 @@ def outline_view(
         view.line(LineKind.PATH, np.append(points, points[:1]))
     for line in (marks or {}).values():
         view.line(LineKind.DIMENSION, line, body=False)
+    for radius in (circles or {}).values():
+        view.contour(LineKind.CENTRE, _circle(Hole(0j, radius)))
     _patterns(view, flat)
     _linear(view, flat)
     _labels(view, flat, fits)
+    for name, radius in (circles or {}).items():
+        _diameter(view, f"{name} ⌀{millimetres(2 * radius)}", 0j, radius)
     tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
     return view, tables
 
@@ -204,14 +229,14 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
         kind = FeatureKind.JOURNAL if bore is shaft else FeatureKind.BORE
         suffix = fits.suffix(2 * bore.radius, kind)
         _diameter(view, f"⌀{millimetres(2 * bore.radius)}{suffix}", bore.centre, bore.radius)
-        keyway(view, bore, fits.suffix(bore.width, _KEYWAYS[kind]))
+        keyway(view, bore, fits, kind)
     for group in flat.groups:
         count = len(group.holes)
         times = f"{count}× " if count > 1 else ""
         even = f" on ⌀{millimetres(2 * group.pitch)}" if group.pitch else ""
         hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
         if not flat.tabled or group.pitch:
-            suffix = fits.suffix(2 * hole.radius, FeatureKind.BORE)
+            suffix = bore_suffix(fits, hole)
             _diameter(view, f"{times}⌀{millimetres(2 * hole.radius)}{suffix}{even}", hole.at, hole.radius, count)
     if flat.dimensioned and flat.round_outline is None and shaft is None:
         _radii(view, flat.features.arcs)
@@ -222,7 +247,7 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
 
 
-def keyway(view: DrawnView, bore: KeyedBore, suffix: str) -> None:
+def keyway(view: DrawnView, bore: KeyedBore, fits: Fits, kind: FeatureKind) -> None:
     """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side."""
     turn = complex(math.cos(bore.angles[0]), math.sin(bore.angles[0]))
     corners = [bore.centre + turn * complex(bore.reach, side * bore.width / 2) for side in (-1, 1)]
@@ -230,12 +255,12 @@ def keyway(view: DrawnView, bore: KeyedBore, suffix: str) -> None:
     times = f"{count}× " if count > 1 else ""
     at = ", ".join(f"{math.degrees(angle):.4g}°" for angle in bore.angles)
     ends = (corners[0] * view.scale, corners[1] * view.scale)
+    width = f"{times}keyway {millimetres(bore.width)}{fits.suffix(bore.width, _KEYWAYS[kind])} at {at}"
     view.leader(
-        f"{times}keyway {millimetres(bore.width)}{suffix} at {at}", ends[1], 0.0, kind=DimensionKind.ALIGNED,
-        value=bore.width, count=count, measured=ends,
+        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends
     )  # fmt: skip
     across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.reach) * view.scale)
-    floor = f"{millimetres(bore.radius + bore.reach)} to its floor"
+    floor = f"{millimetres(bore.radius + bore.reach)}{fits.depth(bore.width)} to its floor"
     view.leader(
         floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.reach, measured=across
     )  # fmt: skip
@@ -273,7 +298,7 @@ def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
                     tag,
                     millimetres(at.real),
                     millimetres(at.imag),
-                    f"⌀{millimetres(2 * hole.radius)}{fits.suffix(2 * hole.radius, FeatureKind.BORE)}",
+                    f"⌀{millimetres(2 * hole.radius)}{bore_suffix(fits, hole)}",
                 )
             )
     return table(("Hole", "X", "Y", "Size"), rows, "Holes, from the datum")

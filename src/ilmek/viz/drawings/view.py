@@ -31,7 +31,37 @@ LETTER, GAP, ROW = 2.5, 9.0, 7.5
 """Height of letters, distance of the first row from the view, and of a row from the next [mm]."""
 
 _PAD, _STEP, _ARROWS = 0.8, 0.6, 8.0
-_TURNS = np.deg2rad([45, 60, 30, 120, 135, 150, 75, 15, 105, 165, -30, -45, -60, -135, -120, -150, 0, 180, 90, -90])
+_TURNS = np.deg2rad(
+    [
+        45,
+        60,
+        30,
+        120,
+        135,
+        150,
+        75,
+        15,
+        105,
+        165,
+        -30,
+        -45,
+        -60,
+        -135,
+        -120,
+        -150,
+        0,
+        180,
+        90,
+        -90,
+        52,
+        22,
+        112,
+        142,
+        -15,
+        -52,
+        -112,
+    ]
+)
 
 
 @record
