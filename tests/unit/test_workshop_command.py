@@ -58,6 +58,7 @@ def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
     slides = ["slide-left", "slide-left-2"]
     expected |= {f"{slide}.{kind.name}.{kind.suffix}" for slide in slides for kind in FORMATS.values()}
     expected |= {f"{slide}.kollmorgen.csv.txt" for slide in slides}
+    expected |= {"drawings.pdf", *(f"{plate}.sheet.dxf" for plate in plates)}
     assert set(names) == expected
     for entry in index["files"]:
         if entry["kind"] == "dxf":
@@ -65,7 +66,7 @@ def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
             assert entry["area"] == pytest.approx(0.06 * 0.024 + math.pi * (0.012**2 - 2 * 0.005**2), rel=1e-9)
         elif entry["kind"] == "step":
             assert entry["volume_error"] < 1e-9
-        else:
+        elif entry["kind"] in FORMATS:
             assert entry["error"] <= entry["tolerance"] == pytest.approx(1e-6)
             assert entry["kept"]
 

@@ -59,12 +59,12 @@ def write_step(path: Path, plate: Plate, shape: PlateShape) -> None:
 def _plate_solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
     if plate.solid is None:
         return _solid(plate, shape)
-    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else _of_shape(plate.solid.shape)
+    return _round_solid(plate.solid) if isinstance(plate.solid, RoundSolid) else shape_solid(plate.solid.shape)
 
 
 def write_piece(path: Path, piece: WorkPiece) -> None:
     """Write a piece that is turned, sawn or welded. Raises OutputError as `write_step`."""
-    _write(path, piece, _of_shape(piece.shape))
+    _write(path, piece, shape_solid(piece.shape))
 
 
 def _write(path: Path, made: Plate | WorkPiece, solid: TopoDS_Shape) -> None:
@@ -110,10 +110,10 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
 def part_solid(part: Part) -> TopoDS_Shape:
     """The solid of a part with a shape, in its own axes [mm]."""
     drawn = None if part.drawing is None else part.drawing.solid
-    return _round_solid(drawn) if isinstance(drawn, RoundSolid) else _of_shape(part.shape)
+    return _round_solid(drawn) if isinstance(drawn, RoundSolid) else shape_solid(part.shape)
 
 
-def _of_shape(shape: object) -> TopoDS_Shape:
+def shape_solid(shape: object) -> TopoDS_Shape:
     """A shape of the package `part` [mm]: prisms, turned profiles; twisted bars and sums as one compound of solids."""
     if isinstance(shape, Prism):
         return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
@@ -130,7 +130,7 @@ def _of_shape(shape: object) -> TopoDS_Shape:
         allowed = "prisms, turned profiles, twisted bars and sums of them"
         raise OutputError(f"no solid of {type(shape).__name__}", allowed=allowed)
     for member in shape.members:
-        solid = _of_shape(member.shape)
+        solid = shape_solid(member.shape)
         for position in member.positions:
             builder.Add(whole, _placed(solid, position))
     return whole

@@ -114,11 +114,11 @@ def design_machine(
         report = machine.report(designed, illustrated=illustrated, drawn=drawn)
         if report.machine == LOOM:
             report = _with_nearest(report, params, progress.part(0.7, 0.8))
-        progress.part(0.8, 1.0, "files")
+        files_progress = progress.part(0.8, 1.0, "files")
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
         loom = designed if machine.name == LOOM else None
-        files = write(report) if write is not None and made_of_links else None
+        files = write(report, progress=files_progress) if write is not None and made_of_links else None
         tree = None if machine.tree is None else machine.tree(designed)
         return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
 

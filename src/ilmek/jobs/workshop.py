@@ -1,4 +1,4 @@
-"""Write plates and cam tables of a design as files for workshop and controller, with an index."""
+"""Write plates, drawings and cam tables of a design as files for workshop and controller, with an index."""
 
 import importlib
 import re
@@ -17,12 +17,14 @@ from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
+from ilmek.jobs.drawings import write_drawings
 from ilmek.part.plates import tolerated
 from ilmek.plane.contours import area
+from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
-from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
+from ilmek.units import counted, deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable, WorkPiece)
 
@@ -82,9 +84,10 @@ class Workshop:
     def summary(self) -> str:
         """The numbers of files by kind, in one line."""
         kinds = [entry["kind"] for entry in self.entries]
-        drawn = ", ".join(f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds)
-        tables = len(kinds) - kinds.count("dxf") - kinds.count("step")
-        parts = ", ".join(part for part in (drawn, f"{tables} cam tables" if tables else "") if part)
+        tables = sum(kind in FORMATS for kind in kinds)
+        drawn = [f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds]
+        more = {"cam table": tables, "sheet": kinds.count("sheet")}
+        parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
         return f"{self.folder}: {parts}; errors in {INDEX}"
 
     @property
@@ -152,8 +155,9 @@ def write_workshop(
     *,
     outputs: Outputs | None = None,
     force: bool = False,
+    progress: Progress = SILENT,
 ) -> Workshop:
-    """Write the report's plates and cam tables into a folder, with an index.
+    """Write the report's plates, pieces, drawings and cam tables into a folder, with an index.
 
     tolerance  of the cam tables; default: see `SHARE`
     outputs    of the caller, who commits them; default: committed here
@@ -175,6 +179,8 @@ def write_workshop(
             *_files(pieces, lambda piece, name: tuple(_piece_files(piece, work, name)), work, left_out),
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
+        cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
+        files += write_drawings(report, cut, pieces, work, left_out, progress.part(0.5, 1.0, "drawings"))
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files), tuple(left_out))
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ilmek.io.output import Outputs
-from ilmek.report import Report
 
 if TYPE_CHECKING:
     from ilmek.jobs.workshop import Workshop
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class WorkshopOrder:
-    """A folder for the workshop files of a design: plates (DXF, STEP) and cam tables.
+    """A folder for the workshop files of a design: drawings (PDF, DXF), plates (DXF, STEP) and cam tables.
 
     tolerance  of the cam tables, like `1um` or `0.01%` of the stroke; default: see `jobs.workshop.SHARE`
     """
@@ -24,7 +23,7 @@ class WorkshopOrder:
     tolerance: str | None = None
 
 
-def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> "Callable[[Report], Workshop] | None":
+def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> "Callable[..., Workshop] | None":
     """Writes the workshop files of a report; None where none are ordered. Their libraries are imported only here.
 
     Raises OutputError for a folder that cannot be written, ParameterError for a tolerance that cannot be read.

@@ -40,7 +40,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import AnyComponent, Component
 from ilmek.machines.weaver_hands import HAND
 from ilmek.params import Params
-from ilmek.part.plates import pieces_of
+from ilmek.part.plates import pieces_of, plates_of
 from ilmek.report import BUILDABLE
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.weaving.warping import Warping
@@ -102,6 +102,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     cam_tables=cam_tables,
     cyclograms=cyclograms,
     parts=lambda loom: whole_list(loom).parts,
+    plates=lambda loom: tuple(plate for tree in (own_tree(loom), *equipment_trees(loom)) for plate in plates_of(tree)),
     pieces=lambda loom: tuple(piece for tree in (own_tree(loom), *equipment_trees(loom)) for piece in pieces_of(tree)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),

@@ -1,0 +1,1 @@
+"""Drawing sheets as files: a PDF book, and a DXF for each."""

@@ -1,0 +1,86 @@
+"""The book of drawings of a design: a sheet for every made part, and the list of all parts before them."""
+
+import importlib
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+
+from ilmek.io.drawings.dxf import write_sheet_dxf
+from ilmek.io.drawings.pdf import write_sheets_pdf
+from ilmek.progress import Progress
+from ilmek.records import JsonObject
+from ilmek.report import Plate, Report, WorkPiece
+from ilmek.report.left_out import made_or_left_out
+from ilmek.report.sheet import DrawingSheet
+from ilmek.units import counted
+from ilmek.viz.drawings.compose import Issue, sheets_of
+from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
+from ilmek.viz.drawings.index import index_sheets, part_rows
+from ilmek.viz.drawings.projector import Projector
+
+BOOK = "drawings.pdf"
+SUFFIX = ".sheet.dxf"
+"""End of the names of sheets; the flat pattern of a plate is another file."""
+
+
+def write_drawings(  # noqa: PLR0917
+    report: Report,
+    plates: Mapping[str, Plate],
+    pieces: Mapping[str, WorkPiece],
+    work: Path,
+    left_out: list[str],
+    progress: Progress,
+) -> list[JsonObject]:
+    """Write the sheets of plates and pieces by the names of their files, and the book. Returns entries of the index.
+
+    Parts whose sheet needs the CAD kernel are left out without it, with one note. Raises OSError, Cancelled.
+    """
+    parts = [drawn_plate(plate, f"{name}.dxf", name) for name, plate in plates.items()]
+    parts += [drawn_piece(piece, name) for name, piece in pieces.items()]
+    if not parts:
+        return []
+    issue = Issue(unreleased=bool(report.failed))
+    project, entries, book = _projector(), list[JsonObject](), list[DrawingSheet]()
+    without = 0
+    for number, part in enumerate(parts):
+        progress(number / len(parts))
+        sheets = made_or_left_out(f"sheet of {part.number!r}", partial(sheets_of, part, issue, project), left_out)
+        without += sheets == ()
+        for sheet in sheets or ():
+            entries.append(_sheet(sheet, part, work))
+            book.append(sheet)
+    if without:
+        sheets_of_sums = counted(
+            without, "sheet of a part of several shapes is", "sheets of parts of several shapes are"
+        )
+        left_out.append(f"{sheets_of_sums} left out: pip install 'ilmek[step]'")
+    first = index_sheets(report, part_rows(report, parts), issue)
+    write_sheets_pdf(work / BOOK, (*first, *book), f"Drawings: {report.title}")
+    progress(1.0)
+    whole = {"file": BOOK, "kind": "drawings", "of": report.machine, "title": report.title}
+    return [*entries, {**whole, "sheets": len(first) + len(book)}]
+
+
+def _sheet(sheet: DrawingSheet, part: DrawnPart, work: Path) -> JsonObject:
+    file = f"{part.name}{SUFFIX}" if sheet.page == 1 else f"{part.name}-{sheet.page}{SUFFIX}"
+    write_sheet_dxf(work / file, sheet)
+    return {
+        "file": file,
+        "kind": "sheet",
+        "of": part.name,
+        "title": sheet.title,
+        "drawing": sheet.number,
+        "paper": sheet.paper,
+        "scale": sheet.scale,
+        "dimensions": len(sheet.dimensions),
+        "released": not sheet.stamp,
+    }
+
+
+def _projector() -> Projector | None:
+    """Hidden-line removal; None unless the extra `step` is installed."""
+    try:
+        projected: Projector = importlib.import_module("ilmek.io.hidden_lines").projected
+    except ImportError:
+        return None
+    return projected

@@ -1,0 +1,1 @@
+"""Drawing sheets of made parts: views, dimensions from features, title blocks; see `report.sheet`."""

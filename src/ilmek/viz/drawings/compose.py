@@ -1,0 +1,254 @@
+"""A part's sheet: the smallest paper and the largest scale at which its views, dimensions and tables have room.
+
+First-angle projection (ISO 5456-2): the view from the left stands right of the front view, that from above below it.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from ilmek.part.shapes import Prism, Turned
+from ilmek.plane.contours import bounds
+from ilmek.records import record
+from ilmek.report.sheet import DrawingSheet, SheetText
+from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
+from ilmek.viz.drawings.coaxial import coaxial, end_view
+from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.flat import edge_view, flat_part, outline_view
+from ilmek.viz.drawings.joined import joined_views, members_of
+from ilmek.viz.drawings.long import bar_view, is_long, turned_view
+from ilmek.viz.drawings.paper import (
+    BLOCK_HEIGHT,
+    BLOCK_WIDTH,
+    EDGE,
+    LEFT,
+    PAPERS,
+    SCALES,
+    TitleFacts,
+    fitting,
+    frame,
+    table,
+    title_block,
+)
+from ilmek.viz.drawings.picture import SheetPicture, joined_box
+from ilmek.viz.drawings.projector import Projector
+from ilmek.viz.drawings.view import DrawnView
+
+_BETWEEN, _PAD = 14.0, 6.0
+"""Least distance of two views, and of anything from the frame [mm]."""
+
+LEAST_SIZE = {"A4": 70.0, "A3": 80.0}
+"""Least greatest extent of a part on a paper [mm]: below it, the next paper is taken."""
+
+MOST_CROWDED = 12.0
+"""Greatest shift of a running dimension from its point [mm]; beyond it, the next paper is taken."""
+
+MOST_ENLARGED = 90.0
+"""Greatest extent of a section that is drawn larger than it is [mm of the paper]."""
+
+
+@record
+class Issue:
+    """Of all sheets: owner, date and revision as given, and reasons why nothing is released."""
+
+    owner: str = "—"
+    date: str = "—"
+    revision: str = "—"
+    unreleased: bool = False
+
+
+@record
+class Arrangement:
+    """Views by where they stand: `front`, `right` of it, `below` it; and tables."""
+
+    views: dict[str, DrawnView]
+    tables: tuple[SheetPicture, ...] = ()
+
+
+def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrangement | None:
+    """The views of a part at a scale [mm of the paper per m]; None: the kernel is needed, and missing."""
+    fits, shape = Fits(part.features), part.shape
+    fit_table = fits.table()
+    tables = () if fit_table is None else (fit_table,)
+    if isinstance(shape, Prism) and is_long(shape.section, shape.length):
+        flat = flat_part(shape.section, fits)
+        section, more = outline_view(flat, scale, fits)
+        return Arrangement({"front": bar_view(flat, shape.length, scale), "right": section}, (*tables, *more))
+    if isinstance(shape, Prism):
+        flat = flat_part(shape.section, fits, smooth=part.smooth)
+        circles = cam_circles(part) if is_cam(part) else None
+        front, more = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
+        if is_cam(part):
+            mark_zero(front, part)
+        low, high = bounds(flat.outline)
+        below = (high - low).real > (high - low).imag * 1.2
+        edge = edge_view(flat, shape.length, scale, below=below)
+        return Arrangement({"front": front, "below" if below else "right": edge}, (*tables, *more))
+    if isinstance(shape, Turned):
+        return Arrangement({"front": turned_view(shape.profile, scale, fits)}, tables)
+    members = tuple(members_of(shape))
+    one_axis = coaxial(members)
+    if one_axis is not None:
+        views = {"front": turned_view(one_axis.profile, scale, fits, one_axis.grooves)}
+        if one_axis.ends or one_axis.bores:
+            views["right"] = end_view(one_axis, scale, fits)
+        return Arrangement(views, tables)
+    if project is None:
+        return None
+    views, more = joined_views(shape, scale, project)
+    return Arrangement(views, (*tables, *more))
+
+
+def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple[DrawingSheet, ...]:
+    """All sheets of a part; none: the kernel is needed for them, and missing."""
+    sheet = composed(part, issue, project)
+    if sheet is None:
+        return ()
+    return (sheet, _radii_sheet(part, issue)) if is_cam(part) else (sheet,)
+
+
+def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
+    """The second sheet of a cam: its radii at each degree."""
+    _, height = PAPERS["A3"]
+    listed = merged(radius_tables(part))
+    words = "Radii in mm about the bore, θ counter-clockwise from the zero mark, seen as on sheet 1"
+    caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
+    corner = complex(LEFT + _PAD, height - EDGE - 11.0)
+    laid = merged([_top_left(listed, corner), SheetPicture((), (caption,), ())])
+    return _sheet(part, issue, "A3", 1.0, laid, 2)
+
+
+def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> DrawingSheet | None:
+    """The sheet of a part; None: the kernel is needed for it, and missing."""
+    project = None if project is None else lru_cache(maxsize=8)(project)  # the same at every scale
+    for paper in PAPERS:
+        for scale in SCALES:
+            arrangement = arranged(part, 1e3 / scale, project) if _may_fit(part, paper, scale) else None
+            if arrangement is None:
+                continue
+            laid = _laid(arrangement, part, paper)
+            if laid is None:
+                continue
+            body = arrangement.views["front"].body
+            crowded = max(view.crowding for view in arrangement.views.values()) > MOST_CROWDED and paper in LEAST_SIZE
+            if crowded or (scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)):
+                break
+            return _sheet(part, issue, paper, scale, laid)
+    if project is None and arranged(part, 1.0, None) is None:
+        return None
+    raise ValueError(f"{part.number} fits no sheet")
+
+
+def _may_fit(part: DrawnPart, paper: str, scale: float) -> bool:
+    """Whether a part's section could have room: a quick look, before anything is drawn."""
+    extent = _extent(part.shape)
+    if scale < 1 and extent * 1e3 / scale > MOST_ENLARGED:
+        return False
+    width, height = PAPERS[paper]
+    return extent * 1e3 / scale < max(width, height)
+
+
+def _extent(shape: object) -> float:
+    """A length that no view of a shape falls below [m]; long parts are interrupted."""
+    if isinstance(shape, Prism):
+        low, high = bounds(shape.section.outline)
+        return max((high - low).real, (high - low).imag)
+    if isinstance(shape, Turned):
+        return 2 * shape.outer_radius
+    return 0.0
+
+
+def _laid(arrangement: Arrangement, part: DrawnPart, paper: str) -> SheetPicture | None:
+    """All pictures at their positions on the paper; None: they have no room."""
+    width, height = PAPERS[paper]
+    area = (LEFT + _PAD, EDGE + BLOCK_HEIGHT + _PAD, width - EDGE - _PAD, height - EDGE - _PAD)
+    views = _projected(arrangement.views)
+    box = joined_box([view.box for view in views])
+    notes = _notes(part)
+    beside = (LEFT + _PAD, EDGE + _PAD, width - EDGE - BLOCK_WIDTH - _PAD, EDGE + BLOCK_HEIGHT + _PAD)
+    tables = list(arrangement.tables)
+    placed: list[SheetPicture] = []
+    if notes is not None:
+        tall, wide = notes.box[3] - notes.box[1], notes.box[2] - notes.box[0]
+        if wide <= beside[2] - beside[0] and tall <= beside[3] - beside[1]:
+            placed.append(_top_left(notes, complex(beside[0], beside[3] - _PAD)))
+        else:
+            placed.append(notes.moved(complex(area[0] - notes.box[0], area[1] - notes.box[1])))
+            area = (area[0], area[1] + tall + _PAD, area[2], area[3])
+    for picture in tables:
+        wide, tall = picture.box[2] - picture.box[0], picture.box[3] - picture.box[1]
+        right = area[2] - wide - _BETWEEN - area[0] >= box[2] - box[0] and tall <= area[3] - area[1]
+        if right:
+            placed.append(_top_left(picture, complex(area[2] - wide, area[3])))
+            area = (area[0], area[1], area[2] - wide - _BETWEEN, area[3])
+        elif wide <= area[2] - area[0]:
+            placed.append(_top_left(picture, complex(area[0], area[1] + tall)))
+            area = (area[0], area[1] + tall + _PAD, area[2], area[3])
+        else:
+            return None
+    free = complex(area[2] - area[0] - box[2] + box[0], area[3] - area[1] - box[3] + box[1])
+    if free.real < 0 or free.imag < 0:
+        return None
+    by = complex(area[0] - box[0], area[1] - box[1]) + free / 2
+    return merged([*(view.moved(by) for view in views), *placed])
+
+
+def _top_left(picture: SheetPicture, corner: complex) -> SheetPicture:
+    return picture.moved(corner - complex(picture.box[0], picture.box[3]))
+
+
+def _projected(views: dict[str, DrawnView]) -> list[SheetPicture]:
+    """The views about the front view, aligned with it."""
+    front = views["front"].picture
+    pictures = [front]
+    if "right" in views:
+        view = views["right"]
+        pictures.append(view.picture.moved(front.box[2] + _BETWEEN - view.picture.box[0]))
+    if "below" in views:
+        view = views["below"]
+        pictures.append(view.picture.moved(1j * (front.box[1] - _BETWEEN - view.picture.box[3])))
+    if "corner" in views:
+        view, box = views["corner"], joined_box([one.box for one in pictures])
+        left = pictures[1].box[0] if "right" in views else box[2] + _BETWEEN
+        top = min(front.box[1], pictures[1].box[1] if "right" in views else box[1]) - _PAD
+        pictures.append(_top_left(view.picture, complex(left, top)))
+    return pictures
+
+
+def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
+    """Pictures as one."""
+    return SheetPicture(
+        tuple(line for picture in pictures for line in picture.lines),
+        tuple(text for picture in pictures for text in picture.texts),
+        tuple(one for picture in pictures for one in picture.dimensions),
+    )
+
+
+def _notes(part: DrawnPart) -> SheetPicture | None:
+    """What the workshop must know besides."""
+    lines = [*part.notes]
+    if part.file:
+        lines.append(f"Contour: {part.file}, scale 1:1")
+    if not lines:
+        return None
+    rows = [fitting(f"{number}  {line}", 168.0, 2.5, 2.5)[0] for number, line in enumerate(lines, 1)]
+    return table(("Notes",), [(row,) for row in rows])
+
+
+def _sheet(  # noqa: PLR0917
+    part: DrawnPart, issue: Issue, paper: str, scale: float, laid: SheetPicture, page: int = 1
+) -> DrawingSheet:
+    pages = 2 if is_cam(part) else 1
+    facts = TitleFacts(
+        part.number, part.title, "Part drawing", part.material, part.mass_words,
+        ", ".join(words for words in (part.size, part.process) if words) or "—", str(part.pieces), part.surface,
+        part.treatment, part.general, part.edges, "NOT RELEASED" if issue.unreleased else "For production",
+        issue.owner, issue.date, issue.revision,
+    )  # fmt: skip
+    whole = merged([frame(paper), title_block(facts, paper, scale, page, pages), laid])
+    width, height = PAPERS[paper]
+    stamp = "NOT RELEASED" if issue.unreleased else ""
+    return DrawingSheet(
+        part.number, part.title, paper, width, height, scale, whole.lines, whole.texts, whole.dimensions, page, pages,
+        stamp,
+    )  # fmt: skip

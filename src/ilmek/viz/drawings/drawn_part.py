@@ -1,0 +1,135 @@
+"""A made part as its drawing needs it, from the plate or piece of a report."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import field
+
+from ilmek.arrays import ComplexArray
+from ilmek.elements.materials import MATERIALS
+from ilmek.part.part import Part
+from ilmek.part.plates import FLAT
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
+from ilmek.part.specification import PartSpecification, specification
+from ilmek.part.tolerances import ToleratedFeature
+from ilmek.plane.biarcs import as_contour
+from ilmek.plane.contours import circle
+from ilmek.records import record
+from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
+from ilmek.units import format_quantity, mm, um
+
+
+@record
+class DrawnPart:
+    """A made part.
+
+    number   of the drawing: the part's id        name  of its files
+    shape    of the package `part`                flat  it is cut from flat stock       pieces  to be made
+    file     of its flat pattern, for the laser   smooth  its outline is a curve
+    stated   what holds for the part as a whole; None: not known
+    """
+
+    number: str
+    name: str
+    title: str
+    material: str
+    density: float
+    process: str
+    size: str
+    pieces: int
+    shape: object
+    volume: float
+    notes: tuple[str, ...] = ()
+    paths: Mapping[str, ComplexArray | Contour] = field(default_factory=dict)
+    marks: Mapping[str, ComplexArray] = field(default_factory=dict)
+    features: tuple[ToleratedFeature, ...] = ()
+    file: str = ""
+    smooth: bool = False
+    stated: PartSpecification | None = None
+
+    @property
+    def mass(self) -> float:
+        """Mass of one [kg]; nan: its material is in no table."""
+        return self.volume * self.density
+
+    @property
+    def mass_words(self) -> str:
+        """Its mass as a title block has it."""
+        if math.isnan(self.mass):
+            return "—"
+        return format_quantity(self.mass, "kg", 3) if self.mass >= 0.1 else format_quantity(self.mass, "g", 3)
+
+    @property
+    def treatment(self) -> str:
+        """How it is hardened, ISO 15787: least hardness and depth, and by how much each may be exceeded."""
+        given = self.stated
+        if given is None or given.hardening is None:
+            return ""
+        hard = given.hardening
+        words = f"hardened {hard.hardness} +{hard.more} HRC"
+        depth = given.depth / mm
+        return f"{words}, {hard.kind} {depth:g} +{depth / 2:g}" if hard.kind else f"through-{words}"
+
+    @property
+    def surface(self) -> str:
+        """Roughness of all surfaces that state no other."""
+        if self.stated is None:
+            return "—"
+        return "as delivered" if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
+
+    @property
+    def edges(self) -> str:
+        """States of outer and inner edges, ISO 13715."""
+        if self.stated is None:
+            return "—"
+        outer, inner = self.stated.outer_edge / mm, self.stated.inner_edge / mm
+        return f"outer {outer:+g}  inner {inner:+g}".replace("-", "−")
+
+    @property
+    def general(self) -> str:
+        """General tolerances."""
+        return "ISO 2768-mK" if self.stated is None else self.stated.general
+
+
+def drawn_plate(plate: Plate, file: str, name: str) -> DrawnPart:
+    """A plate, by the name of its drawing and of its flat pattern."""
+    part = plate.part if isinstance(plate.part, Part) else None
+    points = isinstance(plate.outline, Contour)
+    outline = as_contour(plate.outline, 1 * um)
+    cuts = [*(circle(hole.at, hole.radius) for hole in plate.holes)]
+    cuts += [as_contour(cutout, 1 * um) for cutout in plate.cutouts]
+    shape = Prism(Profile(outline, tuple(cuts)), plate.thickness)
+    solid = plate.solid
+    volume = shape.volume if solid is None else solid.volume
+    size = part.size if part is not None else ""
+    if isinstance(solid, RoundSolid):
+        size = f"⌀{format_quantity(2 * solid.outer, 'mm')}, drawn as its development"
+    return DrawnPart(
+        part.id if part else name, name, plate.title, plate.material, _density(plate.material, part),
+        part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes, plate.paths, plate.marks,
+        _features(plate.features), file, not points, _stated(part),
+    )  # fmt: skip
+
+
+def drawn_piece(piece: WorkPiece, name: str) -> DrawnPart:
+    """A piece that is turned, sawn or welded, by the name of its drawing."""
+    part = piece.part if isinstance(piece.part, Part) else None
+    return DrawnPart(
+        part.id if part else name, name, piece.title.capitalize(), piece.material, _density(piece.material, part),
+        part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
+        part.notes if part else (), features=_features(piece.features), stated=_stated(part),
+    )  # fmt: skip
+
+
+def _features(features: tuple[object, ...]) -> tuple[ToleratedFeature, ...]:
+    return tuple(feature for feature in features if isinstance(feature, ToleratedFeature))
+
+
+def _density(material: str, part: Part | None) -> float:
+    if part is not None and part.material is not None:
+        return part.material.density
+    return next((row.density for row in MATERIALS.values() if material in {row.name, row.designation}), math.nan)
+
+
+def _stated(part: Part | None) -> PartSpecification | None:
+    return None if part is None or part.material is None else specification(part)

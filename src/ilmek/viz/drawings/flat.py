@@ -1,0 +1,349 @@
+"""Views of a part cut from flat stock: its outline with all holes, and its edge."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray
+from ilmek.part.profile import Profile
+from ilmek.part.tolerances import FeatureKind
+from ilmek.plane.biarcs import as_contour
+from ilmek.plane.contours import along, as_hole, bounds, keyed_bore, polygon
+from ilmek.records import record
+from ilmek.report import Contour, Hole
+from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.viz.drawings.features import (
+    SAME,
+    ArcFeature,
+    ContourFeatures,
+    HoleGroup,
+    KeyedBore,
+    contour_features,
+    distinct,
+    hole_groups,
+    keyed,
+    split_holes,
+)
+from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.paper import table
+from ilmek.viz.drawings.picture import SheetPicture, millimetres
+from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+
+NO_FITS = Fits()
+
+TABLE_FROM, PARALLEL = 7, 4
+"""Holes from which on they stand in a table; coordinates of one direction up to which each has its own row."""
+
+_ARCS = 1e-6
+"""Deviation of arcs from the points of a smooth outline, as a share of its size."""
+
+
+@record
+class FlatPart:
+    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, and the datum."""
+
+    outline: Contour
+    features: ContourFeatures
+    round_outline: Hole | None
+    groups: tuple[HoleGroup, ...]
+    bores: tuple[KeyedBore, ...]
+    cutouts: tuple[Contour, ...]
+    datum: complex
+    smooth: bool
+
+    @property
+    def holes(self) -> tuple[Hole, ...]:
+        """All round holes."""
+        return tuple(hole for group in self.groups for hole in group.holes)
+
+    @property
+    def dimensioned(self) -> bool:
+        """Whether its outline is dimensioned by corners and arcs."""
+        return not self.smooth and self.features.fully
+
+    @property
+    def tabled(self) -> bool:
+        """Whether its holes stand in a table."""
+        return sum(len(group.holes) for group in self.groups if not group.pitch) >= TABLE_FROM
+
+
+def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -> FlatPart:
+    """The features of a section; a smooth outline is a curve, with no corners to dimension."""
+    holes, cuts = split_holes(section.holes)
+    bores = tuple(bore for bore in map(keyed, cuts) if bore is not None)
+    others = tuple(cut for cut in cuts if keyed(cut) is None)
+    outline = section.outline
+    if section.smooth:
+        low, high = bounds(outline)
+        outline = as_contour(outline.points, _ARCS * abs(high - low))
+    ring = as_hole(outline)
+    centres = [*(hole.at for hole in holes), *(bore.centre for bore in bores), *([ring.at] if ring else [])]
+    shaft = keyed(outline)
+    centres += [shaft.centre] if shaft else []
+    features = contour_features(outline)
+    datum = _datum(features, bounds(outline)[0], centres, [*holes])
+    curve = smooth or section.smooth
+    groups = hole_groups(holes, lambda hole: bore_suffix(fits, hole))
+    return FlatPart(outline, features, ring, groups, bores, others, datum, curve)
+
+
+def _datum(features: ContourFeatures, corner: complex, centres: list[complex], holes: list[Hole]) -> complex:
+    """The origin where a bore is there, else the lower left corner if there is one, else the largest hole or an arc."""
+    if any(abs(centre) < SAME for centre in centres):
+        return 0j
+    if any(abs(point - corner) < SAME for point in features.corners):
+        return corner
+    if holes:
+        return max(holes, key=lambda hole: hole.radius).at
+    return next(iter((*centres, *(arc.centre for arc in features.arcs))), corner)
+
+
+def bore_suffix(fits: Fits, hole: Hole) -> str:
+    """Fit or thread behind the diameter of a hole; "": none."""
+    fit = fits.suffix(2 * hole.radius, FeatureKind.BORE, hole.at)
+    thread = fits.suffix(2 * hole.radius, FeatureKind.THREAD, hole.at)
+    return fit or (f" M{millimetres(2 * hole.radius)}{thread}" if thread else "")
+
+
+def outline_view(
+    flat: FlatPart,
+    scale: float,
+    fits: Fits = NO_FITS,
+    *,
+    paths: Mapping[str, ComplexArray | Contour] | None = None,
+    marks: Mapping[str, ComplexArray] | None = None,
+    circles: Mapping[str, float] | None = None,
+) -> tuple[DrawnView, tuple[SheetPicture, ...]]:
+    """The view on the outline with its dimensions, and its hole table where it has one.
+
+    circles  about the origin to draw and to label by their names: radii [m]
+    """
+    view = DrawnView(scale)
+    view.contour(LineKind.VISIBLE, flat.outline)
+    for cut in (*flat.cutouts, *(keyed_contour(bore) for bore in flat.bores)):
+        view.contour(LineKind.VISIBLE, cut)
+    for hole in flat.holes:
+        view.contour(LineKind.VISIBLE, _circle(hole))
+        view.cross(hole.at, hole.radius)
+    for bore in flat.bores:
+        view.cross(bore.centre, bore.reach)
+    if flat.round_outline is not None:
+        view.cross(flat.round_outline.at, flat.round_outline.radius)
+    for line in (paths or {}).values():
+        points = along(line, 1e-5) if isinstance(line, Contour) else line
+        view.line(LineKind.PATH, np.append(points, points[:1]))
+    for line in (marks or {}).values():
+        view.line(LineKind.DIMENSION, line, body=False)
+    for radius in (circles or {}).values():
+        view.contour(LineKind.CENTRE, _circle(Hole(0j, radius)))
+    _patterns(view, flat)
+    _linear(view, flat)
+    _labels(view, flat, fits)
+    for name, radius in (circles or {}).items():
+        _diameter(view, f"{name} ⌀{millimetres(2 * radius)}", 0j, radius)
+    tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
+    return view, tables
+
+
+def keyed_contour(bore: KeyedBore) -> Contour:
+    """The contour of a bore with keyways, or of a shaft with its grooves."""
+    own = keyed_bore(bore.radius, bore.width, bore.reach - bore.radius, len(bore.angles))
+    turned = own.points * np.exp(1j * bore.angles[0]) + bore.centre
+    return Contour(turned, own.bulges)
+
+
+def _circle(hole: Hole) -> Contour:
+    return Contour(np.array([hole.at + hole.radius, hole.at - hole.radius]), np.ones(2))
+
+
+def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
+    """Points whose coordinates a drawing needs: corners, centres of arcs and of holes that no table has."""
+    by_circle = flat.round_outline is not None or keyed(flat.outline) is not None
+    own = flat.features.points if flat.dimensioned and not by_circle else ()
+    holes = () if flat.tabled else tuple(h.at for group in flat.groups if not group.pitch for h in group.holes)
+    centres = tuple(group.centre for group in flat.groups if group.pitch)
+    cuts = tuple(point for cut in flat.cutouts for point in _corners_of(cut, flat))
+    return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts)
+
+
+def _corners_of(cut: Contour, flat: FlatPart) -> tuple[complex, ...]:
+    """Points of a cutout to dimension: of the hollow of a tube its lower left corner, which gives the wall."""
+    (low, high), (first, last) = bounds(cut), bounds(flat.outline)
+    even = abs((first + last) - (low + high)) < SAME and abs((low - first).real - (low - first).imag) < SAME
+    return (low,) if even else contour_features(cut).points
+
+
+def _linear(view: DrawnView, flat: FlatPart) -> None:
+    """Distances from the datum, and the size over all."""
+    points = _coordinates(flat)
+    for across in (False, True):
+        datum = coordinate(flat.datum, across)
+        values = [value for value in distinct([coordinate(p, across) - datum for p in points]) if abs(value) > SAME]
+        spans = _over_all(view, flat, values, across)
+        feet = [_foot(points, datum + value, across) * view.scale for value in values]
+        start = flat.datum * view.scale
+        if len(values) <= PARALLEL:
+            spans += [MeasuredLength(start, foot, abs(value)) for foot, value in zip(feet, values, strict=True)]
+            view.rows(spans, across=across)
+        else:
+            view.ordinates([start, *feet], start, across=across)
+            side = 0 if across else 1
+            view.rows(spans, across=across, beyond=view.body[side] - view.picture.box[side] + 6.0)
+
+
+def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool) -> list[MeasuredLength]:
+    """The size over all, unless it stands there already; in brackets where arcs give it."""
+    low, high = bounds(flat.outline)
+    ends, datum = (coordinate(low, across), coordinate(high, across)), coordinate(flat.datum, across)
+    size = ends[1] - ends[0]
+    at_end = min(abs(end - datum) for end in ends) < SAME
+    if flat.round_outline is not None or (at_end and any(abs(abs(value) - size) < SAME for value in values)):
+        return []
+    known = {round(datum, 8), *(round(datum + value, 8) for value in values)}
+    auxiliary = flat.dimensioned and not all(round(end, 8) in known for end in ends)
+    first, last = (complex(low.real, end) if across else complex(end, low.imag) for end in ends)
+    return [MeasuredLength(first * view.scale, last * view.scale, size, auxiliary=auxiliary)]
+
+
+def _foot(points: Sequence[complex], value: float, across: bool) -> complex:
+    """The point at a coordinate that lies nearest to the dimension line."""
+    near = [point for point in points if abs(coordinate(point, across) - value) <= 2 * SAME]
+    return min(near, key=lambda point: coordinate(point, not across))
+
+
+def _patterns(view: DrawnView, flat: FlatPart) -> None:
+    """Pitch circles of evenly spread holes."""
+    for group in flat.groups:
+        if group.pitch:
+            view.contour(LineKind.CENTRE, _circle(Hole(group.centre, group.pitch)))
+
+
+def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
+    """Diameters of holes and bores, radii, widths of keyways."""
+    if flat.round_outline is not None:
+        ring = flat.round_outline
+        _diameter(view, f"⌀{millimetres(2 * ring.radius)}", ring.at, ring.radius)
+    shaft = keyed(flat.outline)
+    for bore in (*flat.bores, *([shaft] if shaft else [])):
+        kind = FeatureKind.JOURNAL if bore is shaft else FeatureKind.BORE
+        suffix = fits.suffix(2 * bore.radius, kind)
+        _diameter(view, f"⌀{millimetres(2 * bore.radius)}{suffix}", bore.centre, bore.radius)
+        keyway(view, bore, fits, kind)
+    for group in flat.groups:
+        count = len(group.holes)
+        times = f"{count}× " if count > 1 else ""
+        even = f" on ⌀{millimetres(2 * group.pitch)}" if group.pitch else ""
+        hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
+        if not flat.tabled or group.pitch:
+            suffix = bore_suffix(fits, hole)
+            _diameter(view, f"{times}⌀{millimetres(2 * hole.radius)}{suffix}{even}", hole.at, hole.radius, count)
+    if flat.dimensioned and flat.round_outline is None and shaft is None:
+        _radii(view, flat.features.arcs)
+    for cut in flat.cutouts:
+        _radii(view, contour_features(cut).arcs)
+
+
+_KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
+
+
+def keyway(view: DrawnView, bore: KeyedBore, fits: Fits, kind: FeatureKind) -> None:
+    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side."""
+    turn = complex(math.cos(bore.angles[0]), math.sin(bore.angles[0]))
+    corners = [bore.centre + turn * complex(bore.reach, side * bore.width / 2) for side in (-1, 1)]
+    count = len(bore.angles)
+    times = f"{count}× " if count > 1 else ""
+    at = ", ".join(f"{math.degrees(angle):.4g}°" for angle in bore.angles)
+    ends = (corners[0] * view.scale, corners[1] * view.scale)
+    width = f"{times}keyway {millimetres(bore.width)}{fits.suffix(bore.width, _KEYWAYS[kind])} at {at}"
+    view.leader(
+        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends
+    )  # fmt: skip
+    across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.reach) * view.scale)
+    floor = f"{millimetres(bore.radius + bore.reach)}{fits.depth(bore.width)} to its floor"
+    view.leader(
+        floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.reach, measured=across
+    )  # fmt: skip
+
+
+def _diameter(view: DrawnView, words: str, centre: complex, radius: float, count: int = 1) -> None:
+    scale = view.scale
+    view.leader(words, centre * scale, radius * scale, kind=DimensionKind.DIAMETER, value=2 * radius, count=count)
+
+
+def _radii(view: DrawnView, arcs: tuple[ArcFeature, ...]) -> None:
+    """Each radius once, with the number of its arcs."""
+    for radius in distinct([arc.radius for arc in arcs]):
+        equal = [arc for arc in arcs if abs(arc.radius - radius) < 2 * SAME]
+        arc = max(equal, key=lambda one: one.centre.real + one.centre.imag)
+        words = f"{f'{len(equal)}× ' if len(equal) > 1 else ''}R{millimetres(radius)}"
+        ends = (arc.ends[0] * view.scale, arc.ends[1] * view.scale)
+        view.leader(
+            words, arc.centre * view.scale, radius * view.scale, kind=DimensionKind.RADIUS, value=radius,
+            count=len(equal), sector=ends,
+        )  # fmt: skip
+
+
+def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
+    """Tags at the holes, and the table of their positions from the datum."""
+    rows = []
+    for letter, group in zip("ABCDEFGHJKLMNPQRSTUVWXYZ" * 4, (g for g in flat.groups if not g.pitch), strict=False):
+        ordered = sorted(group.holes, key=lambda hole: (round(hole.at.imag, 7), hole.at.real))
+        for number, hole in enumerate(ordered, 1):
+            tag = f"{letter}{number}" if len(ordered) > 1 else letter
+            view.tag(tag, hole.at * view.scale, hole.radius * view.scale)
+            at = hole.at - flat.datum
+            rows.append(
+                (
+                    tag,
+                    millimetres(at.real),
+                    millimetres(at.imag),
+                    f"⌀{millimetres(2 * hole.radius)}{bore_suffix(fits, hole)}",
+                )
+            )
+    return table(("Hole", "X", "Y", "Size"), rows, "Holes, from the datum")
+
+
+def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) -> DrawnView:
+    """The edge of a plate: seen from the left, or from above where it stands below the outline (first angle)."""
+    view = DrawnView(scale)
+
+    def turn(level: float, depth: float) -> complex:
+        return complex(level, -depth) if below else complex(depth, level)
+
+    low, high = bounds(flat.outline)
+    start, end = (low.real, high.real) if below else (low.imag, high.imag)
+    corners = [turn(start, 0.0), turn(end, 0.0), turn(end, thickness), turn(start, thickness)]
+    view.contour(LineKind.VISIBLE, polygon(np.array(corners)))
+    for level in distinct(list(edge_levels(flat, below=below))):
+        if start + SAME < level < end - SAME:
+            view.line(LineKind.VISIBLE, np.array([turn(level, 0.0), turn(level, thickness)]))
+    round_holes = [(h.at, h.radius) for h in flat.holes] + [(b.centre, b.radius) for b in flat.bores]
+    if len(round_holes) <= 12:
+        for centre, radius in round_holes:
+            middle = centre.real if below else centre.imag
+            for level in (middle - radius, middle + radius):
+                view.line(LineKind.HIDDEN, np.array([turn(level, 0.0), turn(level, thickness)]))
+            over = 2.5 / scale
+            view.line(LineKind.CENTRE, np.array([turn(middle, -over), turn(middle, thickness + over)]), body=False)
+    view.rows([MeasuredLength(corners[0] * scale, corners[3] * scale, thickness)], across=below)
+    return view
+
+
+def edge_levels(flat: FlatPart, *, below: bool = False) -> Iterator[float]:
+    """Levels of corners that nothing hides: on the side of the outline from which it is seen."""
+    if not flat.dimensioned:
+        return
+    points = along(flat.outline, 1e-5)
+    points = -points.imag + 1j * points.real if below else points  # depth from the eye, and level on the paper
+    after = np.roll(points, -1)
+    for corner in flat.features.corners:
+        level, depth = coordinate(corner, not below), (-corner.imag if below else corner.real)
+        hidden = False
+        for offset in (-1e-6, 1e-6):
+            crossed = (points.imag > level + offset) != (after.imag > level + offset)
+            share = (level + offset - points.imag[crossed]) / (after.imag[crossed] - points.imag[crossed])
+            before = points.real[crossed] + share * (after.real[crossed] - points.real[crossed])
+            hidden = hidden or bool(np.any(before < depth - 1e-5))
+        if not hidden:
+            yield level

@@ -1,0 +1,218 @@
+"""Views of parts of several shapes by hidden-line removal of the solid: from the front, the left, and above.
+
+Each member's ends are dimensioned from the datum, the lower left corner of each view; members themselves stand in the
+cut list, by section and length.
+"""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from ilmek.arrays import FloatArray
+from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.shapes import Prism, Sum, Turned
+from ilmek.part.twisted import TwistedBar
+from ilmek.plane.contours import along, as_hole, bounds
+from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.viz.drawings.features import SAME, distinct, split_holes
+from ilmek.viz.drawings.flat import PARALLEL
+from ilmek.viz.drawings.paper import table
+from ilmek.viz.drawings.picture import SheetPicture, millimetres
+from ilmek.viz.drawings.projector import Axis, Projector
+from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+
+VIEWS: dict[str, tuple[Axis, Axis]] = {
+    "front": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
+    "right": ((-1.0, 0.0, 0.0), (0.0, 0.0, 1.0)),
+    "below": ((0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
+}
+"""Direction to the eye, and to the right on the paper."""
+
+MOST_ENDS, MOST_LABELS = 14, 6
+"""Ends of members that a view dimensions in a direction; more of them stand in the cut list alone."""
+
+Member = tuple[object, Placement]
+
+
+def joined_views(
+    shape: object, scale: float, project: Projector
+) -> tuple[dict[str, DrawnView], tuple[SheetPicture, ...]]:
+    """The three views of a shape, a pictorial one, and the list of its members."""
+    members = tuple(members_of(shape))
+    views = {}
+    for name, (eye, right) in VIEWS.items():
+        view = DrawnView(scale)
+        visible, hidden = project(shape, eye, right)
+        for line in hidden:
+            view.line(LineKind.HIDDEN, line)
+        for line in visible:
+            view.line(LineKind.VISIBLE, line)
+        across, upwards, towards = np.array(right), np.cross(eye, right), np.array(eye)
+        if name == "front":
+            _dimension(view, members, across, upwards, towards)
+            _circles(view, members, across, upwards, towards)
+        elif name == "right":
+            _lengths(view, members, across, upwards)
+        views[name] = view
+    pictorial = DrawnView(scale)
+    corner = 1 / math.sqrt(3)
+    visible, _ = project(shape, (corner, corner, corner), (math.sqrt(0.5), 0.0, -math.sqrt(0.5)))
+    for line in visible:
+        pictorial.line(LineKind.VISIBLE, line)
+    views["corner"] = pictorial
+    return views, (_cut_list(members),)
+
+
+def members_of(shape: object, position: Placement = IDENTITY) -> Iterator[Member]:
+    """Prisms and turned shapes of a sum, each at its position."""
+    if isinstance(shape, Sum):
+        for member in shape.members:
+            for own in member.positions:
+                yield from members_of(member.shape, position.after(own))
+    else:
+        yield shape, position
+
+
+def reach(member: Member, direction: FloatArray) -> tuple[float, float]:
+    """Least and greatest coordinate of a member along a direction [m]."""
+    shape, position = member
+    own = position.rotation.T @ direction
+    base = float(position.origin @ direction)
+    if isinstance(shape, Prism):
+        contour = shape.section.outline
+        if abs(own[0]) > 1 - 1e-12 or abs(own[1]) > 1 - 1e-12 or abs(own[2]) > 1 - 1e-12:
+            low, high = bounds(contour)
+            ends = np.array([[low.real, low.imag], [high.real, high.imag]]) @ own[:2]
+        else:
+            points = along(contour, 1e-7)
+            ends = np.array([points.real, points.imag]).T @ own[:2]
+        lengths = [0.0, shape.length * float(own[2])]
+        return base + float(ends.min()) + min(lengths), base + float(ends.max()) + max(lengths)
+    if isinstance(shape, Turned):
+        points, across = along(shape.profile.outline, 1e-7), math.sqrt(max(0.0, 1 - float(own[2]) ** 2))
+        far = points.real * own[2]
+        return base + float((far - across * points.imag).min()), base + float((far + across * points.imag).max())
+    points_3d = shape.mesh().points @ own  # type: ignore[attr-defined]
+    return base + float(points_3d.min()), base + float(points_3d.max())
+
+
+def _dimension(
+    view: DrawnView, members: tuple[Member, ...], right: FloatArray, up: FloatArray, eye: FloatArray
+) -> None:
+    """Ends of the members from the datum; of one that is seen as a circle its centre."""
+    corners: dict[bool, list[tuple[float, complex]]] = {False: [], True: []}
+    for member in members:
+        x, y = reach(member, right), reach(member, up)
+        if _seen_round(member, eye):
+            x, y = (sum(x) / 2,) * 2, (sum(y) / 2,) * 2
+        corners[False] += [(end, complex(end, y[0])) for end in x]
+        corners[True] += [(end, complex(x[0], end)) for end in y]
+        for hole in _holes_seen(member, eye):
+            at = complex(float(hole @ right), float(hole @ up))
+            corners[False].append((at.real, at))
+            corners[True].append((at.imag, at))
+    for across, ends in corners.items():
+        values = distinct([value for value, _ in ends])
+        if len(values) > MOST_ENDS:
+            values = [values[0], values[-1]]
+        feet = [
+            min((p for v, p in ends if abs(v - value) <= 2 * SAME), key=lambda p: coordinate(p, not across))
+            for value in values
+        ]
+        drawn = [foot * view.scale for foot in feet]
+        if len(values) <= PARALLEL + 1:
+            spans = [
+                MeasuredLength(drawn[0], foot, value - values[0])
+                for foot, value in zip(drawn[1:], values[1:], strict=True)
+            ]
+            view.rows(spans, across=across)
+        else:
+            view.ordinates(drawn, drawn[0], across=across)
+
+
+def _seen_round(member: Member, eye: FloatArray) -> bool:
+    """Whether a member is seen as a circle."""
+    shape, position = member
+    if abs(float(position.rotation[:, 2] @ eye)) < 1 - 1e-9:
+        return False
+    return isinstance(shape, Turned) or (isinstance(shape, Prism) and as_hole(shape.section.outline) is not None)
+
+
+def _holes_seen(member: Member, eye: FloatArray) -> Iterator[FloatArray]:
+    """Centres of the round holes of a prism whose axis points to the eye [m]."""
+    shape, position = member
+    if isinstance(shape, Prism) and abs(float(position.rotation[:, 2] @ eye)) > 1 - 1e-9:
+        holes, _ = split_holes(shape.section.holes)
+        yield from (position.points(np.array([hole.at.real, hole.at.imag, 0.0])) for hole in holes)
+
+
+def _lengths(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up: FloatArray) -> None:
+    """Depths of the members in the view from the left; all else stands in the front view."""
+    low = min(reach(member, up)[0] for member in members)
+    values = distinct([end for member in members for end in reach(member, right)])
+    values = values if len(values) <= MOST_ENDS else [values[0], values[-1]]
+    drawn = [complex(value, low) * view.scale for value in values]
+    if len(values) <= PARALLEL + 1:
+        spans = [
+            MeasuredLength(drawn[0], foot, value - values[0]) for foot, value in zip(drawn[1:], values[1:], strict=True)
+        ]
+        view.rows(spans, across=False)
+    else:
+        view.ordinates(drawn, drawn[0], across=False)
+
+
+def _circles(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up: FloatArray, eye: FloatArray) -> None:
+    """Labels of the diameters whose axis points to the eye, each size once."""
+    sizes: dict[float, list[complex]] = {}
+    for shape, position in members:
+        if abs(float(position.rotation[:, 2] @ eye)) < 1 - 1e-9:
+            continue
+        rings: list[tuple[complex, float]] = []
+        if isinstance(shape, Turned):
+            points = shape.profile.outline.points
+            rings = [(0j, radius) for radius in distinct([abs(z) for z in points.imag.tolist()]) if radius > SAME]
+        elif isinstance(shape, Prism):
+            holes = [as_hole(contour) for contour in (shape.section.outline, *shape.section.holes)]
+            rings = [(hole.at, hole.radius) for hole in holes if hole is not None]
+        for centre, radius in rings:
+            at = position.points(np.array([centre.real, centre.imag, 0.0]))
+            sizes.setdefault(round(radius, 8), []).append(complex(float(at @ right), float(at @ up)))
+    for radius, centres in sorted(sizes.items(), reverse=True)[:MOST_LABELS]:
+        different = list(dict.fromkeys(complex(round(c.real, 7), round(c.imag, 7)) for c in centres))
+        times = f"{len(different)}× " if len(different) > 1 else ""
+        centre = max(different, key=lambda c: c.real + c.imag)
+        view.leader(
+            f"{times}⌀{millimetres(2 * radius)}", centre * view.scale, radius * view.scale,
+            kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different),
+        )  # fmt: skip
+
+
+def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
+    """Members of one kind as a row: section and length."""
+    counts: dict[tuple[str, str], int] = {}
+    for shape, _ in members:
+        counts[_section(shape)] = counts.get(_section(shape), 0) + 1
+    rows = [(str(k), str(number), *words) for k, (words, number) in enumerate(counts.items(), 1)]
+    return table(("Item", "Pieces", "Section", "Length"), rows[:30], "Consists of")
+
+
+def _section(shape: object) -> tuple[str, str]:
+    if isinstance(shape, Turned):
+        low, high = bounds(shape.profile.outline)
+        bore = f", bore ⌀{millimetres(2 * low.imag)}" if low.imag > SAME else ""
+        return f"round ⌀{millimetres(2 * high.imag)}{bore}", millimetres(high.real - low.real)
+    if isinstance(shape, TwistedBar):
+        return "twisted bar", millimetres(float(np.ptp(shape.mesh().points[:, 2])))
+    assert isinstance(shape, Prism)
+    return _outline(shape), millimetres(shape.length)
+
+
+def _outline(shape: Prism) -> str:
+    low, high = bounds(shape.section.outline)
+    ring = as_hole(shape.section.outline)
+    size = high - low
+    words = f"⌀{millimetres(2 * ring.radius)}" if ring else f"{millimetres(size.real)} × {millimetres(size.imag)}"
+    holes = [as_hole(hole) for hole in shape.section.holes]
+    bores = ", ".join(f"bore ⌀{millimetres(2 * hole.radius)}" for hole in holes if hole is not None)
+    return f"{words}, {bores}" if bores else words

@@ -1,0 +1,244 @@
+"""Views of turned parts, in half section, and of bars and tubes of stock with their section; long ones interrupted."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.part.profile import Profile
+from ilmek.part.tolerances import FeatureKind
+from ilmek.plane.contours import along, bounds
+from ilmek.records import record
+from ilmek.report import Contour
+from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.viz.drawings.features import SAME, ContourFeatures, contour_features, distinct
+from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.flat import PARALLEL, FlatPart, edge_levels
+from ilmek.viz.drawings.picture import millimetres
+from ilmek.viz.drawings.view import DrawnView, MeasuredLength
+
+MOST_DIAMETERS = 10
+"""Diameters of a turned part that are labelled; of more, the largest and smallest."""
+
+
+@record
+class Shortening:
+    """A view with its longest even stretch cut out: from `start` to `end` only `kept` is drawn [m]; none: whole."""
+
+    start: float = 0.0
+    end: float = 0.0
+    kept: float = 0.0
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is cut out."""
+        return self.end <= self.start
+
+    def drawn(self, z: FloatArray | float) -> FloatArray:
+        """Where coordinates are drawn [m]."""
+        z = np.asarray(z, dtype=float)
+        if self.whole:
+            return z
+        share = np.clip((z - self.start) / (self.end - self.start), 0.0, 1.0)
+        return np.asarray(np.minimum(z, self.start) + share * self.kept + np.maximum(z - self.end, 0.0))
+
+
+def shortening(levels: Sequence[float], across: float) -> Shortening:
+    """The shortening of a part with steps at ascending levels and a greatest width [m]: of its longest stretch."""
+    gaps = np.diff(levels)
+    longest = int(np.argmax(gaps))
+    kept = max(2.5 * across, (levels[-1] - levels[0] - gaps[longest]) * 0.5)
+    if gaps[longest] < 2.0 * kept:
+        return Shortening()
+    return Shortening(levels[longest], levels[longest + 1], kept)
+
+
+def _break_lines(view: DrawnView, cut: Shortening, half: float) -> None:
+    """Two zigzag lines where a view is interrupted."""
+    if cut.whole:
+        return
+    middle, gap, tooth = cut.start + cut.kept / 2, 1.2 / view.scale, 1.5 / view.scale
+    for z in (middle - gap, middle + gap):
+        over = half + 2.0 / view.scale
+        bent = tooth * complex(0.7, 0.4)
+        zigzag = np.array([-1j * over, -1j * tooth, -bent, bent, 1j * tooth, 1j * over])
+        view.line(LineKind.BREAK, z + zigzag, body=False)
+
+
+def _stretch(cut: Shortening, start: complex, end: complex, gap: float) -> list[ComplexArray]:
+    """A straight line of the part as drawn, open where the view is interrupted."""
+    first, last = (complex(float(cut.drawn(p.real)), p.imag) for p in (start, end))
+    if cut.whole or not min(start.real, end.real) <= cut.start < cut.end <= max(start.real, end.real):
+        return [np.array([first, last])]
+    middle = cut.start + cut.kept / 2
+    shares = sorted((middle + side * gap - first.real) / (last.real - first.real) for side in (-1, 1))
+    near, far = (first + share * (last - first) for share in shares)
+    return [np.array([first, near]), np.array([far, last])]
+
+
+def turned_view(
+    profile: Profile, scale: float, fits: Fits, grooves: Sequence[tuple[float, float, float]] = ()
+) -> DrawnView:
+    """A turned part with its axis horizontal: in half section where it is bored.
+
+    grooves  for keys: begin and end along the axis, distance of the floor from it [m]
+    """
+    view, contour = DrawnView(scale), profile.outline
+    features = contour_features(contour)
+    corners = features.corners
+    low, high = bounds(contour)
+    levels = distinct([*(corner.real for corner in corners), *(z for groove in grooves for z in groove[:2])])
+    cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
+    bored = low.imag > SAME or bool(profile.holes)
+    gap = 1.2 / scale
+    points = along(contour, 0.01 / scale)
+    after = np.roll(points, -1)
+    outer = _outer(points, after)
+    for start, end, outside in zip(points.tolist(), after.tolist(), outer.tolist(), strict=True):
+        on_axis = max(start.imag, end.imag) < SAME
+        for piece in () if on_axis else _stretch(cut, start, end, gap):
+            if bored or outside:
+                view.line(LineKind.VISIBLE, piece)
+            if outside:
+                view.line(LineKind.VISIBLE, piece.conj())
+    for corner in corners if features.fully else (low, complex(high.real, low.imag)):
+        _edge_lines(view, cut, corner, contour, bored)
+    if bored:
+        loops = (contour, *profile.holes)
+        view.hatch([_drawn_loop(cut, along(loop, 0.01 / scale)) for loop in loops])
+        for hole in profile.holes:
+            view.contour(LineKind.VISIBLE, Contour(_drawn_loop(cut, hole.points), hole.bulges))
+    for start, end, floor in grooves:
+        floor_ends = cut.drawn(np.array([start, end])) + 1j * floor
+        view.line(LineKind.HIDDEN, floor_ends)
+    _break_lines(view, cut, high.imag)
+    over = 3.0 / scale
+    ends = cut.drawn(np.array([low.real, high.real]))
+    view.line(LineKind.CENTRE, np.array([ends[0] - over + 0j, ends[1] + over + 0j]), body=False)
+    _lengths(view, cut, levels, low, high, features)
+    _diameters(view, cut, features, contour, fits)
+    return view
+
+
+def _drawn_loop(cut: Shortening, points: ComplexArray) -> ComplexArray:
+    return np.asarray(cut.drawn(points.real) + 1j * points.imag)
+
+
+def _outer(points: ComplexArray, after: ComplexArray) -> np.ndarray:
+    """Whether each piece is on the outside of the part: nothing lies farther from the axis."""
+    middle = (points + after) / 2
+    upright = np.abs((after - points).real) < SAME
+    outside = np.ones(len(points), dtype=bool)
+    if len(points) > 400:
+        return np.asarray(middle.imag > 0.5 * middle.imag.max())
+    for number, at in enumerate(middle.tolist()):
+        spans = (np.minimum(points.real, after.real) < at.real) & (np.maximum(points.real, after.real) > at.real)
+        spans[number] = False
+        reach = 0.0
+        if spans.any():
+            share = (at.real - points.real[spans]) / (after.real[spans] - points.real[spans])
+            reach = float(np.max(points.imag[spans] + share * (after.imag[spans] - points.imag[spans])))
+        outside[number] = at.imag >= reach - SAME
+    return np.asarray(outside & ~(upright & (middle.imag < SAME)))
+
+
+def _edge_lines(view: DrawnView, cut: Shortening, corner: complex, contour: Contour, bored: bool) -> None:
+    """The circle of an edge, seen from the side: on the outside below the axis, of a bore above it."""
+    z = float(cut.drawn(corner.real))
+    points = along(contour, 1e-5)
+    near = points[np.abs(points.real - corner.real) < SAME]
+    outside, inside = float(near.imag.max()), float(near.imag.min())
+    if corner.imag >= outside - SAME:
+        view.line(LineKind.VISIBLE, np.array([complex(z, 0.0), complex(z, -corner.imag)]))
+        if not bored:
+            view.line(LineKind.VISIBLE, np.array([complex(z, 0.0), complex(z, corner.imag)]))
+    if bored and corner.imag <= inside + SAME:
+        view.line(LineKind.VISIBLE, np.array([complex(z, 0.0), complex(z, corner.imag)]))
+
+
+def _lengths(  # noqa: PLR0917
+    view: DrawnView, cut: Shortening, levels: list[float], low: complex, high: complex, features: ContourFeatures
+) -> None:
+    """Lengths of the steps from the left face."""
+    shown = levels[1:] if features.fully else [high.real]
+    drawn = [complex(float(cut.drawn(z)), low.imag - (high.imag + low.imag)) * view.scale for z in (low.real, *shown)]
+    if len(shown) <= PARALLEL or not cut.whole:
+        spans = [MeasuredLength(drawn[0], at, z - low.real) for at, z in zip(drawn[1:], shown, strict=True)]
+        view.rows(spans, across=False)
+    else:
+        view.ordinates(drawn, drawn[0], across=False)
+
+
+def _diameters(view: DrawnView, cut: Shortening, features: ContourFeatures, contour: Contour, fits: Fits) -> None:
+    """Each diameter once, at its longest stretch."""
+    points = contour.points if features.fully else along(contour, 1e-4)
+    after = np.roll(points, -1)
+    level = (np.abs((after - points).imag) < SAME) & (points.imag > SAME)
+    stretches = sorted(zip(points[level].tolist(), after[level].tolist(), strict=True), key=lambda s: -abs(s[1] - s[0]))
+    radii = distinct([start.imag for start, _ in stretches])
+    if len(radii) > MOST_DIAMETERS:
+        radii = [radii[0], radii[-1]]
+    single = len(radii) == 1 and features.fully
+    for radius in radii:
+        start, end = next(s for s in stretches if abs(s[0].imag - radius) < 2 * SAME)
+        inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
+        count = len(distinct([s[0].real for s in stretches if abs(s[0].imag - radius) < 2 * SAME]))
+        words = f"⌀{millimetres(2 * radius)}"
+        kind = FeatureKind.BORE if inner else FeatureKind.JOURNAL
+        suffix = fits.suffix(2 * radius, kind)
+        first, last = cut.drawn(np.array([start.real, end.real]))
+        if single:
+            foot = float(cut.drawn(bounds(contour)[0].real))
+            ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
+            view.rows([MeasuredLength(*ends, 2 * radius, "⌀", suffix)], across=True)
+            continue
+        share = 0.5 if cut.whole else 0.2
+        at = complex(first + share * (last - first), radius) * view.scale
+        times = f"{count}× " if count > 1 else ""
+        if count > MOST_DIAMETERS:
+            starts = distinct([s[0].real for s in stretches if abs(s[0].imag - radius) < 2 * SAME])
+            pitch = float(np.median(np.diff(starts)))
+            suffix += f", {millimetres(abs(end - start))} wide, pitch {millimetres(pitch)}"
+        view.leader(
+            f"{times}{words}{suffix}", at, 0.0, kind=DimensionKind.DIAMETER, value=2 * radius, count=count,
+            measured=(at.conjugate(), at),
+        )  # fmt: skip
+
+
+def bar_view(flat: FlatPart, length: float, scale: float) -> DrawnView:
+    """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines."""
+    view = DrawnView(scale)
+    low, high = bounds(flat.outline)
+    cut = shortening([0.0, length], (high - low).imag)
+    gap = 1.2 / scale
+    visible = [low.imag, high.imag, *(y for y in edge_levels(flat) if low.imag + SAME < y < high.imag - SAME)]
+    for y in distinct(visible):
+        for piece in _stretch(cut, complex(0.0, y), complex(length, y), gap):
+            view.line(LineKind.VISIBLE, piece)
+    hollows = [bounds(hollow) for hollow in flat.cutouts]
+    hollows += [(h.at - h.radius * 1j, h.at + h.radius * 1j) for h in flat.holes]
+    for y in distinct([corner.imag for box in hollows for corner in box]):
+        for piece in _stretch(cut, complex(0.0, y), complex(length, y), gap):
+            view.line(LineKind.HIDDEN, piece)
+    ends = cut.drawn(np.array([0.0, length]))
+    for z in ends.tolist():
+        view.line(LineKind.VISIBLE, np.array([complex(z, low.imag), complex(z, high.imag)]))
+    middle = (low.imag + high.imag) / 2
+    over = 3.0 / scale
+    view.line(LineKind.CENTRE, np.array([complex(-over, middle), complex(ends[1] + over, middle)]), body=False)
+    if not cut.whole:
+        half = (high - low).imag / 2
+        shifted = DrawnView(scale)
+        _break_lines(shifted, cut, half)
+        for line in shifted.picture.lines:
+            view.line(LineKind.BREAK, line.points / scale + 1j * middle, body=False)
+    feet = (complex(0.0, low.imag) * scale, complex(float(ends[1]), low.imag) * scale)
+    view.rows([MeasuredLength(*feet, length)], across=False)
+    return view
+
+
+def is_long(section: Profile, length: float) -> bool:
+    """Whether a prism is drawn as a bar: longer than its section is wide."""
+    low, high = bounds(section.outline)
+    return length > max((high - low).real, (high - low).imag) * math.sqrt(2)

@@ -1,0 +1,228 @@
+"""The paper of a drawing: sizes and frame with zones (ISO 5457), title block (ISO 7200), scales (ISO 5455)."""
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from ilmek.records import record
+from ilmek.report.sheet import LineKind, SheetLine, SheetText
+from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
+from ilmek.viz.font import text_width
+
+PAPERS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
+"""Width and height of trimmed sheets [mm]; ISO 5457: A4 upright, the others lying."""
+
+SCALES = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
+"""True length over that on the paper; ISO 5455."""
+
+LEFT, EDGE = 20.0, 10.0
+"""Margins of the frame: left for filing, and all others [mm]."""
+
+BLOCK_WIDTH, BLOCK_HEIGHT = 180.0, 47.0
+"""Size of the title block [mm]."""
+
+_ZONE, _BORDER = 50.0, 5.0
+_LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
+
+
+@record
+class TitleFacts:
+    """What a title block says of its drawing; ISO 7200.
+
+    number   of the drawing            mass      of a piece, in words     pieces  to be made
+    surface  roughness of all surfaces that state no other                treatment  of the material; "": none
+    general, edges   general tolerances, and states of edges by ISO 13715
+    status   of the document           date, revision  of its issue: as given, never of a clock
+    """
+
+    number: str
+    title: str
+    kind: str
+    material: str
+    mass: str
+    stock: str
+    pieces: str
+    surface: str
+    treatment: str
+    general: str
+    edges: str
+    status: str
+    owner: str = "—"
+    date: str = "—"
+    revision: str = "—"
+
+
+def scale_words(scale: float) -> str:
+    """A scale as it is written.
+
+    >>> scale_words(5.0), scale_words(0.5)
+    ('1:5', '2:1')
+    """
+    return f"1:{scale:g}" if scale >= 1 else f"{1 / scale:g}:1"
+
+
+def fitting(words: str, width: float, height: float, least: float = 1.8, *, bold: bool = False) -> tuple[str, float]:
+    """A text, and its height at which it fits a width [mm]; shortened where the least height does not do."""
+    natural = text_width(words, height / CAPITAL, bold)
+    if natural <= width:
+        return words, height
+    height = max(least, height * width / natural)
+    while len(words) > 1 and text_width(words, height / CAPITAL, bold) > width:
+        words = words.rstrip("…")[:-1].rstrip() + "…"
+    return words, height
+
+
+def frame(paper: str) -> SheetPicture:
+    """The frame of a sheet with its zones and centring marks."""
+    width, height = PAPERS[paper]
+    low, high = complex(LEFT, EDGE), complex(width - EDGE, height - EDGE)
+    lines = [_rectangle(LineKind.FRAME, low, high)]
+    outer = complex(_BORDER, _BORDER)
+    lines.append(_rectangle(LineKind.DIMENSION, low - outer, high + outer))
+    middle = (low + high) / 2
+    for side, inward in ((low.real, 1.0), (high.real, -1.0)):
+        at = complex(side, height / 2)
+        lines.append(SheetLine(LineKind.FRAME, np.array([at - inward * _BORDER, at + inward * _BORDER])))
+    for side, upward in ((low.imag, 1j), (high.imag, -1j)):
+        at = complex(width / 2 if paper != "A4" else middle.real, side)
+        reach = 0.0 if upward == 1j else _BORDER  # the title block lies above the lower one
+        lines.append(SheetLine(LineKind.FRAME, np.array([at - upward * _BORDER, at + upward * reach])))
+    across = _fields(low.real, high.real, width / 2)
+    upwards = _fields(low.imag, high.imag, height / 2)
+    texts = []
+    for start, outward in ((low.imag, -1j), (high.imag, 1j)):
+        lines += [_tick(complex(x, start), outward) for x in across[1:-1]]
+        texts += [
+            _zone(complex((a + b) / 2, start) + outward * _BORDER / 2, str(number + 1))
+            for number, (a, b) in enumerate(pairwise(across))
+        ]
+    for start, outward in ((low.real, -1.0), (high.real, 1.0)):
+        lines += [_tick(complex(start, y), outward) for y in upwards[1:-1]]
+        texts += [
+            _zone(complex(start, (a + b) / 2) + outward * _BORDER / 2, _LETTERS[len(upwards) - 2 - number])
+            for number, (a, b) in enumerate(pairwise(upwards))
+        ]
+    return SheetPicture(tuple(lines), tuple(texts), ())
+
+
+def _fields(low: float, high: float, middle: float) -> list[float]:
+    """Ends of fields of 50 mm from the middle; a rest joins its neighbour."""
+    count_down, count_up = int((middle - low) / _ZONE), int((high - middle) / _ZONE)
+    inner = [middle + _ZONE * step for step in range(-count_down, count_up + 1)]
+    inner = [at for at in inner if low + 15 < at < high - 15]
+    return [low, *inner, high]
+
+
+def _tick(at: complex, outward: complex) -> SheetLine:
+    return SheetLine(LineKind.DIMENSION, np.array([at, at + outward * _BORDER]))
+
+
+def _zone(at: complex, words: str) -> SheetText:
+    return SheetText(at - 1.25j, words, 2.5, "center")
+
+
+def _rectangle(kind: LineKind, low: complex, high: complex) -> SheetLine:
+    corners = [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
+    return SheetLine(kind, np.array(corners), closed=True)
+
+
+def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: int) -> SheetPicture:
+    """The title block, in the lower right corner of a sheet."""
+    width, _ = PAPERS[paper]
+    corner = complex(width - EDGE - BLOCK_WIDTH, EDGE)
+    rows = (
+        (0.0, 9.0, (
+            ("Legal owner", facts.owner, 40), ("Document type", facts.kind, 42), ("Status", facts.status, 36),
+            ("Rev.", facts.revision, 14), ("Date of issue", facts.date, 30), ("Sheet", f"{page}/{pages}", 18),
+        )),
+        (9.0, 11.0, (("Title", facts.title, 90), ("Drawing number", facts.number, 90))),
+        (20.0, 9.0, (
+            ("Material", facts.material, 80), ("Mass", facts.mass, 27), ("Scale", scale_words(scale), 19),
+            ("Size", paper, 14), ("Pieces", facts.pieces, 16), ("Projection", "", 24),
+        )),
+        (29.0, 9.0, (
+            ("General tolerances", facts.general, 42), ("Edges ISO 13715", facts.edges, 50),
+            ("Surface texture ISO 21920", facts.surface, 58), ("Dimensions", "mm", 30),
+        )),
+        (38.0, 9.0, (("Stock, process", facts.stock, 100), ("Treatment", facts.treatment or "—", 80))),
+    )  # fmt: skip
+    lines = [_rectangle(LineKind.VISIBLE, corner, corner + complex(BLOCK_WIDTH, BLOCK_HEIGHT))]
+    texts: list[SheetText] = []
+    for y, tall, cells in rows:
+        if y:
+            start = corner + 1j * y
+            lines.append(SheetLine(LineKind.DIMENSION, np.array([start, start + BLOCK_WIDTH])))
+        x = 0.0
+        for label, value, wide in cells:
+            at = corner + complex(x, y)
+            if x:
+                lines.append(SheetLine(LineKind.DIMENSION, np.array([at, at + 1j * tall])))
+            texts.append(SheetText(at + complex(1.2, tall - 2.5), label, 1.8, light=True))
+            large = 3.5 if label in {"Title", "Drawing number"} else 2.5
+            words, height = fitting(value, wide - 3.0, large, bold=label == "Title")
+            if words:
+                indent = 6.5 if label.startswith("Surface") else 1.5  # behind its symbol
+                texts.append(SheetText(at + complex(indent, 1.6), words, height, bold=label == "Title"))
+            x += wide
+    lines += _projection_mark(corner + complex(168.5, 23.6))
+    lines += _surface_mark(corner + complex(94.0, 30.4))
+    return SheetPicture(tuple(lines), tuple(texts), ())
+
+
+def _projection_mark(centre: complex) -> list[SheetLine]:
+    """The mark of first-angle projection: a frustum, and on its right the view from its left."""
+    cone, rings = centre - 5.5, centre + 4.5
+    body = np.array([cone - 3 - 1.25j, cone + 3 - 2.5j, cone + 3 + 2.5j, cone - 3 + 1.25j])
+    half = np.ones(2)
+    return [
+        SheetLine(LineKind.BREAK, body, closed=True),
+        *(SheetLine(LineKind.BREAK, np.array([rings + r, rings - r]), half, closed=True) for r in (1.25, 2.5)),
+        SheetLine(LineKind.DIMENSION, np.array([cone - 4, cone + 4])),
+        SheetLine(LineKind.DIMENSION, np.array([rings - 3.2, rings + 3.2])),
+    ]
+
+
+def _surface_mark(foot: complex) -> list[SheetLine]:
+    """The graphical symbol of a surface from which material is removed; ISO 21920-1."""
+    slope = np.exp(1j * math.pi / 3)
+    left, right = foot + 2.2 * slope * np.exp(1j * math.pi / 3), foot + 4.4 * slope
+    return [
+        SheetLine(LineKind.BREAK, np.array([left, foot, right])),
+        SheetLine(LineKind.BREAK, np.array([left, left + 2.2])),
+    ]
+
+
+def table(
+    header: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    title: str = "",
+    row: float = 5.0,
+    widths: Sequence[float] = (),
+) -> SheetPicture:
+    """A table with its upper left corner at 0: columns of widths [mm]; default: as wide as their widest text."""
+    columns = range(len(header))
+    if not widths:
+        heads = [text_width(head, 2.5 / CAPITAL, bold=True) for head in header]
+        cells = [[text_width(line[k], 2.5 / CAPITAL) for line in rows] for k in columns]
+        widths = [max(heads[k], *cells[k], 0.0) + 3.0 for k in columns]
+    ends = np.concatenate([[0.0], np.cumsum(widths)])
+    top = -6.0 if title else 0.0
+    texts = [SheetText(complex(0.0, -4.0), title, 2.5, bold=True)] if title else []
+    lines = []
+    for number, line in enumerate((header, *rows)):
+        y = top - row * (number + 1)
+        texts += [
+            SheetText(complex(float(ends[k]) + 1.5, y + row / 2 - 1.25), line[k], 2.5, bold=number == 0)
+            for k in columns
+            if line[k]
+        ]
+    bottom = top - row * (len(rows) + 1)
+    for number in range(1, len(rows) + 1):
+        y = top - row * number
+        kind = LineKind.VISIBLE if number == 1 else LineKind.HATCH
+        lines.append(SheetLine(kind, np.array([complex(0, y), complex(float(ends[-1]), y)])))
+    lines += [SheetLine(LineKind.HATCH, np.array([complex(x, top), complex(x, bottom)])) for x in ends[1:-1].tolist()]
+    lines.append(_rectangle(LineKind.VISIBLE, complex(0.0, bottom), complex(float(ends[-1]), top)))
+    return SheetPicture(tuple(lines), tuple(texts), ())
