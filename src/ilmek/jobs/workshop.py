@@ -17,9 +17,10 @@ from ilmek.io.dxf import read_dxf, write_dxf
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
+from ilmek.jobs.workshop_papers import PAPER_KINDS, write_index, write_papers
 from ilmek.plane.contours import area
 from ilmek.records import JsonObject, record
-from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
+from ilmek.report import NO_PAPERS, CamTable, Check, Json, Papers, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
@@ -82,8 +83,10 @@ class Workshop:
         """The numbers of files by kind, in one line."""
         kinds = [entry["kind"] for entry in self.entries]
         drawn = ", ".join(f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds)
-        tables = len(kinds) - kinds.count("dxf") - kinds.count("step")
-        parts = ", ".join(part for part in (drawn, f"{tables} cam tables" if tables else "") if part)
+        tables = sum(kind in FORMATS for kind in kinds)
+        papers = len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS})
+        named = (drawn, f"{tables} cam tables" if tables else "", f"{papers} papers" if papers else "")
+        parts = ", ".join(filter(None, named))
         return f"{self.folder}: {parts}; errors in {INDEX}"
 
     @property
@@ -149,10 +152,11 @@ def write_workshop(
     folder: Path,
     tolerance: Tolerance | None = None,
     *,
+    papers: Papers = NO_PAPERS,
     outputs: Outputs | None = None,
     force: bool = False,
 ) -> Workshop:
-    """Write the report's plates and cam tables into a folder, with an index.
+    """Write the report's plates and cam tables into a folder, with papers and an index.
 
     tolerance  of the cam tables; default: see `SHARE`
     outputs    of the caller, who commits them; default: committed here
@@ -174,6 +178,9 @@ def write_workshop(
             *_files(pieces, lambda piece, name: tuple(_piece_files(piece, work, name)), work, left_out),
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
+        judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
+        files += write_papers(papers, judged, work)
+        files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files), tuple(left_out))
 

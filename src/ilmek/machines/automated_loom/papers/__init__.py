@@ -1,0 +1,12 @@
+"""The papers of a loom: lists of its parts, and what its maker, its fitter, its weaver and its inspector must know."""
+
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.tree import whole_list
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.part.part_lists import part_lists
+from ilmek.report import Papers, Report
+
+
+def papers(loom: LoomDesign, _report: Report) -> Papers:
+    """The papers of a loom with its report."""
+    return Papers(lists=part_lists(loom_tree(loom), whole_list(loom).prices))
