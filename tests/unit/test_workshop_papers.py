@@ -3,8 +3,12 @@
 import csv
 import io
 import math
+import re
 from functools import cache
+from html import escape
 from itertools import permutations
+from pathlib import Path
+from typing import Any
 
 import pytest
 from default_machines import default_design, default_report
@@ -12,13 +16,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.hexagon_screws import SCREWS
+from ilmek.elements.plates import link_plate
 from ilmek.io.table_csv import rows_csv
-from ilmek.jobs.workshop_papers import papers_of
+from ilmek.jobs.workshop import write_workshop
+from ilmek.jobs.workshop_papers import papers_of, write_papers
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.part_lists import SAW, bars_for
-from ilmek.report import Papers
+from ilmek.report import Papers, Report, must
+from ilmek.sentences import in_language, translated
 
 
 @cache
@@ -113,3 +120,77 @@ def test_fasteners_join_the_parts_that_they_are_made_for() -> None:
     assert all(
         (row["tightening torque [Nm]"] != "") is row["designation"].startswith("ISO 4017") for row in rows.values()
     )
+
+
+def rows_of(page: str, section: int) -> list[tuple[float | int | str, ...]]:
+    paper = next(paper for paper in papers().pages if paper.name == page)
+    table = paper.sections[section].table
+    assert table is not None
+    return list(table.rows)
+
+
+def check_value(name: str) -> float:
+    report: Report = default_report("automated-loom")
+    return next(check.value for check in report.all_checks if check.name == name)
+
+
+def test_lives_and_greasing_follow_from_loads_and_work() -> None:
+    report: Any = default_report("automated-loom")
+    rows = report["carpets_per_year"] * report["rows"]
+    knots = rows * report["columns"] / report["heads"]
+    bearing, *_, head, guide = rows_of("maintenance", 0)
+    rated = 14_000.0  # N, UC 205, ISO 281: makers' tables
+    assert bearing[1] == "UC 205"
+    assert bearing[3] == pytest.approx((rated / report["shedding.bearing_load"]) ** 3 * 1e6, rel=1e-3)
+    assert bearing[6] == pytest.approx(float(bearing[3]) / rows)  # a turn of the cam shaft for each row
+    assert head[5] == pytest.approx(knots)  # a turn of a head's cam shaft for each of its knots
+    assert guide[3] == pytest.approx(check_value("weaver: life of the head's guide"))
+    along = 2 * 2 * report["warp_pitch"] * knots  # from knot to knot, two warps each, and back
+    assert guide[6] == pytest.approx(float(guide[3]) / along)
+    assert rows_of("maintenance", 1)[-1][2] == pytest.approx(100e3 / along * 365.25 * 86400)
+
+
+def test_belts_are_tuned_by_their_mass_and_tension() -> None:
+    report: Any = default_report("automated-loom")
+    parts = {row["id"]: row for row in listed("parts")}
+    lengths = {row["parts"]: float(row["length of one [m]"]) for row in listed("purchase") if row["length of one [m]"]}
+    belt = "automated-loom/heads-belt"
+    mass = float(parts[belt]["mass of one [kg]"]) / lengths[belt]
+    span = lengths[belt] - 2 * 8 * 5e-3 - report["heads"] * 88e-3  # less the clamps of 8 teeth, and the heads
+    tension = check_value("tension of the heads' belt") / 2  # where no head steps
+    wave = math.sqrt(tension / mass)
+    assert float(str(rows_of("commissioning", 3)[0][1]).removesuffix(" Hz")) == pytest.approx(wave / 2 / span, rel=0.01)
+
+
+def test_axes_stand_before_a_body_comes_from_the_doors() -> None:
+    times = [float(str(row[1]).strip("≤ s")) for row in rows_of("commissioning", 7) if "standstill" in str(row[0])]
+    assert 1.6 * max(times) == pytest.approx(check_value("guards: distance of the doors"), rel=1e-3)
+
+
+def test_pages_are_in_two_languages(tmp_path: Path) -> None:
+    list(write_papers(papers(), default_report("automated-loom"), tmp_path))
+    for paper in papers().pages:
+        english, turkish = (tmp_path / f"{paper.name}{end}.html" for end in ("", ".tr"))
+        said, other = english.read_text(encoding="utf-8"), turkish.read_text(encoding="utf-8")
+        assert said.startswith('<!DOCTYPE html>\n<html lang="en">')
+        assert other.startswith('<!DOCTYPE html>\n<html lang="tr">')
+        for section in paper.sections:
+            with in_language("tr"):
+                assert f"<h2>{escape(translated(section.title))}</h2>" in other
+            assert f"<h2>{escape(section.title)}</h2>" in said
+        assert "NOT RELEASED" not in said
+
+
+def test_a_design_whose_checks_fail_is_not_released(tmp_path: Path) -> None:
+    failed = must("made", False, "a test")
+    pins = [("A", 0j), ("B", 0.1 + 0j)]
+    bar = link_plate("bar", "Bar", pins, hole_radius=5e-3, width=0.03, thickness=5e-3, material="S235JR")
+    report = Report("press", "Press", {}, (), (failed,), plates=(bar,))
+    write_workshop(report, tmp_path / "parts", papers=papers())
+    for name, word in (("index.html", "NOT RELEASED"), ("maintenance.tr.html", "ONAYLANMADI")):
+        assert word in (tmp_path / "parts" / name).read_text(encoding="utf-8")
+    index = (tmp_path / "parts" / "index.html").read_text(encoding="utf-8")
+    assert ">made<" in index
+    linked = set(re.findall(r'href="([^"#]+)"', index))
+    there = {path.name for path in (tmp_path / "parts").iterdir()} - {"workshop.json", ".ilmek", "index.html"}
+    assert {name for name in there if not name.endswith(".tr.html") or name == "index.tr.html"} == linked

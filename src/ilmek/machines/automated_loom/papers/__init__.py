@@ -3,10 +3,13 @@
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.commissioning import commissioning
+from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
 
-def papers(loom: LoomDesign, _report: Report) -> Papers:
+def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    return Papers(lists=part_lists(loom_tree(loom), whole_list(loom).prices))
+    pages = maintenance(loom, report), commissioning(loom, report)
+    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))
