@@ -14,9 +14,12 @@ import pytest
 from default_machines import default_design, default_report
 from hypothesis import given
 from hypothesis import strategies as st
+from small_programme import small_programme
 
 from ilmek.elements.hexagon_screws import SCREWS
 from ilmek.elements.plates import link_plate
+from ilmek.io.plc.io_list import io_rows
+from ilmek.io.plc.project import plc_project
 from ilmek.io.table_csv import rows_csv
 from ilmek.jobs.workshop import write_workshop
 from ilmek.jobs.workshop_papers import papers_of, write_papers
@@ -165,6 +168,33 @@ def test_belts_are_tuned_by_their_mass_and_tension() -> None:
 def test_axes_stand_before_a_body_comes_from_the_doors() -> None:
     times = [float(str(row[1]).strip("≤ s")) for row in rows_of("commissioning", 7) if "standstill" in str(row[0])]
     assert 1.6 * max(times) == pytest.approx(check_value("guards: distance of the doors"), rel=1e-3)
+
+
+def test_terminals_are_the_signals_of_the_control() -> None:
+    report: Any = default_report("automated-loom")
+    field = [row for row in io_rows(plc_project(small_programme(heads=report["heads"])).units[-1]) if row[3]]
+    terminals = rows_of("electrical", 3)
+    assert sorted(str(row[0]) for row in terminals) == sorted(row[0] for row in field)
+    assert len({row[1:3] for row in terminals}) == len(terminals)
+    parts = {row["id"]: int(row["quantity"]) for row in listed("parts")}
+    assert max(int(row[1]) for row in terminals) == parts["automated-loom/terminal"]
+    wired = {part for row in terminals for part in str(row[3]).split()}
+    assert wired <= parts.keys()
+    assert {row[0] for row in rows_of("electrical", 1)} <= {
+        row["title"] for row in listed("parts") if row["id"] in wired
+    }
+
+
+def test_motors_are_fused_and_wired_by_their_current() -> None:
+    """IEC 60204-1, table 6, method B2, copper in PVC at 40 °C; 3 x 230 V for servos, 48 V for steppers."""
+    bears = {0.75: 8.5, 1.0: 10.1, 1.5: 13.1, 2.5: 17.4, 4.0: 23.0}
+    for _, name, _, power, current, fuse, section, together in rows_of("electrical", 1):
+        volts = 48.0 if str(name).startswith("stepper") else 230 * math.sqrt(3)
+        assert current == pytest.approx(float(power) / 0.75 / volts)
+        assert 1.25 * float(current) <= float(fuse) <= (0.65 if together == 4 else 1.0) * bears[float(section)]
+    watts = {row[1]: (float(row[2]), float(row[3])) for row in rows_of("electrical", 1)}
+    connected = math.fsum(number * power for number, power in watts.values()) / 0.75
+    assert float(str(rows_of("electrical", 0)[1][1]).split()[0]) >= 0.99 * connected / 1e3
 
 
 def test_pages_are_in_two_languages(tmp_path: Path) -> None:

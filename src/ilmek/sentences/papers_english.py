@@ -121,4 +121,46 @@ PAPERS = {
     "direction.front": "to the front",
     "direction.back": "to the back",
     "direction.both": "{first}, {second}",
+    # Electric
+    "electric.title": "Electrical plan",
+    "electric.lead": "Supply, motors with fuses and wires by current, sensors, terminals, safety circuit",
+    "electric.supply": "Supply",
+    "electric.supply-how": "All motors at their rated power; the main switch is lockable and separates all live "
+    "wires (IEC 60204-1, 5.3).",
+    "electric.what": "what",
+    "electric.value": "value",
+    "electric.mains": "mains",
+    "electric.connected": "connected load",
+    "electric.mean": "mean power while it weaves",
+    "electric.main-current": "current",
+    "electric.main-fuse": "main fuses",
+    "electric.main-wire": "wires from the mains",
+    "electric.motors": "Motors",
+    "electric.motors-how": "Servos on 230 V of their amplifier, steppers on 48 V; each fuse carries 1.25 times the "
+    "current, each wire the fuse's rating: copper in PVC, method B2 at 40 °C, IEC 60204-1, 12.4 and table 6, with "
+    "the factor of the cables that lie together.",
+    "electric.motor": "motor",
+    "electric.designation": "designation",
+    "electric.pieces": "pieces",
+    "electric.power": "rated power",
+    "electric.current": "current [A]",
+    "electric.fuse": "fuse [A]",
+    "electric.section": "section [mm²]",
+    "electric.together": "cables together",
+    "electric.sensors": "Sensors",
+    "electric.device": "device",
+    "electric.signals": "signals",
+    "electric.terminals": "Terminals",
+    "electric.terminals-how": "A level of a terminal for each signal that has an address in io.csv, which `ilmek "
+    "plc` writes.",
+    "electric.signal": "signal",
+    "electric.terminal": "terminal",
+    "electric.level": "level",
+    "electric.parts": "parts",
+    "electric.safety": "Safety circuit",
+    "electric.safety-how": "Two channels of {relay}. Each device opens both; the relay halts the motion controller "
+    "at once, which brakes all axes (stop category 1 of IEC 60204-1), and then takes the torque from all "
+    "amplifiers. The circuit responds in {circuit}; the last axis, {axis}, stands after {whole}.",
+    "electric.residual": "Amplifiers keep a dangerous voltage after they are switched off: measure below 60 V "
+    "before their covers are opened (IEC 60204-1, 6.2.4).",
 }

@@ -120,4 +120,46 @@ PAPERS = {
     "direction.front": "öne",
     "direction.back": "arkaya",
     "direction.both": "{first}, {second}",
+    # Electric
+    "electric.title": "Elektrik planı",
+    "electric.lead": "Besleme, akıma göre sigorta ve kablolarıyla motorlar, algılayıcılar, klemensler, güvenlik "
+    "devresi",
+    "electric.supply": "Besleme",
+    "electric.supply-how": "Bütün motorlar anma gücünde; ana şalter kilitlenebilir ve bütün gerilimli iletkenleri "
+    "ayırır (IEC 60204-1, 5.3).",
+    "electric.what": "büyüklük",
+    "electric.value": "değer",
+    "electric.mains": "şebeke",
+    "electric.connected": "bağlı yük",
+    "electric.mean": "dokurken ortalama güç",
+    "electric.main-current": "akım",
+    "electric.main-fuse": "ana sigortalar",
+    "electric.main-wire": "şebeke kablosu",
+    "electric.motors": "Motorlar",
+    "electric.motors-how": "Servolar sürücünün 230 V'unda, adım motorları 48 V'ta; her sigorta akımın 1,25 katını, "
+    "her kablo sigortanın anma akımını taşır: PVC yalıtımlı bakır, 40 °C'de B2 yöntemi, IEC 60204-1, 12.4 ve "
+    "çizelge 6, yan yana yatan kabloların katsayısıyla.",
+    "electric.motor": "motor",
+    "electric.designation": "tanım",
+    "electric.pieces": "adet",
+    "electric.power": "anma gücü",
+    "electric.current": "akım [A]",
+    "electric.fuse": "sigorta [A]",
+    "electric.section": "kesit [mm²]",
+    "electric.together": "yan yana kablo",
+    "electric.sensors": "Algılayıcılar",
+    "electric.device": "aygıt",
+    "electric.signals": "sinyaller",
+    "electric.terminals": "Klemensler",
+    "electric.terminals-how": "`ilmek plc` komutunun yazdığı io.csv'de adresi olan her sinyal için klemensin bir katı.",
+    "electric.signal": "sinyal",
+    "electric.terminal": "klemens",
+    "electric.level": "kat",
+    "electric.parts": "parçalar",
+    "electric.safety": "Güvenlik devresi",
+    "electric.safety-how": "{relay} iki kanallıdır. Her aygıt ikisini de açar; röle hareket denetleyicisini hemen "
+    "durdurur, bu da bütün eksenleri frenler (IEC 60204-1'in 1 numaralı durdurma kategorisi), sonra bütün "
+    "sürücülerin torkunu keser. Devre {circuit} içinde tepki verir; son eksen, {axis}, {whole} sonra durur.",
+    "electric.residual": "Sürücüler kapatıldıktan sonra da tehlikeli gerilim taşır: kapaklar açılmadan 60 V'un "
+    "altı ölçülmelidir (IEC 60204-1, 6.2.4).",
 }

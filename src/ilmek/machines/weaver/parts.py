@@ -70,7 +70,8 @@ def _bearing_load(weaver: Weaver) -> float:
     """Each bearing is taken to bear the sum of the cams' forces, by its cubic mean over the turn [N].     [ISO 281]"""
     angle = np.linspace(0.0, turn, SAMPLES, endpoint=False)
     force = sum(np.interp(angle, cam.angle, cam.contact, period=turn) for cam in weaver.cams)
-    return float(np.mean(force**3)) ** (1 / 3)
+    load: float = float(np.mean(force**3)) ** (1 / 3)
+    return load
 
 
 def _deep_groove() -> Iterator[RollingBearing]:

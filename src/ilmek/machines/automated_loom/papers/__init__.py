@@ -4,6 +4,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
+from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
@@ -11,5 +12,5 @@ from ilmek.report import Papers, Report
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    pages = maintenance(loom, report), commissioning(loom, report)
+    pages = commissioning(loom, report), electrical(loom, report), maintenance(loom, report)
     return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))
