@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from small_programme import small_programme
 
 from ilmek.elements.hexagon_screws import SCREWS
+from ilmek.elements.materials import MATERIALS
 from ilmek.elements.plates import link_plate
 from ilmek.io.plc.io_list import io_rows
 from ilmek.io.plc.project import plc_project
@@ -26,7 +27,12 @@ from ilmek.jobs.workshop_papers import papers_of, write_papers
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.part.part import Part
 from ilmek.part.part_lists import SAW, bars_for
+from ilmek.part.placement import placement
+from ilmek.part.poses import moments_at_rest
+from ilmek.part.shapes import box
+from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.report import Papers, Report, must
 from ilmek.sentences import in_language, translated
 
@@ -195,6 +201,40 @@ def test_motors_are_fused_and_wired_by_their_current() -> None:
     watts = {row[1]: (float(row[2]), float(row[3])) for row in rows_of("electrical", 1)}
     connected = math.fsum(number * power for number, power in watts.values()) / 0.75
     assert float(str(rows_of("electrical", 0)[1][1]).split()[0]) >= 0.99 * connected / 1e3
+
+
+def test_energies_and_masses_are_those_of_the_design() -> None:
+    report: Any = default_report("automated-loom")
+    stored = {str(row[0]): float(row[1]) for row in rows_of("risks", 1)}
+    squared = report["weft.moving_mass"] * report["weft.speed_max"] ** 2
+    assert stored["moving carrier of the weft"] == pytest.approx(squared / 2)
+    springs = 8 * (1120.2 / 2) * (1120.2 / 12897.7)  # eight springs of 12.9 N/mm, each at 1120 N
+    assert stored["springs of the tension compensator"] == pytest.approx(springs, rel=1e-3)
+    row_time = report["shedding.turn_time"]
+    assert stored["turning shedding cams"] == pytest.approx(
+        report["shedding.inertia"] / 2 * (2 * math.pi / row_time) ** 2, rel=1e-6
+    )
+    transport = {str(row[0]): str(row[1]) for row in rows_of("risks", 3)}
+    assert float(transport["mass of the whole loom"].split()[0]) == pytest.approx(report["mass"], rel=1e-3)
+    lifted = float(transport["mass that is lifted"].split()[0])
+    assert lifted < report["mass"]
+    sling = float(transport["force of a sling"].split()[0])
+    assert 2 * sling * math.cos(math.radians(30)) == pytest.approx(lifted * 9.80665e-3, rel=0.01)
+    moving = {str(row[0]): row for row in rows_of("risks", 0)}
+    assert float(moving["weaver: head"][1]) == pytest.approx(report["weaver.mass"], rel=0.02)
+    assert {row[-1] for row in moving.values()} == {"no"}
+
+
+def test_the_mass_centre_of_turned_and_repeated_bodies() -> None:
+    block = Part("a/block", "block", "steel bar", shape=box(0.1, 0.1, 0.2), material=MATERIALS["structural steel"])
+    upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)  # its z points up
+    stand = RigidBody("a/stand", (Occurrence(block),), positions=(upright,))
+    arm = RigidBody("a/arm", (Occurrence(block),), "a/stand", positions=(placement(x=0.3), placement(x=0.6)))
+    tree = Tree((stand, arm))
+    whole = moments_at_rest(tree)
+    assert whole.zeroth == pytest.approx(3 * block.mass)
+    assert whole.centre.tolist() == pytest.approx([0.3, 0.1, 0.0])
+    assert moments_at_rest(tree, frozenset(("a/stand",))).centre.tolist() == pytest.approx([0.45, 0.1, 0.0])
 
 
 def test_pages_are_in_two_languages(tmp_path: Path) -> None:

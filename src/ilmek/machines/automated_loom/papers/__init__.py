@@ -6,11 +6,12 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
+from ilmek.machines.automated_loom.papers.risks import risks
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    pages = commissioning(loom, report), electrical(loom, report), maintenance(loom, report)
+    pages = commissioning(loom, report), electrical(loom, report), maintenance(loom, report), risks(loom, report)
     return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))

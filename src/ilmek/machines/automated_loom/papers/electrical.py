@@ -98,19 +98,19 @@ def _supply(report: Report, circuits: tuple[MotorCircuit, ...]) -> PaperSection:
     current = load / (math.sqrt(3) * MAINS)
     fuse = fuse_for(current)
     section = section_for(fuse)
-    rows = (
+    rows = [
         (Sentence("electric.mains"), f"3 x {MAINS:g} V, N, PE"),
         (Sentence("electric.connected"), f"{load / 1e3:.3g} kVA"),
         (Sentence("electric.mean"), format_quantity(value_of(report, "power_mean"), "W", 3)),
         (Sentence("electric.main-current"), f"{current:.3g} A"),
         (Sentence("electric.main-fuse"), f"3 x {fuse:g} A gG"),
         (Sentence("electric.main-wire"), f"5 x {section:g} mm² Cu, PE {protective_section(section):g} mm²"),
-    )
+    ]
     if math.isnan(section):  # more than one cable
-        rows = rows[:-2]
+        del rows[-2:]
     title = Sentence("electric.supply")
     heads = Column(Sentence("electric.what")), Column(Sentence("electric.value"))
-    return PaperSection(title, (Sentence("electric.supply-how"),), Table("supply", title, heads, rows))
+    return PaperSection(title, (Sentence("electric.supply-how"),), Table("supply", title, heads, tuple(rows)))
 
 
 def _motors(circuits: tuple[MotorCircuit, ...]) -> PaperSection:
