@@ -4,12 +4,13 @@ Titles, headings and paragraphs are sentences of the catalogue, so that a paper 
 """
 
 from ilmek.records import record
+from ilmek.report.figure import Drawing
 from ilmek.report.table import Table
 
 
 @record
 class PaperSection:
-    """A section of a paper: paragraphs, then a table.
+    """A section of a paper: paragraphs, a picture, a table.
 
     boxes    each row of the table has a box to tick, and a field for what was measured
     """
@@ -18,6 +19,7 @@ class PaperSection:
     paragraphs: tuple[str, ...] = ()
     table: Table | None = None
     boxes: bool = False
+    figure: Drawing | None = None
 
 
 @record

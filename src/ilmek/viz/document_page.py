@@ -3,9 +3,12 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from ilmek.report import Check, IndexEntry, Paper, Table
+from markupsafe import Markup
+
+from ilmek.report import Check, Drawing, IndexEntry, Paper, Table
 from ilmek.sentences import DEFAULT, LANGUAGES, in_language, translated
 from ilmek.viz.page import render
+from ilmek.viz.svg import svg
 
 INDEX_PAGE = "index"
 """Name of the index."""
@@ -32,6 +35,7 @@ def document_page(paper: Paper, machine: str, language: str, *, released: bool) 
                 "paragraphs": [translated(text) for text in section.paragraphs],
                 "table": None if section.table is None else _translated(section.table),
                 "boxes": section.boxes,
+                "figure": None if section.figure is None else Markup(_drawn(section.figure)),
             }
             for section in paper.sections
         ]
@@ -72,6 +76,10 @@ def _spoken(name: str, language: str) -> dict[str, object]:
     """What all pages of a name know of their languages."""
     others = {other: page_file(name, other) for other in LANGUAGES if other != language}
     return {"language": language, "others": others}
+
+
+def _drawn(figure: Drawing) -> str:
+    return svg(replace(figure, title=translated(figure.title)))
 
 
 def _translated(table: Table) -> Table:

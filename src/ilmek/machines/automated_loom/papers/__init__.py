@@ -3,6 +3,7 @@
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
@@ -13,5 +14,11 @@ from ilmek.report import Papers, Report
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    pages = commissioning(loom, report), electrical(loom, report), maintenance(loom, report), risks(loom, report)
+    pages = (
+        assembly_manual(loom),
+        commissioning(loom, report),
+        electrical(loom, report),
+        maintenance(loom, report),
+        risks(loom, report),
+    )
     return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))
