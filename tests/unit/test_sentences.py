@@ -39,7 +39,7 @@ def test_every_language_has_every_sentence(language: str) -> None:
 def test_every_sentence_is_said_somewhere() -> None:
     used = {
         key
-        for file in SOURCES.rglob("*.py")
+        for file in (*SOURCES.rglob("*.py"), *SOURCES.rglob("*.j2"))
         if file.parent.name != "sentences" or file.name == "__init__.py"
         for key in re.findall(r'"([a-z]+\.[a-z-]+|at|joined)"', file.read_text(encoding="utf-8"))
     }

@@ -2,10 +2,18 @@
 
     F_p = 0.7 f_ub A_s,    F_s = mu (n F_p - 0.8 sum F_t) / gamma                [EN 1993-1-8, 3.9; ISO 898-1, ISO 4017]
 
+    s_red = F / A_s sqrt(1 + 3 (3 d_2 / (2 d_s) tan)²) = 0.9 R_p0.2,    tan = P / (pi d_2) + 1.155 mu_t
+    M = F (0.16 P + 0.58 d_2 mu_t + D_k mu_t / 2)                                    [VDI 2230-1, 5.4.3 and 5.5.2]
+
+A screw that is tightened by a torque M is twisted too, so that its preload F is lower than F_p; mu_t is the friction of
+thread and head, 0.12 oiled, d_s the diameter of A_s, D_k the mean one of the head's ring, 0.92 of its width, on a hole
+of 1.1 d.
+
 A screw that is preloaded presses the joined faces; their friction mu, 0.2 of faces as rolled [table 3.7, class D],
 holds the force across it, n screws with the pulls F_t along them, gamma 1.25.
 """
 
+import math
 from dataclasses import dataclass
 
 from ilmek.units import MPa, mm
@@ -13,7 +21,13 @@ from ilmek.units import MPa, mm
 TENSILE = 800 * MPa
 """f_ub of the class 8.8 [Pa]."""
 
+YIELD, USED = 640 * MPa, 0.9
+"""R_p0.2 of the class 8.8 [Pa], and the share of it to which a screw is tightened."""
+
 FRICTION, PARTIAL = 0.2, 1.25
+
+OILED = 0.12
+"""Friction of thread and head of an oiled screw [VDI 2230-1, table A5, class B]."""
 
 EDGE = 1.2
 """Least distance of a screw's axis from an edge over its diameter [EN 1993-1-8, table 3.3]."""
@@ -40,6 +54,41 @@ class HexagonScrew:
         47208
         """
         return 0.7 * TENSILE * self.area
+
+    @property
+    def pitch(self) -> float:
+        """Pitch of its thread [m], from its stress area: d_s = d - 0.9382 P [ISO 898-1].
+
+        >>> round(SCREWS["M12"].pitch, 5)
+        0.00175
+        """
+        return (self.diameter - math.sqrt(4 * self.area / math.pi)) / 0.9382
+
+    @property
+    def tightened(self) -> float:
+        """Preload F by the tightening torque [N]; VDI 2230-1, table A1: 29.6 kN of M10.
+
+        >>> round(SCREWS["M10"].tightened, -2)
+        29600.0
+        """
+        stressed, flank = math.sqrt(4 * self.area / math.pi), self._flank
+        slope = self.pitch / (math.pi * flank) + 1.155 * OILED
+        return USED * YIELD * self.area / math.sqrt(1 + 3 * (1.5 * flank / stressed * slope) ** 2)
+
+    @property
+    def torque(self) -> float:
+        """Tightening torque M [N m]; VDI 2230-1, table A1: 48 N m of M10, by the head's ring of that size.
+
+        >>> round(SCREWS["M10"].torque, 1)
+        48.6
+        """
+        ring = (0.92 * self.across + 1.1 * self.diameter) / 2
+        return self.tightened * (0.16 * self.pitch + (0.58 * self._flank + ring / 2) * OILED)
+
+    @property
+    def _flank(self) -> float:
+        """d_2 [m]."""
+        return self.diameter - 0.6495 * self.pitch
 
     def slip(self, number: int, pull: float = 0.0) -> float:
         """Force across that a number of screws hold by friction [N], with the sum of pulls along them [N].
@@ -75,6 +124,16 @@ SCREWS = {
     )
 }
 """By thread, ascending: stress areas of ISO 898-1, table 4, heads of ISO 4017."""
+
+
+def screw_of(designation: str) -> HexagonScrew | None:
+    """The screw of a designation as ordered; None for that of anything else.
+
+    >>> screw_of("ISO 4017 - M12 x 40 - 8.8") is SCREWS["M12"], screw_of("DIN 6885-1 B 5 x 5 x 8")
+    (True, None)
+    """
+    thread = designation.removeprefix("ISO 4017 - ").partition(" x ")[0]
+    return SCREWS.get(thread)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,8 @@ from ilmek.arrays import FloatArray
 from ilmek.errors import IlmekError
 from ilmek.io.csv_cells import csv_rows
 from ilmek.progress import SILENT, Progress
+from ilmek.report import Column, Table
+from ilmek.units import format_number, from_si
 
 MOST_NUMBERS = 2_000_000
 """Largest number of numbers of a table; its text has 40 MB as CSV and 90 MB as JSON."""
@@ -32,6 +34,26 @@ def csv_text(columns: Mapping[str, FloatArray], progress: Progress = SILENT) -> 
         parts += [f"{','.join(row)}\n" for row in zip(*block, strict=True)]
         progress(min(1.0, (start + ROWS) / rows))
     return "".join(parts)
+
+
+def rows_csv(table: Table) -> str:
+    """A table of a report as CSV, its numbers in the units of its headings; one that is not finite is an empty cell.
+
+    >>> from ilmek.report import columns
+    >>> print(rows_csv(Table("cut", "Cut", columns("part | length [mm]"), (("rail", 1.5), ("post", math.nan)))), end="")
+    part,length [mm]
+    rail,1500
+    post,
+    """
+    heads = [f"{column.heading} [{column.unit}]" if column.unit else column.heading for column in table.columns]
+    rows = ([_written(value, column) for value, column in zip(row, table.columns, strict=True)] for row in table.rows)
+    return csv_rows((heads, *rows))
+
+
+def _written(value: float | int | str, column: Column) -> str | int:
+    if not isinstance(value, float):
+        return str(value) if isinstance(value, str) else value
+    return format_number(from_si(value, column.unit), max(column.digits, 6)) if math.isfinite(value) else ""
 
 
 def check_size(rows: int, columns: int, option: str, error: type[IlmekError]) -> None:

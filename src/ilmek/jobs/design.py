@@ -13,12 +13,13 @@ from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
 from ilmek.machines.catalogue import MACHINES, find_machine
 from ilmek.params import Params, Setting
 from ilmek.progress import SILENT, Progress
-from ilmek.report import Json, Report
+from ilmek.report import Json, Papers, Report
 
 if TYPE_CHECKING:
     from ilmek.dynamics.own_machine import OwnMachine
     from ilmek.jobs.workshop import Workshop
     from ilmek.machines.automated_loom.design import LoomDesign
+    from ilmek.machines.component import AnyComponent
     from ilmek.part.tree import Tree
 
 
@@ -118,9 +119,18 @@ def design_machine(
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
         loom = designed if machine.name == LOOM else None
-        files = write(report, progress=files_progress) if write is not None and made_of_links else None
+        files = None
+        if write is not None and made_of_links:
+            files = write(report, _papers(machine, designed, report), progress=files_progress)
         tree = None if machine.tree is None else machine.tree(designed)
         return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
+
+
+def _papers(machine: "AnyComponent", design: object, report: Report) -> Papers:
+    """The papers of a design; the lists of parts are imported only for them."""
+    from ilmek.jobs.workshop_papers import papers_of
+
+    return papers_of(machine, design, report)
 
 
 def _with_nearest(report: Report, params: Params, progress: Progress) -> Report:

@@ -18,11 +18,12 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
 from ilmek.jobs.drawings import write_drawings
+from ilmek.jobs.workshop_papers import PAPER_KINDS, write_index, write_papers
 from ilmek.part.plates import tolerated
 from ilmek.plane.contours import area
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
-from ilmek.report import CamTable, Check, Json, Plate, Report, WorkPiece, at_most
+from ilmek.report import NO_PAPERS, CamTable, Check, Json, Papers, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
 from ilmek.units import counted, deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
@@ -84,9 +85,12 @@ class Workshop:
     def summary(self) -> str:
         """The numbers of files by kind, in one line."""
         kinds = [entry["kind"] for entry in self.entries]
-        tables = sum(kind in FORMATS for kind in kinds)
         drawn = [f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds]
-        more = {"cam table": tables, "sheet": kinds.count("sheet")}
+        more = {
+            "cam table": sum(kind in FORMATS for kind in kinds),
+            "sheet": kinds.count("sheet"),
+            "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
+        }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
         return f"{self.folder}: {parts}; errors in {INDEX}"
 
@@ -153,11 +157,12 @@ def write_workshop(
     folder: Path,
     tolerance: Tolerance | None = None,
     *,
+    papers: Papers = NO_PAPERS,
     outputs: Outputs | None = None,
     force: bool = False,
     progress: Progress = SILENT,
 ) -> Workshop:
-    """Write the report's plates, pieces, drawings and cam tables into a folder, with an index.
+    """Write the report's plates, pieces, drawings and cam tables into a folder, with papers and an index.
 
     tolerance  of the cam tables; default: see `SHARE`
     outputs    of the caller, who commits them; default: committed here
@@ -181,6 +186,9 @@ def write_workshop(
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
         files += write_drawings(report, cut, pieces, work, left_out, progress.part(0.5, 1.0, "drawings"))
+        judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
+        files += write_papers(papers, judged, work)
+        files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files), tuple(left_out))
 

@@ -1,12 +1,12 @@
 """An order of workshop files, without the libraries that write them."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from ilmek.io.output import Outputs
+from ilmek.progress import SILENT, Progress
+from ilmek.report import NO_PAPERS, Papers, Report
 
 if TYPE_CHECKING:
     from ilmek.jobs.workshop import Workshop
@@ -23,8 +23,16 @@ class WorkshopOrder:
     tolerance: str | None = None
 
 
-def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> "Callable[..., Workshop] | None":
-    """Writes the workshop files of a report; None where none are ordered. Their libraries are imported only here.
+class WorkshopWriter(Protocol):
+    """Writes the workshop files of a report, and papers."""
+
+    def __call__(self, report: Report, papers: Papers = NO_PAPERS, *, progress: Progress = SILENT) -> "Workshop":
+        """The files that were written. Raises as `write_workshop`."""
+
+
+def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> WorkshopWriter | None:
+    """Writes the workshop files of a report, and its papers; None where none are ordered. Their libraries are imported
+    only here.
 
     Raises OutputError for a folder that cannot be written, ParameterError for a tolerance that cannot be read.
     """
@@ -34,4 +42,9 @@ def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> "Callable[
     from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 
     tolerance = Tolerance() if order.tolerance is None else read_tolerance(order.tolerance)
-    return partial(write_workshop, folder=order.folder, outputs=outputs, tolerance=tolerance)
+    folder = order.folder
+
+    def write(report: Report, papers: Papers = NO_PAPERS, *, progress: Progress = SILENT) -> "Workshop":
+        return write_workshop(report, folder, tolerance, papers=papers, outputs=outputs, progress=progress)
+
+    return write

@@ -34,6 +34,7 @@ from ilmek.report import (
     Check,
     Choice,
     Figure,
+    Papers,
     Plate,
     Report,
     Table,
@@ -100,6 +101,7 @@ class Component(Generic[P, D, A]):
     own_tree    design -> the bodies of it that are in none of its children; default: all
     plates, pieces, cam_tables, cyclograms   design -> what is made of it, what its axes follow, its timing
     mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
+    papers      design, report -> its papers; default: the lists of its parts
     parts       design -> lines of the parts list                work     design -> work of its acts
     tracks      design -> its tracks on the loom's cyclogram of a row
     choices     design -> what it chose of what was left open, and which check decided
@@ -134,6 +136,7 @@ class Component(Generic[P, D, A]):
     cam_tables: Callable[[D], tuple[CamTable, ...]] = _nothing
     cyclograms: Callable[[D], tuple[Cyclogram, ...]] | None = None
     mechanism: Callable[[D], OwnMachine | None] | None = None
+    papers: Callable[[D, Report], Papers] | None = None
     parts: Callable[[D], tuple[BillLine, ...]] = _nothing
     work: Callable[[D], tuple[Work, ...]] = _nothing
     tracks: Callable[[D], tuple[Track, ...]] = _nothing

@@ -23,6 +23,9 @@ from ilmek.units import mm
 TOUCHING = 0.1 * mm
 """Distance within which parts touch [m]."""
 
+AROUND = 1 * mm
+"""Greatest gap between a key and the room about it [m]; assumed by this project."""
+
 
 @record
 class TouchingParts:
@@ -74,6 +77,37 @@ def contacts(tree: Tree, gap: float = TOUCHING) -> Contacts:
     pairs = _near(_boxes(pieces), gap)
     touch, depth, volume = _measured(pieces, pairs, gap)
     return Contacts(_groups(pieces, pairs[touch]), _through(pieces, pairs, depth, volume))
+
+
+def joined_by(tree: Tree, names: frozenset[str]) -> dict[str, tuple[str, ...]]:
+    """By the id of each of some fasteners the ids of the parts that its pieces join, in the tree's order.
+
+    They are those that it touches and that move with it; and what stands round the middle of it, such as the room of a
+    reducer round the key in its hollow shaft.
+    """
+    pieces = tuple(_pieces(tree))
+    boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
+    found: dict[str, set[str]] = {name: set() for name in names}
+    for pair in _near(boxes, AROUND).tolist() if pieces else ():
+        for first, other in (pair, pair[::-1]):
+            fastener, part = pieces[first], pieces[other]
+            if fastener.part not in names or part.part in found[fastener.part] | names:
+                continue
+            middle, (low, high) = boxes[first].mean(0), boxes[other]
+            alike = fastener.rigid == part.rigid
+            if alike or bool(((low < middle) & (middle < high)).all()):
+                gap = TOUCHING if alike else AROUND
+                if _apart(fastener, part, gap) <= gap:
+                    found[fastener.part].add(part.part)
+    order = {part.id: number for number, (part, _) in enumerate(tree.occurrences())}
+    return {name: tuple(sorted(others, key=order.__getitem__)) for name, others in found.items()}
+
+
+def _apart(own: _Piece, its: _Piece, gap: float) -> float:
+    """The distance of two pieces, as far as it is below a gap [m]."""
+    back = own.position.rotation.T
+    moved = back @ (its.position.origin - own.position.origin)
+    return gap_between(own.collider, its.collider, back @ its.position.rotation, moved, gap)
 
 
 def open_parts(tree: Tree) -> tuple[str, ...]:

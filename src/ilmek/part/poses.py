@@ -19,6 +19,7 @@ from functools import cached_property, lru_cache, partial
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
+from ilmek.part.moments import Moments, together
 from ilmek.part.placement import Placement
 from ilmek.part.tree import GROUND, RigidBody, Tree
 from ilmek.records import record
@@ -114,6 +115,20 @@ def poses(chain: Chain, drive: str, angle: FloatArray) -> Poses:
 
 
 _START = np.zeros(1)
+
+
+def moments_at_rest(tree: Tree, left_out: frozenset[str] = frozenset()) -> Moments:
+    """Moments of the mass of a tree with every drive at angle 0, in its axes (kg, kg m, kg m²).
+
+    left_out  ids of bodies that are not counted; what is not weighed is not counted either
+    """
+    own = {body.id: body.moments for body in tree.bodies}
+    return together(
+        own[chain[-1].name].placed(Placement(here.origin[0], here.rotation[0]))
+        for chain in chains(tree)
+        if chain[-1].name not in left_out
+        for here in [poses(chain, "", _START)]
+    )
 
 
 def _moved(motion: SceneMotion, angle: FloatArray) -> tuple[Float[np.ndarray, "n 3"], FloatArray]:

@@ -33,6 +33,7 @@ from ilmek.report.figure import (
     Timing,
 )
 from ilmek.report.json import Json, plain
+from ilmek.report.paper import NO_PAPERS, IndexEntry, Paper, Papers, PaperSection
 from ilmek.report.results import Result, result_text, results_of
 from ilmek.report.rounding import rounded
 from ilmek.report.table import Column, Table, columns
@@ -43,6 +44,7 @@ __all__ = [
     "BUILDABLE",
     "NEAREST",
     "NOT_WEIGHED",
+    "NO_PAPERS",
     "Alternative",
     "Animation",
     "Axis",
@@ -59,6 +61,7 @@ __all__ = [
     "Gantt",
     "GanttLane",
     "Hole",
+    "IndexEntry",
     "Joints",
     "Json",
     "Lane",
@@ -68,6 +71,9 @@ __all__ = [
     "Move",
     "MovingDot",
     "MovingStroke",
+    "Paper",
+    "PaperSection",
+    "Papers",
     "Plate",
     "Plot",
     "ProcessStep",

@@ -1,5 +1,7 @@
 """The sentences in English."""
 
+from ilmek.sentences.papers_english import PAPERS
+
 ENGLISH = {
     "place.file": "{file}",
     "place.file-line": "{file}, line {line}",
@@ -192,4 +194,5 @@ ENGLISH = {
     "recipe.no-grid": "edits on {on} state no grid",
     "recipe.give-grid": 'give columns x rows, like grid = "300x450"',
     "hint.did-you-mean": "did you mean {name!r}?",
+    **PAPERS,
 }  # fmt: skip

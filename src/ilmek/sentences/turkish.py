@@ -1,5 +1,7 @@
 """The sentences in Turkish, as the pages of the studio say them: options have the names that the pages give them."""
 
+from ilmek.sentences.papers_turkish import PAPERS
+
 TURKISH = {
     "place.file": "{file}",
     "place.file-line": "{file}, {line}. satır",
@@ -192,4 +194,5 @@ TURKISH = {
     "recipe.no-grid": "{on} üzerindeki düzenlemeler bir ızgara belirtmiyor",
     "recipe.give-grid": 'sütun x satır verin, örneğin grid = "300x450"',
     "hint.did-you-mean": "{name!r} mi demek istediniz?",
+    **PAPERS,
 }  # fmt: skip

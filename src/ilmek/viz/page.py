@@ -13,6 +13,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined
 import ilmek
 from ilmek.errors import encodable
 from ilmek.report import Report
+from ilmek.sentences import Sentence, translated
 from ilmek.viz.animation import SECONDS
 from ilmek.viz.number_format import amount, beside, cells, compared, count, fixed, number, quantity, words
 from ilmek.viz.sections import PageVerdict, failures_first, judged, section, shown_first
@@ -62,6 +63,11 @@ def render(template: str, **values: object) -> str:
     return encodable(_environment().get_template(template).render(version=ilmek.__version__, **values))
 
 
+def sentence(key: str, **values: object) -> str:
+    """A sentence of the catalogue in the language that is spoken."""
+    return translated(Sentence(key, **values))
+
+
 @lru_cache(maxsize=1)
 def _environment() -> Environment:
     """The template engine: all texts are escaped, a missing name is an error."""
@@ -87,5 +93,5 @@ def _environment() -> Environment:
         "with_unit": with_unit,
     }
     environment.filters.update(filters)
-    environment.globals.update(seconds=SECONDS, first_checks=FIRST_CHECKS, tests_title=TESTS)
+    environment.globals.update(seconds=SECONDS, first_checks=FIRST_CHECKS, tests_title=TESTS, sentence=sentence)
     return environment

@@ -22,6 +22,7 @@ from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.frame_modes import FrameModes
 from ilmek.machines.automated_loom.off_loom import OffLoom
+from ilmek.machines.automated_loom.papers import papers
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import PartsList, own_tree, parts_of_loom
 from ilmek.machines.automated_loom.report import (
@@ -101,6 +102,7 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     warnings=warnings,
     cam_tables=cam_tables,
     cyclograms=cyclograms,
+    papers=papers,
     parts=lambda loom: whole_list(loom).parts,
     plates=lambda loom: tuple(plate for tree in (own_tree(loom), *equipment_trees(loom)) for plate in plates_of(tree)),
     pieces=lambda loom: tuple(piece for tree in (own_tree(loom), *equipment_trees(loom)) for piece in pieces_of(tree)),

@@ -53,16 +53,25 @@ def case_plates(weaver: Weaver) -> tuple[str, ...]:
 
 
 def bearing_of(weaver: Weaver) -> RollingBearing | None:
-    """The lightest deep-groove bearing that fits on the cam shaft and lasts under all forces of the cams; None: none.
-
-    Each bearing is taken to bear the sum of the forces, by its cubic mean over the turn.      [ISO 281]
-    """
-    angle = np.linspace(0.0, turn, SAMPLES, endpoint=False)
-    force = sum(np.interp(angle, cam.angle, cam.contact, period=turn) for cam in weaver.cams)
-    load = float(np.mean(force**3)) ** (1 / 3)
+    """The lightest deep-groove bearing that fits on the cam shaft and lasts under all forces of the cams, if any."""
+    load = _bearing_load(weaver)
     bore = max((row.bore for row in _deep_groove() if row.bore <= weaver.params.shaft * (1 + 1e-9)), default=0.0)
     enough = (row for row in _deep_groove() if row.bore == bore and life(row.dynamic, load, row.kind) >= BEARING_LIFE)
     return min(enough, key=lambda row: row.mass, default=None)
+
+
+def bearing_life(weaver: Weaver) -> tuple[RollingBearing | None, float]:
+    """That bearing and its life in turns of the cam shaft; 0 without one."""
+    row = bearing_of(weaver)
+    return row, 0.0 if row is None else life(row.dynamic, _bearing_load(weaver), row.kind)
+
+
+def _bearing_load(weaver: Weaver) -> float:
+    """Each bearing is taken to bear the sum of the cams' forces, by its cubic mean over the turn [N].     [ISO 281]"""
+    angle = np.linspace(0.0, turn, SAMPLES, endpoint=False)
+    force = sum(np.interp(angle, cam.angle, cam.contact, period=turn) for cam in weaver.cams)
+    load: float = float(np.mean(force**3)) ** (1 / 3)
+    return load
 
 
 def _deep_groove() -> Iterator[RollingBearing]:

@@ -82,11 +82,23 @@ PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieFault", "TieStart", "TieCol
 """Signals of which each head has its own."""
 
 
+def signals_of(heads: int, weavers: int = 0) -> tuple[tuple[str, tuple[str, ...]], ...]:
+    """The signals of a loom with a number of heads, or for a number of weavers, each with the ids of its parts."""
+    if not weavers:
+        return tuple(
+            (f"{name}[{index}]" if name in PER_HEAD else name, parts)
+            for name, parts in SIGNALS.items()
+            for index in range(heads if name in PER_HEAD else 1)
+        )
+    hands, grid = OF_WEAVERS
+    alike = ((name, parts) for name, parts in SIGNALS.items() if name not in PER_HEAD and name not in OF_HEADS)
+    return (*alike, *((f"{hands}[{index}]", (HANDS, RELAY)) for index in range(weavers)), (grid, (GRID, RELAY)))
+
+
 def signal_count(heads: int, weavers: int = 0) -> int:
-    """Number of signals of a loom with a number of heads, or for a number of weavers.
+    """Number of those signals.
 
     >>> signal_count(1), signal_count(3), signal_count(0, 2)
     (19, 31, 14)
     """
-    of_heads = len(SIGNALS) + (heads - 1) * len(PER_HEAD)
-    return of_heads - len(OF_HEADS) + weavers + len(OF_WEAVERS) - 1 if weavers else of_heads
+    return len(signals_of(heads, weavers))

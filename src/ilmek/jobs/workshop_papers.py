@@ -1,0 +1,74 @@
+"""Write the papers of a machine into its folder: pages in each language, lists as CSV, and the index of all files."""
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from ilmek.elements.prices import PRICES
+from ilmek.io.table_csv import rows_csv
+from ilmek.machines.component import AnyComponent
+from ilmek.part.part_lists import part_lists
+from ilmek.records import JsonObject
+from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
+from ilmek.sentences import LANGUAGES, Sentence
+from ilmek.viz.document_page import INDEX_PAGE, document_page, index_page, page_file
+
+PAPER_KINDS = ("page", "list")
+"""Kinds of entries of papers: a page for people in a language, a list as CSV."""
+
+
+def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
+    """The papers of a design of a machine with its report; none of a machine without parts."""
+    if machine.papers is not None:
+        return machine.papers(design, report)
+    return NO_PAPERS if machine.tree is None else Papers(lists=part_lists(machine.tree(design), PRICES))
+
+
+def write_papers(papers: Papers, report: Report, work: Path) -> Iterator[JsonObject]:
+    """Write the pages and lists; an entry for each file."""
+    for paper in papers.pages:
+        for language in LANGUAGES:
+            file = page_file(paper.name, language)
+            text = document_page(paper, report.title, language, released=not report.failed)
+            (work / file).write_text(text, encoding="utf-8")
+            yield _entry(report, file, "page", paper.title) | {"language": language}
+    for table in papers.lists:
+        file = f"{table.name}.csv"
+        (work / file).write_text(rows_csv(table), encoding="utf-8")
+        yield _entry(report, file, "list", table.title) | {"rows": len(table.rows)}
+
+
+def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], work: Path) -> Iterator[JsonObject]:
+    """Write the index in each language, which links all files of the entries; an entry for each of its own."""
+    files = [entry for entry in entries if entry["kind"] not in PAPER_KINDS]
+    for language in LANGUAGES:
+        groups: dict[str, list[IndexEntry]] = {
+            Sentence("paper.pages"): [
+                IndexEntry(paper.title, page_file(paper.name, language), paper.lead) for paper in papers.pages
+            ],
+            Sentence("paper.lists"): [
+                IndexEntry(table.title, f"{table.name}.csv", Sentence("paper.rows", count=len(table.rows)))
+                for table in papers.lists
+            ],
+            Sentence("paper.drawings"): [_drawing(entry) for entry in files if entry["kind"] in ("drawings", "sheet")],
+            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
+            Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
+        }
+        text = index_page(report.title, groups, report.reasons, language)
+        file = page_file(INDEX_PAGE, language)
+        (work / file).write_text(text, encoding="utf-8")
+        yield _entry(report, file, INDEX_PAGE, Sentence("paper.index")) | {"language": language}
+
+
+def _file(entry: JsonObject) -> IndexEntry:
+    what = entry["format"] if "format" in entry else f"{entry['kind'].upper()}, {entry['material']}, {entry['number']}×"
+    return IndexEntry(entry["title"], entry["file"], what)
+
+
+def _drawing(entry: JsonObject) -> IndexEntry:
+    what = f"PDF, {entry['sheets']}×" if "sheets" in entry else f"{entry['paper']}, {entry['scale']}"
+    return IndexEntry(entry["title"], entry["file"], what)
+
+
+def _entry(report: Report, file: str, kind: str, title: str) -> JsonObject:
+    return {"file": file, "kind": kind, "of": report.machine, "title": str(title)}

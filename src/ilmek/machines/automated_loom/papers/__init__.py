@@ -1,0 +1,24 @@
+"""The papers of a loom: lists of its parts, and what its maker, its fitter, its weaver and its inspector must know."""
+
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.tree import whole_list
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
+from ilmek.machines.automated_loom.papers.commissioning import commissioning
+from ilmek.machines.automated_loom.papers.electrical import electrical
+from ilmek.machines.automated_loom.papers.maintenance import maintenance
+from ilmek.machines.automated_loom.papers.risks import risks
+from ilmek.part.part_lists import part_lists
+from ilmek.report import Papers, Report
+
+
+def papers(loom: LoomDesign, report: Report) -> Papers:
+    """The papers of a loom with its report."""
+    pages = (
+        assembly_manual(loom),
+        commissioning(loom, report),
+        electrical(loom, report),
+        maintenance(loom, report),
+        risks(loom, report),
+    )
+    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))

@@ -1,0 +1,224 @@
+"""The commissioning list of a loom: what is measured before it weaves, with the values that its design expects.
+
+f = sqrt(T / m') / 2 l      of a free span of a belt of the length l that is plucked, at the tension T, m' its mass
+                            over its length                                        [string; makers of toothed belts]
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ilmek.arrays import Float
+from ilmek.elements.belts import BeltDrive
+from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.signals import GRID, HANDS, INTERLOCK, STOP
+from ilmek.machines.automated_loom.equipment.stopping import stopping_time
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.values import check_of, known, value_of
+from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
+from ilmek.machines.weaver.carriage_belt import BELT, CLAMP
+from ilmek.machines.weaver.drive_parts import CAM_BELT
+from ilmek.machines.weaver.tree import drive_of
+from ilmek.part.placement import IDENTITY
+from ilmek.part.space import rotations
+from ilmek.part.tree import RigidBody
+from ilmek.report import Column, Paper, PaperSection, Report, Table
+from ilmek.sentences import Sentence
+from ilmek.timing.cyclogram import Cyclogram
+from ilmek.units import format_quantity, in_mm
+
+Rows = Iterator[tuple[str, str, str]]
+"""Settings: what is measured, the value expected, and where it is from."""
+
+_SLANTED = 0.3
+"""Component of a unit vector from which a direction names it."""
+
+
+def plucked(tension: float, mass: float, length: float) -> float:
+    """Frequency of a free span [Hz] of a length [m] at a tension [N], mass over its length [kg/m].
+
+    >>> plucked(100.0, 0.04, 0.5)
+    50.0
+    """
+    return math.sqrt(tension / mass) / (2 * length)
+
+
+def commissioning(loom: LoomDesign, report: Report) -> Paper:
+    """The settings, the belts, the directions of the axes, the angles of both cyclograms, the safety circuit."""
+    heads = Column(Sentence("setting.what")), Column(Sentence("setting.expected")), Column(Sentence("setting.source"))
+
+    def ticked(name: str, title: str, rows: Rows, text: str = "") -> PaperSection:
+        return PaperSection(title, (text,) if text else (), Table(name, title, heads, tuple(rows)), boxes=True)
+
+    knot, row = loom.cyclograms
+    return Paper(
+        "commissioning",
+        Sentence("setting.title"),
+        Sentence("setting.lead"),
+        (
+            ticked("stand", Sentence("setting.stand"), _stand(report)),
+            ticked("warp", Sentence("setting.warp"), _warp(report)),
+            ticked("tools", Sentence("setting.tools"), _tools(loom, report)),
+            *(
+                [ticked("belts", Sentence("setting.belts"), belts(loom), Sentence("setting.plucked"))]
+                if loom.heads
+                else []
+            ),
+            _axes(loom),
+            _angles(row, Sentence("setting.row", period=format_quantity(row.period, "s"))),
+            _angles(knot, Sentence("setting.knot", period=format_quantity(knot.period, "s"))),
+            ticked("safety", Sentence("setting.safety"), _safety(loom)),
+        ),
+    )
+
+
+def _stand(report: Report) -> Rows:
+    yield Sentence("setting.level"), "0.1 mm/m", Sentence("setting.assumed")
+    yield Sentence("setting.foot"), f"≤ {format_quantity(value_of(report, 'foot_load'), 'N')}", "foot_load"
+    yield Sentence("setting.fell"), in_mm(value_of(report, "fell_height")), "fell_height"
+    sag = check_of(report, "frame: sag of the heads' rail")
+    if sag is not None:
+        yield Sentence("setting.rail"), f"≤ {in_mm(sag.limit)}", Sentence("setting.of-check", name=sag.name)
+
+
+def _warp(report: Report) -> Rows:
+    tension, warps = value_of(report, "tension"), value_of(report, "warps")
+    yield Sentence("setting.tension"), format_quantity(tension, "N"), "tension"
+    yield Sentence("setting.pull"), format_quantity(tension * warps, "N"), f"{warps} × tension"
+    strain = check_of(report, "warp tension: strain of the back rest's beam")
+    if strain is not None:
+        expected = f"{strain.value * 1e6:.4g} µm/m"
+        yield Sentence("setting.strain"), expected, Sentence("setting.of-check", name=strain.name)
+    yield Sentence("setting.shed"), in_mm(value_of(report, "shedding.shed_opening")), "shedding.shed_opening"
+    room = check_of(report, f"{known(report, 'weft.carrier')}: room in the shed")
+    if room is not None:
+        yield Sentence("setting.room"), f"≥ {in_mm(room.limit)}", Sentence("setting.of-check", name=room.name)
+    lifted = known(report, "warp_tension.tension_lifted")
+    yield Sentence("setting.lifted"), f"≤ {format_quantity(lifted, 'N')}", "warp_tension.tension_lifted"
+
+
+def _tools(loom: LoomDesign, report: Report) -> Rows:
+    yield Sentence("setting.beat-stroke"), in_mm(value_of(report, "beat_stroke")), "beat_stroke"
+    yield Sentence("setting.row-pitch"), in_mm(value_of(report, "row_pitch_left")), "row_pitch_left"
+    yield Sentence("setting.weft-height"), in_mm(value_of(report, "weft_height")), "weft_height"
+    if not loom.heads:
+        return
+    yield Sentence("setting.retreat"), in_mm(value_of(report, "head_retreat")), "head_retreat"
+    yield Sentence("setting.pair"), in_mm(value_of(report, "weaver.pair_opened")), "weaver.pair_opened"
+    yield Sentence("setting.gripper"), in_mm(value_of(report, "weaver.gripper_clearance")), "weaver.gripper_clearance"
+    yield Sentence("setting.behind"), in_mm(value_of(report, "weaver.centre_depth")), "weaver.centre_depth"
+    points = check_of(report, "weaver: opener: points between two warps")
+    if points is not None:
+        yield Sentence("setting.points"), f"≤ {in_mm(points.limit)}", Sentence("setting.of-check", name=points.name)
+    yield Sentence("setting.yarn"), f"≤ {format_quantity(value_of(report, 'yarn_tension'), 'N')}", "yarn_tension"
+    yield Sentence("setting.brake"), format_quantity(value_of(report, "yarn_brake"), "N"), "yarn_brake"
+
+
+def belts(loom: LoomDesign) -> Rows:
+    """The belts of the heads: their tension at rest, and the frequency of a span by which it is measured."""
+    head, heads = loom.weaver, loom.heads
+    drive = drive_of(head)
+    tension, span = drive.force * (heads + 1) / 2, head.belt_length - 2 * CLAMP - heads * loom.head_width
+    hertz = plucked(tension, BELT.belt.mass * drive.width, span)
+    title = Sentence("setting.heads-belt", span=in_mm(span), tension=format_quantity(tension, "N", 3))
+    yield title, format_quantity(hertz, "Hz", 3), f"{BELT.belt.name}, {in_mm(drive.width)}"
+    part = next(part for part, _ in loom_tree(loom).occurrences() if part.id == CAM_BELT)
+    assert part.purchase is not None
+    teeth = round(part.purchase.length / PROFILE.pitch)
+    made = BeltDrive(PROFILE, SMALL, head.belt.large, teeth)
+    free = math.sqrt(made.distance**2 - (made.radii[1] - made.radii[0]) ** 2)
+    rest = head.belt.pull / 2
+    title = Sentence("setting.cam-belt", span=in_mm(free), tension=format_quantity(rest, "N", 3))
+    yield title, format_quantity(plucked(rest, PROFILE.mass * head.belt.width, free), "Hz", 3), part.purchase.row
+
+
+def _axes(loom: LoomDesign) -> PaperSection:
+    """The direction in which each axis that a motor drives goes first, and how far."""
+    tree = loom_tree(loom)
+    world = rotations(tree, IDENTITY)
+    titles = {part.id: part.title for part, _ in tree.occurrences()}
+    rows = [row for body in tree.bodies if body.joint.motor for row in _axis(body, world[body.id], titles)]
+    heads = (
+        Column(Sentence("setting.body")),
+        Column(Sentence("setting.motor")),
+        Column(Sentence("setting.direction")),
+        Column(Sentence("setting.range")),
+    )
+    title = Sentence("setting.axes")
+    return PaperSection(title, (Sentence("setting.axes-how"),), Table("axes", title, heads, tuple(rows)), boxes=True)
+
+
+def _axis(
+    body: RigidBody, rotation: Float[np.ndarray, "3 3"], titles: dict[str, str]
+) -> Iterator[tuple[str, str, str, str]]:
+    motion = body.joint.motion
+    if motion is None:
+        return
+    name, moved = body.id.rpartition("/")[2], motion.shift - motion.shift[0]
+    far = np.linalg.norm(moved, axis=1)
+    turned = motion.rotation - motion.rotation[0]
+    if far.max() > 0:
+        first, travel = moved[int(np.argmax(far))], format_quantity(float(far.max()), "mm")
+        yield name, titles[body.joint.motor], direction(rotation @ first), travel
+    elif np.ptp(turned) > 0:
+        sign = np.sign(turned[int(np.argmax(np.abs(turned)))])
+        axis = direction(rotation @ np.array(body.joint.axis) * sign)
+        yield (
+            name,
+            titles[body.joint.motor],
+            Sentence("setting.about", axis=axis),
+            format_quantity(float(np.ptp(turned)), "deg"),
+        )
+
+
+def direction(vector: Sequence[float] | Float[np.ndarray, " 3"]) -> str:
+    """A direction in words: x to the right, y up, z to the front.
+
+    >>> print(direction((0.0, -1.0, 1.0)))
+    down, to the front
+    """
+    names = (
+        (Sentence("direction.right"), Sentence("direction.left")),
+        (Sentence("direction.up"), Sentence("direction.down")),
+        (Sentence("direction.front"), Sentence("direction.back")),
+    )
+    unit = np.asarray(vector) / np.linalg.norm(vector)
+    words = [
+        pair[0] if own > 0 else pair[1] for pair, own in zip(names, unit.tolist(), strict=True) if abs(own) > _SLANTED
+    ]
+    text = words[0]
+    for word in words[1:]:
+        text = Sentence("direction.both", first=text, second=word)
+    return text
+
+
+def _angles(cyclogram: Cyclogram, title: str) -> PaperSection:
+    """Begin and end of each motion over the turn of the master."""
+    heads = (
+        Column(Sentence("setting.track")),
+        Column(Sentence("setting.motion")),
+        Column(Sentence("setting.begins"), "deg"),
+        Column(Sentence("setting.ends"), "deg"),
+    )
+    rows = tuple(
+        (track.name, segment.name, segment.start, segment.end)
+        for track in cyclogram.tracks
+        for segment in track.segments
+    )
+    return PaperSection(title, (Sentence("setting.angles-how"),), Table("angles", title, heads, rows), boxes=True)
+
+
+def _safety(loom: LoomDesign) -> Rows:
+    stops, numbers = stopping_time(loom), {part.id: number for part, number in loom_tree(loom).occurrences()}
+    for part, title in (
+        (STOP, Sentence("setting.stops")),
+        (INTERLOCK, Sentence("setting.interlocks")),
+        (GRID, Sentence("setting.grid")),
+        (HANDS, Sentence("setting.hands")),
+    ):
+        if part in numbers:
+            yield title, Sentence("setting.each", count=numbers[part]), part
+    for axis in stops.axes:
+        limit = format_quantity(stops.circuit + stops.axes[axis], "s", 3)
+        yield Sentence("setting.stands", axis=axis), f"≤ {limit}", Sentence("setting.circuit")

@@ -1,0 +1,186 @@
+"""Lists of the parts of a tree for purchase and workshop: parts, stock to be cut, bought parts, fasteners.
+
+bars of a section = bins of the bar's length for its pieces, each with its saw cut: first fit, the longest first
+their least number = ceil(sum of lengths with cuts / length of a bar)                  [Dosa: FFD <= 11/9 least + 2/3]
+"""
+
+import math
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ilmek.elements.hexagon_screws import screw_of
+from ilmek.elements.prices import PriceRates, price_of
+from ilmek.part.bill import line_of
+from ilmek.part.contacts import joined_by
+from ilmek.part.extents import shape_box
+from ilmek.part.part import Part
+from ilmek.part.shapes import Prism, Shape, Sum, Turned
+from ilmek.part.tree import Tree
+from ilmek.plane.contours import bounds
+from ilmek.report import Table, columns
+from ilmek.units import format_number, mm
+
+CUT = ("welded frame", "steel tube", "steel bar", "carbon tube", "pin or bush", "turned part")
+"""Processes of parts that are cut from bars or tubes of stock."""
+
+BARS = (6.0, 12.0)
+"""Lengths in which bars and tubes are sold [m]: the shorter one, unless a piece is longer."""
+
+SAW = 3 * mm
+"""Width of a saw cut [m]; assumed by this project."""
+
+FASTENER = "fastener"
+"""Process of screws and keys."""
+
+_ON_AXIS = 1e-9
+"""Radius below which a bore is rounding [m]."""
+
+
+def part_lists(tree: Tree, prices: Mapping[str, PriceRates]) -> tuple[Table, ...]:
+    """The lists of a tree: `parts`, `cut-list`, `purchase`, `fasteners`."""
+    return parts_list(tree, prices), cut_list(tree), purchase_list(tree, prices), fastener_list(tree)
+
+
+def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
+    """A row for each part: its number is its position in the list, its drawing that of its id where it is made."""
+    heads = columns(
+        "number | id | title | drawing | quantity | make or buy | size | material | process | mass of one [kg] 6"
+        " | price of all | designation"
+    )
+    rows = []
+    for position, (part, number) in enumerate(tree.occurrences(), 1):
+        line, bought = line_of(part, number), part.purchase
+        source = ("", "make") if bought is None else (bought.row, "buy")
+        drawing = part.id if bought is None else ""
+        made = position, part.id, part.title, drawing, number, source[1], line.description, line.material, part.process
+        rows.append((*made, part.mass, price_of(line, prices), source[0]))
+    return Table("parts", "Parts", heads, tuple(rows))
+
+
+def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
+    """A row for each designation of bought parts, with all parts that are ordered by it."""
+    ordered: dict[tuple[str, str, float], list[tuple[Part, int]]] = defaultdict(list)
+    for part, number in tree.occurrences():
+        if part.purchase is not None:
+            ordered[part.process, part.purchase.row, part.purchase.length].append((part, number))
+    heads = columns("designation | kind | length of one [m] | quantity | mass of all [kg] 6 | price of all | parts")
+    rows = tuple(
+        (
+            row or kind,
+            kind,
+            length or math.nan,
+            sum(number for _, number in parts),
+            math.fsum(number * part.mass for part, number in parts),
+            math.fsum(price_of(line_of(part, number), prices) for part, number in parts),
+            " ".join(part.id for part, _ in parts),
+        )
+        for (kind, row, length), parts in sorted(ordered.items())
+    )
+    return Table("purchase", "Bought parts", heads, rows)
+
+
+def cut_list(tree: Tree) -> Table:
+    """A row for each section of stock: its pieces by length, their sum, and the bars that they are cut from."""
+    stock: dict[tuple[str, str], list[tuple[float, int, str]]] = defaultdict(list)
+    for part, number in tree.occurrences():
+        if part.material is not None and part.process in CUT:
+            section, length = section_of(part)
+            stock[section, part.material.name].append((length, number, part.id))
+    heads = columns("section | material | pieces | lengths | length of all [m] 6 | length of a bar [m] | bars")
+    heads = (*heads, *columns("least number of bars | parts"))
+    rows = []
+    for (section, material), cuts in sorted(stock.items()):
+        pieces = [length for length, number, _ in cuts for _ in range(number)]
+        bar = next((offered for offered in BARS if max(pieces) <= offered), max(pieces))
+        named = "; ".join(f"{number} x {_mm(length)} mm" for length, number, _ in cuts)
+        least = math.ceil(math.fsum(piece + SAW for piece in pieces) / (bar + SAW) - 1e-9)
+        ids = " ".join(name for _, _, name in cuts)
+        rows.append(
+            (section, material, len(pieces), named, math.fsum(pieces), bar, len(bars_for(pieces, bar)), least, ids)
+        )
+    return Table("cut-list", "Stock to be cut", heads, tuple(rows))
+
+
+def section_of(part: Part) -> tuple[str, float]:
+    """The stock that a part is cut from, in mm, and the length that it is cut to [m], without allowance.
+
+    Of a part of more than one shape or of another kind it is the bar that its box has room in.
+    """
+    assert part.shape is not None
+    low, high = shape_box(part.shape)
+    width, height, length = (high - low).tolist()
+    own = _widest(part.shape)
+    wall = _wall(own)
+    if _is_round(own):
+        return (f"tube {_mm(width)} x {_mm(wall)}" if wall else f"round {_mm(max(width, height))}"), length
+    sides = " x ".join(map(_mm, sorted((width, height))))
+    return (f"hollow section {sides} x {_mm(wall)}" if wall else f"bar {sides}"), length
+
+
+def _widest(shape: Shape) -> Shape:
+    """The shape, or that member of a sum which is the widest."""
+    if not isinstance(shape, Sum):
+        return shape
+    return max((_widest(member.shape) for member in shape.members), key=lambda own: float(np.ptp(shape_box(own), 0)[0]))
+
+
+def _is_round(shape: Shape) -> bool:
+    """Whether it is cut from round stock: no corner of its section is much farther out than all its sides."""
+    if not isinstance(shape, Prism):
+        return isinstance(shape, Turned)
+    low, high = bounds(shape.section.outline)
+    size, middle = high - low, (low + high) / 2
+    return float(np.abs(shape.section.outline.points - middle).max()) <= 0.525 * min(size.real, size.imag)
+
+
+def _wall(shape: Shape) -> float:
+    """Wall of a tube or hollow section [m]; 0: it is solid, or has a bore of another form."""
+    if isinstance(shape, Turned):
+        inner, outer = float(shape.profile.outline.points.imag.min()), shape.outer_radius
+        return outer - inner if inner > _ON_AXIS else 0.0
+    if not isinstance(shape, Prism) or not shape.section.holes:
+        return 0.0
+    (low, high), (begin, end) = bounds(shape.section.outline), bounds(shape.section.holes[0])
+    walls = (high - low - (end - begin)) / 2
+    return walls.real if abs(walls.real - walls.imag) < _ON_AXIS else 0.0
+
+
+def bars_for(pieces: Sequence[float], bar: float) -> tuple[tuple[float, ...], ...]:
+    """The pieces of each bar of a length [m]: each in the first with room for it and its saw cut, the longest first.
+
+    >>> bars_for((2.0, 4.0, 3.0, 2.9), 6.0)
+    ((4.0,), (3.0, 2.9), (2.0,))
+    """
+    bars: list[list[float]] = []
+    for piece in sorted(pieces, reverse=True):
+        room = (own for own in bars if math.fsum(own) + piece + len(own) * SAW <= bar + 1e-9)
+        first = next(room, None)
+        if first is None:
+            bars.append([piece])
+        else:
+            first.append(piece)
+    return tuple(map(tuple, bars))
+
+
+def fastener_list(tree: Tree) -> Table:
+    """A row for each fastener: the parts that it touches, which it joins, and the torque of a screw."""
+    fasteners = [(part, number) for part, number in tree.occurrences() if part.process == FASTENER]
+    joined = joined_by(tree, frozenset(part.id for part, _ in fasteners))
+    heads = columns("designation | id | quantity | joins | and | tightening torque [Nm] 3 | preload [N] 3")
+    return Table(
+        "fasteners", "Fasteners", heads, tuple(_fastener(part, number, joined[part.id]) for part, number in fasteners)
+    )
+
+
+def _fastener(part: Part, number: int, joined: Sequence[str]) -> tuple[str | int | float, ...]:
+    assert part.purchase is not None
+    screw = screw_of(part.purchase.row)
+    tightened = (math.nan, math.nan) if screw is None else (screw.torque, screw.tightened)
+    first, *others = (*joined, "")
+    return part.purchase.row, part.id, number, first, " ".join(filter(None, others)), *tightened
+
+
+def _mm(length: float) -> str:
+    return format_number(length / mm)

@@ -1,0 +1,266 @@
+"""The papers of a loom: lists that agree with tree and parts list, numbers recomputed from the design's inputs."""
+
+import csv
+import io
+import math
+import re
+from functools import cache
+from html import escape
+from itertools import permutations
+from pathlib import Path
+from typing import Any
+
+import pytest
+from default_machines import default_design, default_report
+from hypothesis import given
+from hypothesis import strategies as st
+from small_programme import small_programme
+
+from ilmek.elements.hexagon_screws import SCREWS
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.plates import link_plate
+from ilmek.io.plc.io_list import io_rows
+from ilmek.io.plc.project import plc_project
+from ilmek.io.table_csv import rows_csv
+from ilmek.jobs.workshop import write_workshop
+from ilmek.jobs.workshop_papers import papers_of, write_papers
+from ilmek.machines.automated_loom import MACHINE
+from ilmek.machines.automated_loom.equipment.tree import whole_list
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.part.part import Part
+from ilmek.part.part_lists import SAW, bars_for
+from ilmek.part.placement import placement
+from ilmek.part.poses import moments_at_rest
+from ilmek.part.shapes import box
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.report import Papers, Report, must
+from ilmek.sentences import in_language, translated
+
+
+@cache
+def papers() -> Papers:
+    return papers_of(MACHINE, default_design("automated-loom"), default_report("automated-loom"))
+
+
+def listed(name: str) -> list[dict[str, str]]:
+    """A list as another program reads it."""
+    table = next(table for table in papers().lists if table.name == name)
+    return list(csv.DictReader(io.StringIO(rows_csv(table))))
+
+
+def test_parts_tree_and_bill_are_one_to_one() -> None:
+    loom = default_design("automated-loom")
+    parts, bill = listed("parts"), whole_list(loom)
+    in_tree = {part.id: (number, part) for part, number in loom_tree(loom).occurrences()}
+    assert [row["id"] for row in parts] == list(in_tree)
+    assert {(row["id"], int(row["quantity"])) for row in parts} == {(line.part, line.number) for line in bill.parts}
+    assert [int(row["number"]) for row in parts] == list(range(1, len(parts) + 1))
+    assert math.fsum(float(row["price of all"]) for row in parts) == pytest.approx(bill.price, rel=1e-5)
+    assert math.fsum(float(row["mass of one [kg]"] or 0) * int(row["quantity"]) for row in parts) == pytest.approx(
+        bill.mass, rel=1e-5
+    )
+    for row in parts:
+        assert (
+            (row["make or buy"] == "make") is (in_tree[row["id"]][1].purchase is None) is (row["drawing"] == row["id"])
+        )
+
+
+def test_every_bought_part_is_ordered_and_every_piece_of_stock_cut() -> None:
+    parts = {row["id"]: row for row in listed("parts")}
+    ordered = listed("purchase")
+    ids = [name for row in ordered for name in row["parts"].split()]
+    assert sorted(ids) == sorted(name for name, row in parts.items() if row["make or buy"] == "buy")
+    assert sum(int(row["quantity"]) for row in ordered) == sum(int(parts[name]["quantity"]) for name in ids)
+    cut = {name for row in listed("cut-list") for name in row["parts"].split()}
+    sawn = {"welded frame", "steel tube", "steel bar", "carbon tube", "pin or bush", "turned part"}
+    assert cut == {name for name, row in parts.items() if row["process"] in sawn and row["make or buy"] == "make"}
+    for row in listed("cut-list"):
+        assert int(row["pieces"]) == sum(int(parts[name]["quantity"]) for name in row["parts"].split())
+        assert int(row["least number of bars"]) <= int(row["bars"]) <= 11 / 9 * int(row["least number of bars"]) + 1
+
+
+def test_stock_weighs_what_its_parts_weigh() -> None:
+    parts = {row["id"]: row for row in listed("parts")}
+    for row in listed("cut-list"):
+        if not row["section"].startswith("hollow section") or row["material"] != "structural steel":
+            continue
+        sizes = row["section"].removeprefix("hollow section ").split(" x ")
+        wide, high, wall = (float(size) * 1e-3 for size in sizes)
+        area = wide * high - (wide - 2 * wall) * (high - 2 * wall)
+        mass = math.fsum(float(parts[i]["mass of one [kg]"]) * int(parts[i]["quantity"]) for i in row["parts"].split())
+        assert mass == pytest.approx(7850 * area * float(row["length of all [m]"]), rel=1e-3)
+
+
+@given(st.lists(st.floats(0.1, 5.9), min_size=1, max_size=6))
+def test_bars_are_few(pieces: list[float]) -> None:
+    bars = bars_for(pieces, 6.0)
+    assert sorted(piece for bar in bars for piece in bar) == sorted(pieces)
+    assert all(math.fsum(bar) + (len(bar) - 1) * SAW <= 6.0 + 1e-8 for bar in bars)
+
+    def next_fit(order: tuple[float, ...]) -> int:
+        number, used = 1, 0.0
+        for piece in order:
+            if used and used + SAW + piece > 6.0 + 1e-9:
+                number, used = number + 1, 0.0
+            used += piece + (SAW if used else 0.0)
+        return number
+
+    least = min(next_fit(order) for order in permutations(pieces))  # some order fills the bars of an optimum in turn
+    assert least <= len(bars) <= 11 / 9 * least + 2 / 3
+
+
+@pytest.mark.parametrize(
+    ("thread", "preload", "torque"), [("M8", 18.6e3, 24.6), ("M10", 29.6e3, 48), ("M12", 43e3, 84)]
+)
+def test_screws_are_tightened_as_the_guideline_says(thread: str, preload: float, torque: float) -> None:
+    """VDI 2230-1, table A1, class 8.8, friction 0.12."""
+    assert SCREWS[thread].tightened == pytest.approx(preload, rel=0.01)
+    assert SCREWS[thread].torque == pytest.approx(torque, rel=0.03)
+
+
+def test_fasteners_join_the_parts_that_they_are_made_for() -> None:
+    rows = {row["id"]: row for row in listed("fasteners")}
+    fasteners = {row["id"] for row in listed("parts") if row["process"] == "fastener"}
+    assert set(rows) == fasteners
+    screws = rows["shedding/bearing-screw"]
+    assert (screws["joins"], screws["and"]) == ("automated-loom/cam-bracket", "shedding/bearing")
+    assert rows["warp-tension/upper-key"]["and"] == "warp-tension/reducer"
+    assert float(screws["tightening torque [Nm]"]) == pytest.approx(SCREWS["M10"].torque, rel=1e-4)
+    assert all(
+        (row["tightening torque [Nm]"] != "") is row["designation"].startswith("ISO 4017") for row in rows.values()
+    )
+
+
+def rows_of(page: str, section: int) -> list[tuple[float | int | str, ...]]:
+    paper = next(paper for paper in papers().pages if paper.name == page)
+    table = paper.sections[section].table
+    assert table is not None
+    return list(table.rows)
+
+
+def check_value(name: str) -> float:
+    report: Report = default_report("automated-loom")
+    return next(check.value for check in report.all_checks if check.name == name)
+
+
+def test_lives_and_greasing_follow_from_loads_and_work() -> None:
+    report: Any = default_report("automated-loom")
+    rows = report["carpets_per_year"] * report["rows"]
+    knots = rows * report["columns"] / report["heads"]
+    bearing, *_, head, guide = rows_of("maintenance", 0)
+    rated = 14_000.0  # N, UC 205, ISO 281: makers' tables
+    assert bearing[1] == "UC 205"
+    assert bearing[3] == pytest.approx((rated / report["shedding.bearing_load"]) ** 3 * 1e6, rel=1e-3)
+    assert bearing[6] == pytest.approx(float(bearing[3]) / rows)  # a turn of the cam shaft for each row
+    assert head[5] == pytest.approx(knots)  # a turn of a head's cam shaft for each of its knots
+    assert guide[3] == pytest.approx(check_value("weaver: life of the head's guide"))
+    along = 2 * 2 * report["warp_pitch"] * knots  # from knot to knot, two warps each, and back
+    assert guide[6] == pytest.approx(float(guide[3]) / along)
+    assert rows_of("maintenance", 1)[-1][2] == pytest.approx(100e3 / along * 365.25 * 86400)
+
+
+def test_belts_are_tuned_by_their_mass_and_tension() -> None:
+    report: Any = default_report("automated-loom")
+    parts = {row["id"]: row for row in listed("parts")}
+    lengths = {row["parts"]: float(row["length of one [m]"]) for row in listed("purchase") if row["length of one [m]"]}
+    belt = "automated-loom/heads-belt"
+    mass = float(parts[belt]["mass of one [kg]"]) / lengths[belt]
+    span = lengths[belt] - 2 * 8 * 5e-3 - report["heads"] * 88e-3  # less the clamps of 8 teeth, and the heads
+    tension = check_value("tension of the heads' belt") / 2  # where no head steps
+    wave = math.sqrt(tension / mass)
+    assert float(str(rows_of("commissioning", 3)[0][1]).removesuffix(" Hz")) == pytest.approx(wave / 2 / span, rel=0.01)
+
+
+def test_axes_stand_before_a_body_comes_from_the_doors() -> None:
+    times = [float(str(row[1]).strip("≤ s")) for row in rows_of("commissioning", 7) if "standstill" in str(row[0])]
+    assert 1.6 * max(times) == pytest.approx(check_value("guards: distance of the doors"), rel=1e-3)
+
+
+def test_terminals_are_the_signals_of_the_control() -> None:
+    report: Any = default_report("automated-loom")
+    field = [row for row in io_rows(plc_project(small_programme(heads=report["heads"])).units[-1]) if row[3]]
+    terminals = rows_of("electrical", 3)
+    assert sorted(str(row[0]) for row in terminals) == sorted(row[0] for row in field)
+    assert len({row[1:3] for row in terminals}) == len(terminals)
+    parts = {row["id"]: int(row["quantity"]) for row in listed("parts")}
+    assert max(int(row[1]) for row in terminals) == parts["automated-loom/terminal"]
+    wired = {part for row in terminals for part in str(row[3]).split()}
+    assert wired <= parts.keys()
+    assert {row[0] for row in rows_of("electrical", 1)} <= {
+        row["title"] for row in listed("parts") if row["id"] in wired
+    }
+
+
+def test_motors_are_fused_and_wired_by_their_current() -> None:
+    """IEC 60204-1, table 6, method B2, copper in PVC at 40 °C; 3 x 230 V for servos, 48 V for steppers."""
+    bears = {0.75: 8.5, 1.0: 10.1, 1.5: 13.1, 2.5: 17.4, 4.0: 23.0}
+    for _, name, _, power, current, fuse, section, together in rows_of("electrical", 1):
+        volts = 48.0 if str(name).startswith("stepper") else 230 * math.sqrt(3)
+        assert current == pytest.approx(float(power) / 0.75 / volts)
+        assert 1.25 * float(current) <= float(fuse) <= (0.65 if together == 4 else 1.0) * bears[float(section)]
+    watts = {row[1]: (float(row[2]), float(row[3])) for row in rows_of("electrical", 1)}
+    connected = math.fsum(number * power for number, power in watts.values()) / 0.75
+    assert float(str(rows_of("electrical", 0)[1][1]).split()[0]) >= 0.99 * connected / 1e3
+
+
+def test_energies_and_masses_are_those_of_the_design() -> None:
+    report: Any = default_report("automated-loom")
+    stored = {str(row[0]): float(row[1]) for row in rows_of("risks", 1)}
+    squared = report["weft.moving_mass"] * report["weft.speed_max"] ** 2
+    assert stored["moving carrier of the weft"] == pytest.approx(squared / 2)
+    springs = 8 * (1120.2 / 2) * (1120.2 / 12897.7)  # eight springs of 12.9 N/mm, each at 1120 N
+    assert stored["springs of the tension compensator"] == pytest.approx(springs, rel=1e-3)
+    row_time = report["shedding.turn_time"]
+    assert stored["turning shedding cams"] == pytest.approx(
+        report["shedding.inertia"] / 2 * (2 * math.pi / row_time) ** 2, rel=1e-6
+    )
+    transport = {str(row[0]): str(row[1]) for row in rows_of("risks", 3)}
+    assert float(transport["mass of the whole loom"].split()[0]) == pytest.approx(report["mass"], rel=1e-3)
+    lifted = float(transport["mass that is lifted"].split()[0])
+    assert lifted < report["mass"]
+    sling = float(transport["force of a sling"].split()[0])
+    assert 2 * sling * math.cos(math.radians(30)) == pytest.approx(lifted * 9.80665e-3, rel=0.01)
+    moving = {str(row[0]): row for row in rows_of("risks", 0)}
+    assert float(moving["weaver: head"][1]) == pytest.approx(report["weaver.mass"], rel=0.02)
+    assert {row[-1] for row in moving.values()} == {"no"}
+
+
+def test_the_mass_centre_of_turned_and_repeated_bodies() -> None:
+    block = Part("a/block", "block", "steel bar", shape=box(0.1, 0.1, 0.2), material=MATERIALS["structural steel"])
+    upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)  # its z points up
+    stand = RigidBody("a/stand", (Occurrence(block),), positions=(upright,))
+    arm = RigidBody("a/arm", (Occurrence(block),), "a/stand", positions=(placement(x=0.3), placement(x=0.6)))
+    tree = Tree((stand, arm))
+    whole = moments_at_rest(tree)
+    assert whole.zeroth == pytest.approx(3 * block.mass)
+    assert whole.centre.tolist() == pytest.approx([0.3, 0.1, 0.0])
+    assert moments_at_rest(tree, frozenset(("a/stand",))).centre.tolist() == pytest.approx([0.45, 0.1, 0.0])
+
+
+def test_pages_are_in_two_languages(tmp_path: Path) -> None:
+    list(write_papers(papers(), default_report("automated-loom"), tmp_path))
+    for paper in papers().pages:
+        english, turkish = (tmp_path / f"{paper.name}{end}.html" for end in ("", ".tr"))
+        said, other = english.read_text(encoding="utf-8"), turkish.read_text(encoding="utf-8")
+        assert said.startswith('<!DOCTYPE html>\n<html lang="en">')
+        assert other.startswith('<!DOCTYPE html>\n<html lang="tr">')
+        for section in paper.sections:
+            with in_language("tr"):
+                assert f"<h2>{escape(translated(section.title))}</h2>" in other
+            assert f"<h2>{escape(section.title)}</h2>" in said
+        assert "NOT RELEASED" not in said
+
+
+def test_a_design_whose_checks_fail_is_not_released(tmp_path: Path) -> None:
+    failed = must("made", False, "a test")
+    pins = [("A", 0j), ("B", 0.1 + 0j)]
+    bar = link_plate("bar", "Bar", pins, hole_radius=5e-3, width=0.03, thickness=5e-3, material="S235JR")
+    report = Report("press", "Press", {}, (), (failed,), plates=(bar,))
+    write_workshop(report, tmp_path / "parts", papers=papers())
+    for name, word in (("index.html", "NOT RELEASED"), ("maintenance.tr.html", "ONAYLANMADI")):
+        assert word in (tmp_path / "parts" / name).read_text(encoding="utf-8")
+    index = (tmp_path / "parts" / "index.html").read_text(encoding="utf-8")
+    assert ">made<" in index
+    linked = set(re.findall(r'href="([^"#]+)"', index))
+    there = {path.name for path in (tmp_path / "parts").iterdir()} - {"workshop.json", ".ilmek", "index.html"}
+    assert {name for name in there if not name.endswith(".tr.html") or name == "index.tr.html"} == linked
