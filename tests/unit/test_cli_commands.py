@@ -272,10 +272,13 @@ def test_the_aim_of_a_loom_is_an_option_too() -> None:
 @pytest.mark.usefixtures("not_in_space")
 def test_a_file_of_rates_stands_for_settings_which_win_over_it(tmp_path: Path) -> None:
     rates = tmp_path / "rates.toml"
-    rates.write_text('wage = "20/h"\nlife = 10\n', encoding="utf-8")
+    rates.write_text('wage = "20/h"\nlife = 10\nprices = "milling per h = 70"\n', encoding="utf-8")
     of_file, of_settings = (
         json.loads(run("design", "automated-loom", *given, "--json", "-").stdout)["parameters"]
-        for given in (("--rates", str(rates), "--set", "cost.life=5"), ("cost.wage=20/h", "cost.life=5"))
+        for given in (
+            ("--rates", str(rates), "--set", "cost.life=5"),
+            ("cost.wage=20/h", "cost.life=5", "prices=milling per h = 70"),
+        )
     )
     assert of_file == of_settings
     assert of_file["cost.wage"] == pytest.approx(20 / 3600)
@@ -289,6 +292,7 @@ def test_a_file_of_rates_stands_for_settings_which_win_over_it(tmp_path: Path) -
         ("interest = [1]", "line 1, interest: .* is not a value"),
         ("wage = 12", "did you mean 12/h"),
         ("wage 12", "line 1"),
+        ('prices = "miling per h = 3"', "line 1, prices: .* did you mean milling"),
     ],
 )
 def test_rates_that_are_none_are_one_error(tmp_path: Path, text: str, named: str) -> None:
@@ -304,7 +308,8 @@ def test_rates_that_are_none_are_one_error(tmp_path: Path, text: str, named: str
 def test_a_table_of_the_report_is_shown_alone() -> None:
     result = run("design", "automated-loom", "width=0.45m", "length=0.6m", "--table", "cost")
     assert result.exit_code == 0
-    assert re.search(r"heads +travelling +linkage +comb", result.stdout)
+    assert re.search(r"heads( +(travelling|linkage|comb|guide-cams)){3,}", result.stdout)
+    assert re.search(r"margin +\d+ +25.93", result.stdout)  # 35 % of what the loom costs its maker
     assert "result" not in result.stdout
     refused = CliRunner().invoke(main, ["design", "beat-up", "--table", "cost"])
     assert (refused.exit_code, refused.stdout) == (2, "")

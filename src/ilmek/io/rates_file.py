@@ -3,12 +3,14 @@
     wage = "12/h"
     interest = "8%"
     life = 10
+    prices = "milling per h = 70; structural steel per kg = 1.5"
 
-Texts have their units, as on the command line; numbers are SI.
+Texts have their units, as on the command line; numbers are SI. `prices` are those of parts and of the workshop.
 """
 
 from pathlib import Path
 
+from ilmek.elements.prices import read_prices
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.io.data_text import read_data
 from ilmek.io.file_entry import FileEntry
@@ -17,7 +19,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.params import Setting, listed
 from ilmek.params.parameter import LONGEST_TEXT
 
-_GROUP = "cost"
+_GROUP, _PRICES = "cost", "prices"
 """Parameters of a loom that are rates."""
 
 
@@ -33,13 +35,19 @@ def read_rates(path: Path | None) -> dict[str, Setting]:
         root = FileEntry(read.data, (), SourceText(str(path), read.lines))
         loom = find_machine("automated-loom").params
         names = (parameter.name.partition(".") for parameter in listed(loom))
-        root.keys(*(name for group, _, name in names if group == _GROUP))
+        root.keys(*(name for group, _, name in names if group == _GROUP), _PRICES)
         rates = dict(root.settings())
         for name, rate in rates.items():
             try:
-                loom.read({f"{_GROUP}.{name}": rate})
+                loom.read({_parameter(name): rate})
+                if name == _PRICES:
+                    read_prices(str(rate))
             except IlmekError as error:
                 root.refuse(error, name)
     except MechanismError as error:
         raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
-    return {f"{_GROUP}.{name}": rate for name, rate in rates.items()}
+    return {_parameter(name): rate for name, rate in rates.items()}
+
+
+def _parameter(name: str) -> str:
+    return name if name == _PRICES else f"{_GROUP}.{name}"
