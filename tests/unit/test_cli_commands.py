@@ -13,6 +13,8 @@ from click.testing import CliRunner, Result
 from PIL import Image
 
 from ilmek.cli import main
+from ilmek.elements.carpet_yarns import yarn
+from ilmek.elements.yarns import usual_warp_density
 from ilmek.io.programme_file import open_programme
 from ilmek.jobs.carpet_files import FILES
 from ilmek.machines.catalogue import MACHINES
@@ -96,6 +98,22 @@ def test_machine_json_has_every_machine(woven: tuple[Path, Any]) -> None:
     assert machine["machines"]["weaver"]["parameters"]["knot"] == "symmetric"
     assert "worst_tension" in machine["machines"]["warp-tension"]["results"]
     assert machine["parameters"]["width"] == 0.4
+
+
+def test_the_programme_s_rows_are_the_finished_carpet_once_cut_off_and_washed(woven: tuple[Path, Any]) -> None:
+    """The cylinder turns for each row of the programme; what it winds loses its strain and its shrinkage."""
+    folder, found = woven
+    machine = json.loads((folder / "machine.json").read_text())
+    cylinder, tension = machine["machines"]["warp-tension"], machine["results"]["tension"]
+    with open_programme(folder / "programme.ilmek") as programme:
+        wound = programme.setup.rows * cylinder["results"]["take_up_angle"] * cylinder["results"]["outer_radius"]
+        size, dense = programme.setup.size, programme.setup.quality.along
+    warp = yarn("cotton", usual_warp_density(machine["results"]["warp_pitch"], "cotton"))
+    finished = wound / (1 + tension / warp.stiffness) * (1 - machine["parameters"]["finish.shrink_along"])
+    assert finished == pytest.approx(size.length, abs=0.5 / dense)
+    assert found["rows"] / finished == pytest.approx(dense)
+    assert found["woven_size"]["length"] == pytest.approx(wound)
+    assert found["woven_longer"] == pytest.approx(wound - size.length)
 
 
 def test_yarn_csv_adds_up(woven: tuple[Path, Any]) -> None:
