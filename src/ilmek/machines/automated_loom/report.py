@@ -16,6 +16,7 @@ from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
@@ -130,7 +131,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    served = yarn_path(found.loom) if found.loom.heads else station_of(found.loom)
+    served = yarn_path(found.loom) if found.loom.heads else station_of(site_of(found.loom))
     return (
         found.cost,
         found,

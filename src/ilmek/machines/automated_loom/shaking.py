@@ -37,9 +37,9 @@ def least_frequency(loom: LoomDesign) -> float:
     return DISTANCE * max(drive_frequencies(loom).values())
 
 
-def stiff_post(loom: LoomDesign, strong: Sequence[HollowSquare], height: float, mass: float) -> HollowSquare | None:
+def stiff_post(strong: Sequence[HollowSquare], height: float, mass: float, least: float) -> HollowSquare | None:
     """The first of the sections for a post of a height [m] that is stiff enough with a mass at its end [kg]; where none
-    is, the first of them; None of none.
+    is, the first of them; None of none. least: natural frequency that drives allow [Hz].
     """
-    needed = (turn * STIFFER * least_frequency(loom)) ** 2 * mass * height**3 / (3 * STEEL.modulus)
+    needed = (turn * STIFFER * least) ** 2 * mass * height**3 / (3 * STEEL.modulus)
     return next((one for one in strong if one.inertia >= needed), strong[0] if strong else None)
