@@ -53,6 +53,8 @@ EVEN, ODD, BEATER, TAKE_UP = "even warps", "odd warps", "beater", "take-up"
 SLIDE = "slide of the beater"
 SOURCE = "thesis, 3.3: the four steps of a row"
 HEADS, WEAVERS, LOOM = "heads", "weavers", "loom"
+WEAVERS_ROW = "row with its weavers"
+"""Name of the cyclogram of weavers and loom."""
 RETREAT_END = 36 * deg
 """Cam angle at which the heads have retreated from the warps; they return behind the second beat."""
 
@@ -149,7 +151,7 @@ def weavers_row(acts: Sequence[tuple[str, str, float]]) -> Cyclogram:
         )
         return Track(who, actuators[who], tuple(parts), unit="1", revolves=1.0)
 
-    return Cyclogram("row with its weavers", period, (track(WEAVERS), track(LOOM)))
+    return Cyclogram(WEAVERS_ROW, period, (track(WEAVERS), track(LOOM)))
 
 
 def cam_tables_of(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:

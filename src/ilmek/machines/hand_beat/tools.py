@@ -3,6 +3,7 @@
 Axes of the shelf: x along it, y up from its upper side, z to the front, 0 at its rear edge.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -62,7 +63,7 @@ def comb_wide(params: HandBeatParams, number: int) -> float:
 def shelf_length(comb: float = 0.0) -> float:
     """Length of the shelf for all tools beside each other [m]; comb: room of the comb, 0 without one."""
     sizes = [*((comb,) if comb else ()), *(size[0] for *_, size, count in TOOLS for _ in range(count))]
-    return sum(sizes) + (len(sizes) + 1) * LOOSE
+    return math.fsum(sizes) + (len(sizes) + 1) * LOOSE
 
 
 def tool_bodies(shelf: Placement, comb: tuple[Occurrence, ...] = (), wide: float = 0.0) -> Iterator[RigidBody]:

@@ -6,8 +6,9 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.in_space.maker import STANDS
-from ilmek.machines.automated_loom.in_space.scene import carpet, scene_of, upright
+from ilmek.machines.automated_loom.in_space.scene import carpet, phases_of, scene_of, upright
 from ilmek.machines.automated_loom.in_space.standing import carpet_roll
 from ilmek.machines.hand_loom.design import ACTS, HandLoom
 from ilmek.machines.hand_loom.frame import branches, tree
@@ -36,15 +37,15 @@ def scene(loom: HandLoom, report: Report) -> Scene:
         carpet=carpet(params.cloth, (loom.rows, loom.columns), params.pile.pile_height, layout.lower),
         roll=carpet_roll(loom.winding, layout.lower, layout.roll),
         periods=periods_of(loom),
-        phases=phases(),
+        phases=(*phases(), *(phase for beats in loom.cyclograms[1:] for phase in phases_of(beats))),
         floor=layout.floor,
     )
-    return replace(whole, yarns=yarns[2:])
+    return replace(whole, yarns=yarns[2:], guards=GUARDS if loom.drive else ())
 
 
 def periods_of(loom: HandLoom) -> dict[str, float]:
-    """Time of a change of the shed and back [s]."""
-    return {SHED: 2 * ACTS * loom.params.hands.act_time}
+    """Time of a change of the shed and back, and of two driven beats [s]."""
+    return {SHED: 2 * ACTS * loom.params.hands.act_time, **{beats.name: beats.period for beats in loom.cyclograms[1:]}}
 
 
 def _yarns(loom: HandLoom) -> tuple[SceneYarn, ...]:

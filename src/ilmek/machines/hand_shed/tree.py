@@ -23,7 +23,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion, ScenePhase
-from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import format_quantity, in_mm, mm, round_size, turn
 
 SHED = "shed"
 """The drive of the picture in motion: a change of the shed and back."""
@@ -36,9 +36,6 @@ PIVOT = 20 * mm
 
 ROD_END, ROD_PLAY = 16 * mm, 0.5 * mm
 """Diameter of the rod's ends in their guides, and play there [m]; assumed by this project."""
-
-LEVER_TILT = 35 * deg
-"""From an arm to its lever, to the front [rad]: the lever swings before the cylinders; assumed by this project."""
 
 RIM = 20 * mm
 """Least metal of a side plate about its openings [m]; assumed by this project."""
@@ -82,11 +79,11 @@ class ShedLayout:
 
     def end(self, swing: float) -> complex:
         """End of a lever."""
-        return self.pivot - 1j * self.shed.lever * cmath.exp(1j * (swing + LEVER_TILT))
+        return self.pivot - 1j * self.shed.lever * cmath.exp(1j * (swing + self.shed.params.lever_tilt))
 
     def lock(self, swing: float) -> complex:
         """Hole of a lever for its lock."""
-        return self.pivot - 1j * LOCK_ARM * cmath.exp(1j * (swing + LEVER_TILT))
+        return self.pivot - 1j * LOCK_ARM * cmath.exp(1j * (swing + self.shed.params.lever_tilt))
 
 
 def layout(shed: HandShed) -> ShedLayout:

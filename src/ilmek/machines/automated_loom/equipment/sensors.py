@@ -76,9 +76,13 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
 
 def sensors(loom: LoomDesign) -> Iterator[MachineTree]:
     """The sensors, each as a body on the body that carries it."""
-    for place in mounted_sensors(loom):
-        body = RigidBody(place.part.id, (Occurrence(place.part, place.positions),))
-        yield MachineTree("automated-loom", Tree((body,)), parent=place.carrier)
+    return (sensor_tree(place, "automated-loom") for place in mounted_sensors(loom))
+
+
+def sensor_tree(mounted: MountedSensor, machine: str) -> MachineTree:
+    """A sensor as a body on the body that carries it."""
+    body = RigidBody(mounted.part.id, (Occurrence(mounted.part, mounted.positions),))
+    return MachineTree(machine, Tree((body,)), parent=mounted.carrier)
 
 
 def encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MountedSensor:
