@@ -152,7 +152,9 @@ def test_the_hand_loom_is_one_machine_that_only_hands_move(report: Report) -> No
 
 def test_in_the_picture_rod_and_strings_move_with_the_warps(report: Report) -> None:
     """Judge: the rod's own solid, moved by its frame, lies between the sheets; a string ends on the warp it pulls."""
-    seen = scene(loom(), report)
+    made = loom()
+    seen = scene(made, report)
+    heddles = next(own for own in tree(made).bodies if own.id == "hand-shed/heddles")
     frame = next(own for own in seen.frames if own.name == "hand-shed/shed rod")
     rod = next(part for part in seen.parts if part.ids[0] == "hand-shed/rod").solids[0].points
     rear, front = seen.warps
@@ -161,8 +163,16 @@ def test_in_the_picture_rod_and_strings_move_with_the_warps(report: Report) -> N
         y = frame.origins[0, 1] + np.interp(angle, frame.motion.angle, frame.motion.shift[:, 1])
         z = [float(np.interp(y, *sheet.points[number, :4, 1:].T)) for sheet in (rear, front)]
         assert z == pytest.approx([rod[:, 2].min(), rod[:, 2].max()], abs=1e-5)
-    strings = seen.yarns[0].points
-    assert strings[:, 1] == pytest.approx(rear.points[:, 1])
+    pulled, motion = len(rear.angle) // 2, heddles.joint.motion
+    assert motion is not None
+    swing = np.interp(rear.angle[pulled], motion.angle, motion.rotation)
+    strings = next(own for own in heddles.occurrences if own.part.id == "hand-shed/string-heddle")
+    end = np.array([[0.0, 0.0, made.shed.string]])
+    x, up, ahead = np.array([own.points(end)[0] for own in strings.positions]).T
+    origin = heddles.positions[0].points(np.zeros((1, 3)))[0]
+    assert x == pytest.approx(rear.across)
+    assert origin[1] + up * np.cos(swing) - ahead * np.sin(swing) == pytest.approx(rear.points[pulled, 1, 1])
+    assert origin[2] + up * np.sin(swing) + ahead * np.cos(swing) == pytest.approx(rear.points[pulled, 1, 2])
     across = np.sort(np.concatenate([rear.across, front.across]))
     assert np.diff(across) == pytest.approx(loom().params.cloth.warp_pitch)
     assert {one.machine for one in seen.parts} == {"hand-loom", "hand-shed", "hand-beat", "warp-tension"}
@@ -239,23 +249,22 @@ def test_the_papers_machine_is_designed_by_one_command_and_only_its_beat_is_driv
 
 
 def test_the_beat_of_the_papers_machine_stays_below_the_shed_and_strikes_every_warp(papers: Report) -> None:
-    """Judge: corners of all solids, carried by the scene's frames over both beats, against those of the shed."""
+    """Judge: the run of the slide by counting warps; outlines carried along the path against rod and heddle bar."""
     made = loom(beat="travelling")
     seen = scene(made, papers)
     frames = {one.name: one for one in seen.frames}
     slide = frames["beat-up/carriage"].motion
     assert slide is not None
-    run = slide.shift[:, 2] if np.ptp(slide.shift[:, 2]) else slide.shift[:, 0]
+    run = slide.shift[:, 0]
     cloth, drive = made.params.cloth, made.drive
     assert drive is not None
     assert np.ptp(run) == pytest.approx((cloth.warps - drive.beaten) * cloth.warp_pitch + 2 * drive.beat.park)
     assert drive.beat.strokes * drive.beaten >= cloth.warps
     assert run[0] == pytest.approx(run[-1])  # the second beat brings it back
     assert seen.periods["beat"] == pytest.approx(2 * drive.beat.whole + 2.0)
-    shed = next(child for child in papers.children if child.machine == "hand-shed")
-    rod = float(shed.parameters["rod_low"])
     highest = max(float(drive.path.carried(one, drive.path.tip).imag.max()) for one in drive.path.outline)
-    assert drive.path.rise < highest < rod - made.shed.rod.outer / 2
+    lowest = made.shed.params.heddle_height - made.shed.bar.outer_radius
+    assert drive.path.rise < highest < lowest < made.shed.params.rod_low - made.shed.rod.outer / 2
 
 
 def test_a_row_of_the_papers_machine_has_its_weavers_in_it(papers: Report) -> None:
