@@ -222,7 +222,7 @@ def test_a_deadline_that_no_weaver_meets_names_the_persons_needed() -> None:
     [
         ({"shed": "hand"}, "set knotting=hand"),
         ({"beat": "hand"}, "or shed=hand"),
-        ({"knotting": "hand", "shed": "hand", "beat": "comb"}, "set beat=travelling"),
+        ({"knotting": "hand", "shed": "hand", "beat": "linkage"}, "set beat=comb"),
         ({**BY_HAND, "weft": "rapier"}, "set weft=hand"),
         ({"knotting": "hand", "weft": "hand"}, "or shed=hand"),
     ],
@@ -246,6 +246,16 @@ def test_the_papers_machine_is_designed_by_one_command_and_only_its_beat_is_driv
     assert results["beat_force"] > 60.0  # the paper's abstract, at its own speed of the crank
     assert {part.purchase.row for part, _ in tree(made).occurrences() if part.purchase and part.purchase.drives}
     assert "comb" not in " ".join(results["moved_by_hand"])
+
+
+def test_a_comb_on_its_own_axes_beats_for_weavers_who_open_the_shed_over_it() -> None:
+    report = design_machine("automated-loom", {**BY_HAND, "beat": "comb"}, illustrated=False).report
+    assert report.failed == ()
+    made, results = loom(beat="comb"), report.as_json()["results"]
+    assert (results["assembly_clashes"], results["assembly_groups"], results["beaten_warps"]) == (0, 1, 608)
+    assert {track.name for track in made.cyclograms[1].tracks} == {"beater"}
+    low = design_machine("hand-loom", {"beat": "comb", "hands.weft_laid": "100mm"}, illustrated=False).report
+    assert {check.name for check in low.failed} == {"what beats over the hands that tie"}
 
 
 def test_the_beat_of_the_papers_machine_stays_below_the_shed_and_strikes_every_warp(papers: Report) -> None:

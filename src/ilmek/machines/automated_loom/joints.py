@@ -105,7 +105,7 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check | None:
     where nothing pushes it along the warps.
     """
     held, weight = supports(loom, frame), 2 * frame.number * frame.foot_load
-    lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom)
+    lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom.beat)
     height = corner.imag - loom.side.floor
     pushes = sum(own.push * len(own.stations) * (own.height + FOOT) for own in rail_supports(loom, frame))
     moment = (loom.beat.frame_force * height if held.across else 0.0) + pushes

@@ -306,9 +306,9 @@ class AutomatedLoomParams(Params):
                 raise LoomError(f"{name}={given} with shed={self.shed}", allowed=allowed, do=do)
 
 
-BEATS_BY_HAND = (HAND, "travelling")
-"""Kinds of beat where weavers open the shed: their comb, or the paper's crank-rocker below rod and levers. No comb as
-wide as the cloth is designed for it; guide cams are those of the shed.
+BEATS_BY_HAND = (HAND, "travelling", "comb")
+"""Kinds of beat where weavers open the shed: their comb, the paper's crank-rocker, or a comb on its own axes, all below
+rod and levers. A comb on crank-rockers would rest over the hands that tie; guide cams are those of the shed.
 """
 
 _OF_HEADS = ("heads", "head_width", "head_mass", "tubes", "knot_cycle")

@@ -20,6 +20,7 @@ from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -117,7 +118,7 @@ class LoomSupports:
 @lru_cache(maxsize=4)
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks, of the posts one that is stiff too; the largest where none does."""
-    made, (beam, corner) = loom.weft.carried, beat_beam(loom)
+    made, (beam, corner) = loom.weft.carried, beat_beam(loom.beat)
     height, across = corner.imag - floor_top(loom, frame), loom.beat.crank_rockers > 0
     # The axes of a comb press along the posts; their beam counts half of what is spread over it.
     force = beam.carried / 2 if across else beam.carried
@@ -139,9 +140,8 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     return LoomSupports(post, height, force, across, tube, loads, None)
 
 
-def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
+def beat_beam(beat: BeatDrive) -> tuple[BeatBeam, complex]:
     """The beam that carries what beats, and its lower corner towards the warps in the side view [m]."""
-    beat = loom.beat
     return (beat.use.beam, beam_corner(beat.design)) if isinstance(beat.design, BeatUp) else beam_of(beat.design)
 
 
@@ -192,7 +192,7 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
     """Axis of the posts of the beat in the side view [m]: under the middle of its beam, or as near to it as the arms of
     the rail leave room.
     """
-    beam, corner = beat_beam(loom)
+    beam, corner = beat_beam(loom.beat)
     middle, half = corner.real + beam.section.side / 2, supports(loom, frame).post.side / 2
     if loom.side.heads is None:
         return middle

@@ -20,7 +20,8 @@ from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, h
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.beat_up.beam import BEAM
-from ilmek.machines.beat_up.crank_start import MOTOR
+from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
+from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
 from ilmek.machines.hand_loom.driven_beat import BEAT, two_beats
 from ilmek.machines.hand_shed.tree import SHED
 from ilmek.part.extents import extents
@@ -52,28 +53,36 @@ def beat_site(drive: BeatDrive, tree: Tree, floor: float, weavers: int) -> LoomS
 def equipment(site: LoomSite) -> tuple[MachineTree, ...]:
     """The trees of guards, circuit, station, and of the encoder on the beat's carriage."""
     own = (MachineTree(OWN, made(site)) for made in (guards, circuit, station_tree))
-    return (*own, sensor_tree(encoder(site.near, BEAT_ANGLE, "encoder of the beat", (MOTOR,)), OWN))
+    return (*own, sensor_tree(encoder(site.near, BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)), OWN))
 
 
 def equipment_checks(site: LoomSite) -> tuple[Check, ...]:
     """The checks of guards, circuit and station, and of the room for arms over what stands before the warps."""
-    return (*guard_checks(site), *circuit_checks(site), *station_checks(site), _arms_check(site))
+    return (*guard_checks(site), *circuit_checks(site), *station_checks(site), *_arms_checks(site))
 
 
 ARM_ROOM = 60 * mm
 """From the line between shoulder and fell to what lies below it [m]: half an arm in a sleeve; assumed."""
 
 
-def _arms_check(site: LoomSite) -> Check:
-    """Room under the straight line from the shoulder of a weaver to the fell, over slide and beam of the beat."""
+def _arms_checks(site: LoomSite) -> tuple[Check, ...]:
+    """Room under the straight line from the shoulder of a weaver to the fell; none where nothing lies under it."""
     shoulder = station_of(site).bench.shoulder
     slope, half = shoulder.imag / shoulder.real, site.width / 2
-    before = [
-        one
+    rooms = [
+        slope * float(one.low[2]) - float(one.high[1])
         for one in site.near.extents
-        if not one.moving and 0 < one.low[2] < shoulder.real and one.low[0] < half and one.high[0] > -half
+        if not one.moving
+        and 0 < one.low[2] < shoulder.real
+        and one.high[1] < shoulder.imag
+        and one.low[0] < half
+        and one.high[0] > -half
     ]
-    room = min(slope * float(one.low[2]) - float(one.high[1]) for one in before if one.high[1] < shoulder.imag)
-    return at_least(
-        "weavers: room under their arms", room, ARM_ROOM, "mm", "shoulder to fell, straight; assumed by this project"
-    ).with_cure("set a larger hands.weft_laid", BEAM)
+    if not rooms:
+        return ()
+    source = "shoulder to fell, straight; assumed by this project"
+    return (
+        at_least("weavers: room under their arms", min(rooms), ARM_ROOM, "mm", source).with_cure(
+            "set a larger hands.weft_laid", BEAM
+        ),
+    )

@@ -19,10 +19,10 @@ from ilmek.machines.automated_loom.knotting import ELBOW_ROOM
 from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of, row_windows
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
 from ilmek.machines.automated_loom.report import parts_table
+from ilmek.machines.automated_loom.supports import beat_beam
 from ilmek.machines.beat import BeatDrive
-from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.hand_loom.design import WEFTS, HandLoom
-from ilmek.machines.hand_loom.driven_beat import BEAT, room_check, two_beats
+from ilmek.machines.hand_loom.driven_beat import BEAT, room_checks, two_beats
 from ilmek.machines.hand_loom.equipment import equipment_checks
 from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, site_of, tree
 from ilmek.machines.hand_loom.layout import CylinderBracket
@@ -37,6 +37,9 @@ from ilmek.report import BillLine, Check, Json, Table, at_least, at_most, column
 
 TIPPING = 1.5
 """Weight's moment over that of the hands at least; assumed by this project."""
+
+OVERHEAD = 1.9
+"""What a weaver who stands reaches and pulls, over the floor [m]; assumed by this project."""
 
 ABSENT = (
     ("programme", "the weaver is the order of the acts"),
@@ -56,7 +59,7 @@ UNDRIVEN = (
 BEAT_DRIVEN = (
     ("drives of shed, weft and cylinders", "the hands of the weavers"),
     ("sensors of shed and warps", "the weaver sees them; rod and levers have their room above all that beats"),
-    ("comb", "the beat is driven"),
+    ("comb of the weaver", "the beat is driven"),
 )
 """What it has not where the beat is driven."""
 
@@ -230,6 +233,9 @@ def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:
         at_least(
             "loom stands: weight over the hands' pull", tipping(loom, found.lines), TIPPING, "1", "moments; assumed"
         ).with_cure("set a smaller hands.pull", part_id("front-foot")),
+        at_most(
+            "shed rod, pushed up, over the floor", loom.shed.params.rod_high - layout.floor, OVERHEAD, "m", "assumed"
+        ).with_cure("set a smaller hand-shed.rod_high"),
         at_most("load of a levelling foot", foot_load(loom), foot_of(loom).rating, "N", "its pad and screw").with_cure(
             cure, part_id("levelling-foot")
         ),
@@ -243,7 +249,7 @@ def _of_a_drive(loom: HandLoom, drive: BeatDrive) -> tuple[Check, ...]:
     return (
         row_check(drive),
         *drive.checks,
-        room_check(drive, loom.shed),
+        *room_checks(drive, loom.shed),
         *loom.posts.checks,
         *equipment_checks(site_of(loom)),
     )
@@ -274,8 +280,9 @@ def tipping(loom: HandLoom, lines: tuple[BillLine, ...]) -> float:
     layout, hands = loom.layout, loom.params.hands
     weight = sum(line.mass_all for line in lines) * GRAVITY
     pull = 2 * loom.weavers * hands.pull * (layout.upper.at.imag - layout.floor)
-    beat = loom.drive.frame_force * (beam_corner(loom.drive.design).imag - layout.floor) if loom.drive else 0.0
-    return weight * layout.reach / max(pull, beat)
+    drive = loom.drive
+    across = drive.frame_force * (beat_beam(drive)[1].imag - layout.floor) if drive and drive.crank_rockers else 0.0
+    return weight * layout.reach / max(pull, across)
 
 
 def _deadline(loom: HandLoom, deadline: float) -> Check:

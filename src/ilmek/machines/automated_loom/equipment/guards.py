@@ -95,12 +95,12 @@ def fence_of(site: LoomSite) -> Fence:
     reach = through(MESH - WIRE)
     # A post stands on each side of the cabinet, beside those of the corners.
     ends = float(control.low[0]) - 2 * POST, float(control.high[0]) + 2 * POST
-    left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach, ends[0])
+    inside, beside = (0.0, 0.0) if site.heads else (station_of(site).bench.rear, station_of(site).bench.half + BESIDE)
+    left = min(float(stands_low[0]) - BESIDE, -beside, float(moves_low[0]) - reach, ends[0])
     behind = max((float(one.high[0]) for one in near.extents if one.part in ROW_MOTORS), default=0.0)  # their encoders
     encoders = behind + ENCODER.size[2] + GAP
-    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1], encoders)
+    right = max(float(stands_high[0]) + BESIDE, beside, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
-    inside = 0.0 if site.heads else station_of(site).bench.rear
     front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(site))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
