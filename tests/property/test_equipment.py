@@ -29,6 +29,7 @@ from ilmek.machines.automated_loom.equipment.creel import BRAKE_ID, CORE, DENSIT
 from ilmek.machines.automated_loom.equipment.energy_chain import chain_checks, energy_chain, trough_box
 from ilmek.machines.automated_loom.equipment.guard_parts import mesh_panel
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
@@ -157,7 +158,7 @@ def test_distances_are_those_of_the_standards() -> None:
 @given(st.sampled_from([ROW, KNOT]), st.floats(0.0, turn))
 def test_what_moves_stays_as_far_from_the_fence_as_an_arm_reaches(drive: str, angle: float) -> None:
     loom = _loom()
-    fence, tree, reach = fence_of(loom), loom_tree(loom), through(MESH - WIRE)
+    fence, tree, reach = fence_of(site_of(loom)), loom_tree(loom), through(MESH - WIRE)
     own = {body.id for tree in equipment_trees(loom) for body in tree.bodies}
     known = {one.body: one for one in extents(tree, (ROW, KNOT)) if one.moving}
     for chain in chains(tree):
@@ -210,7 +211,7 @@ def test_boxes_of_copies_contain_their_own_points(origins, turned: bool, carried
 def test_nothing_comes_nearer_to_a_hand_on_its_button_than_it_comes_while_that_moves(beat: str) -> None:
     """Meshes over a row; and while weavers tie, nothing that moves in a row stands before the cloth at their hands."""
     loom = _loom(knotting="hand", beat=beat)
-    station, stops, tree = station_of(loom), stopping_time(loom), loom_tree(loom)
+    station, stops, tree = station_of(site_of(loom)), stopping_time(loom), loom_tree(loom)
     half, hands = loom.task.cloth.width / 2, 0.12
     own = {body.id for tree in equipment_trees(loom) for body in tree.bodies}
     for chain in chains(tree):
@@ -257,7 +258,7 @@ def test_each_tube_of_each_head_has_a_package_with_room_for_a_hand() -> None:
 def test_the_creel_stands_where_no_rapier_runs_out(weft: str) -> None:
     """So the duct is no longer than the fence is away from the feet there."""
     loom = _loom(weft=weft, width=1.5, length=1.5)
-    creel, fence, near = creel_of(loom), fence_of(loom), surroundings(loom)
+    creel, fence, near = creel_of(loom), fence_of(site_of(loom)), surroundings(loom)
     feet = near.of("automated-loom/front-foot")
     ways = {-1: float(feet[0].low[0]) - fence.left, 1: fence.right - float(feet[-1].high[0])}
     assert ways[creel.hand] == min(ways.values())

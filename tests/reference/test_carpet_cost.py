@@ -16,10 +16,11 @@ from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost, annuity_factor
+from ilmek.machines.automated_loom.choice import weavers_needed
 from ilmek.machines.automated_loom.cost import costs_by_beats
 from ilmek.machines.automated_loom.cost_figures import cost_over_carpets, cost_over_heads
 from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.estimate import weavers_needed
+from ilmek.machines.automated_loom.estimate import time_for_knots
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.machine_cost import MachineCost
 from ilmek.machines.automated_loom.offers import CYCLES, value_of
@@ -122,8 +123,8 @@ def test_time_and_wage_of_weavers_are_those_of_a_computation_by_hand() -> None:
     for deadline in (time - 1, 0.7 * time, 0.3 * time):
         times = {n: 75 * (math.ceil(150 / n) * 3.0 + found.cycle_time_row) + stops for n in range(1, 151)}
         enough = next((n for n, needed in times.items() if needed <= deadline), None)
-        assert weavers_needed(found.loom, deadline) == enough
-    assert weavers_needed(found.loom, 75 * found.cycle_time_row) is None
+        assert weavers_needed(time_for_knots(found.loom, deadline), 3.0, 150) == enough
+    assert weavers_needed(time_for_knots(found.loom, 75 * found.cycle_time_row), 3.0, 150) is None
 
 
 TABLE = list(itertools.product(("cams", "arms"), (1.8, 1.25), WEFT_CARRIERS, BEATS, (1, 2)))

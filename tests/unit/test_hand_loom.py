@@ -30,6 +30,7 @@ from ilmek.report import Report
 from ilmek.weaving.fell import assumed_fabric
 
 BY_HAND = {"knotting": "hand", "shed": "hand", "beat": "hand"}
+PAPERS = {**BY_HAND, "beat": "travelling"}
 
 
 @pytest.fixture(scope="module")
@@ -151,7 +152,9 @@ def test_the_hand_loom_is_one_machine_that_only_hands_move(report: Report) -> No
 
 def test_in_the_picture_rod_and_strings_move_with_the_warps(report: Report) -> None:
     """Judge: the rod's own solid, moved by its frame, lies between the sheets; a string ends on the warp it pulls."""
-    seen = scene(loom(), report)
+    made = loom()
+    seen = scene(made, report)
+    heddles = next(own for own in tree(made).bodies if own.id == "hand-shed/heddles")
     frame = next(own for own in seen.frames if own.name == "hand-shed/shed rod")
     rod = next(part for part in seen.parts if part.ids[0] == "hand-shed/rod").solids[0].points
     rear, front = seen.warps
@@ -160,8 +163,16 @@ def test_in_the_picture_rod_and_strings_move_with_the_warps(report: Report) -> N
         y = frame.origins[0, 1] + np.interp(angle, frame.motion.angle, frame.motion.shift[:, 1])
         z = [float(np.interp(y, *sheet.points[number, :4, 1:].T)) for sheet in (rear, front)]
         assert z == pytest.approx([rod[:, 2].min(), rod[:, 2].max()], abs=1e-5)
-    strings = seen.yarns[0].points
-    assert strings[:, 1] == pytest.approx(rear.points[:, 1])
+    pulled, motion = len(rear.angle) // 2, heddles.joint.motion
+    assert motion is not None
+    swing = np.interp(rear.angle[pulled], motion.angle, motion.rotation)
+    strings = next(own for own in heddles.occurrences if own.part.id == "hand-shed/string-heddle")
+    end = np.array([[0.0, 0.0, made.shed.string]])
+    x, up, ahead = np.array([own.points(end)[0] for own in strings.positions]).T
+    origin = heddles.positions[0].points(np.zeros((1, 3)))[0]
+    assert x == pytest.approx(rear.across)
+    assert origin[1] + up * np.cos(swing) - ahead * np.sin(swing) == pytest.approx(rear.points[pulled, 1, 1])
+    assert origin[2] + up * np.sin(swing) + ahead * np.cos(swing) == pytest.approx(rear.points[pulled, 1, 2])
     across = np.sort(np.concatenate([rear.across, front.across]))
     assert np.diff(across) == pytest.approx(loom().params.cloth.warp_pitch)
     assert {one.machine for one in seen.parts} == {"hand-loom", "hand-shed", "hand-beat", "warp-tension"}
@@ -207,10 +218,92 @@ def test_a_deadline_that_no_weaver_meets_names_the_persons_needed() -> None:
     assert made.rows * made.row_time * made.weavers / needed <= 20 * 3600 < made.rows * made.row_time
 
 
-@pytest.mark.parametrize("mixed", [{"shed": "hand"}, {"beat": "hand"}, {"knotting": "hand", "shed": "hand"}])
-def test_a_loom_half_by_hand_is_refused_with_what_to_set(mixed: dict[str, str]) -> None:
-    with pytest.raises(LoomError, match="set all three to hand"):
+@pytest.mark.parametrize(
+    ("mixed", "cure"),
+    [
+        ({"shed": "hand"}, "set knotting=hand"),
+        ({"beat": "hand"}, "or shed=hand"),
+        ({"knotting": "hand", "shed": "hand", "beat": "linkage"}, "set beat=comb"),
+        ({**BY_HAND, "weft": "rapier"}, "set weft=hand"),
+        ({"knotting": "hand", "weft": "hand"}, "or shed=hand"),
+    ],
+)
+def test_what_no_loom_has_by_hand_beside_a_drive_is_refused_with_what_to_set(mixed: dict[str, str], cure: str) -> None:
+    with pytest.raises(LoomError, match=cure):
         design_machine("automated-loom", mixed)
+
+
+@pytest.fixture(scope="module")
+def papers() -> Report:
+    return design_machine("automated-loom", PAPERS, illustrated=False).report
+
+
+def test_the_papers_machine_is_designed_by_one_command_and_only_its_beat_is_driven(papers: Report) -> None:
+    assert papers.failed == ()
+    results, made = papers.as_json()["results"], loom(beat="travelling")
+    assert (results["buildable"], results["driven_axes"], results["assembly_groups"]) == (True, 2, 1)
+    free = drive_balance(tree(made))
+    assert results["degrees_of_freedom"] == len(free.by_hand) + 2 == free.driven
+    assert results["beat_force"] > 60.0  # the paper's abstract, at its own speed of the crank
+    assert {part.purchase.row for part, _ in tree(made).occurrences() if part.purchase and part.purchase.drives}
+    assert "comb" not in " ".join(results["moved_by_hand"])
+
+
+def test_a_comb_on_its_own_axes_beats_for_weavers_who_open_the_shed_over_it() -> None:
+    report = design_machine("automated-loom", {**BY_HAND, "beat": "comb"}, illustrated=False).report
+    assert report.failed == ()
+    made, results = loom(beat="comb"), report.as_json()["results"]
+    assert (results["assembly_clashes"], results["assembly_groups"], results["beaten_warps"]) == (0, 1, 608)
+    assert {track.name for track in made.cyclograms[1].tracks} == {"beater"}
+    low = design_machine("hand-loom", {"beat": "comb", "hands.weft_laid": "100mm"}, illustrated=False).report
+    assert {check.name for check in low.failed} == {"what beats over the hands that tie"}
+
+
+def test_the_beat_of_the_papers_machine_stays_below_the_shed_and_strikes_every_warp(papers: Report) -> None:
+    """Judge: the run of the slide by counting warps; outlines carried along the path against rod and heddle bar."""
+    made = loom(beat="travelling")
+    seen = scene(made, papers)
+    frames = {one.name: one for one in seen.frames}
+    slide = frames["beat-up/carriage"].motion
+    assert slide is not None
+    run = slide.shift[:, 0]
+    cloth, drive = made.params.cloth, made.drive
+    assert drive is not None
+    assert np.ptp(run) == pytest.approx((cloth.warps - drive.beaten) * cloth.warp_pitch + 2 * drive.beat.park)
+    assert drive.beat.strokes * drive.beaten >= cloth.warps
+    assert run[0] == pytest.approx(run[-1])  # the second beat brings it back
+    assert seen.periods["beat"] == pytest.approx(2 * drive.beat.whole + 2.0)
+    highest = max(float(drive.path.carried(one, drive.path.tip).imag.max()) for one in drive.path.outline)
+    lowest = made.shed.params.heddle_height - made.shed.bar.outer_radius
+    assert drive.path.rise < highest < lowest < made.shed.params.rod_low - made.shed.rod.outer / 2
+
+
+def test_a_row_of_the_papers_machine_has_its_weavers_in_it(papers: Report) -> None:
+    made = loom(beat="travelling")
+    row, beats = made.cyclograms
+    results = papers.as_json()["results"]
+    assert row.period == pytest.approx(results["row_time"]) == pytest.approx(sum(made.row_acts.values()))
+    assert [part.name for part in row.track("loom").segments] == ["beat", "beat again"]
+    assert made.drive is not None
+    assert results["row_acts"]["beats"] == pytest.approx(2 * (4 + made.drive.beat.whole))
+    ends = sorted((part.start, part.end) for track in row.tracks for part in track.segments)
+    assert all(end == pytest.approx(start) for (_, end), (start, _) in pairwise(ends))
+    assert {track.name for track in beats.tracks} == {"beater", "slide of the beater"}
+    work = made.rows * 2 * sum(one.energy for one in made.drive.work) / 0.7
+    assert results["energy"] == pytest.approx(work + 2 * 10.0 * results["weaving_time"])
+
+
+def test_the_papers_machine_weaves_a_carpet_with_wage_time_and_the_cyclogram_of_its_beat(tmp_path: Path) -> None:
+    picture = tmp_path / "stripes.png"
+    Image.fromarray(np.kron(np.array([[0, 255], [255, 0]], np.uint8), np.ones((8, 8), np.uint8))).save(picture)
+    order = read_order(picture, size="40x50cm", quality="20x20/dm")
+    woven = weave(order, read_loom_order(order, loom=PAPERS), tmp_path / "woven")
+    assert woven.weaves
+    page = (tmp_path / "woven" / "loom.html").read_text(encoding="utf-8")
+    assert "Two beats" in page
+    assert "One row with its weavers" in page
+    assert "the loom beats while all hold their buttons" in woven.warnings[0]
+    assert ("weavers", "1 (of 1 that fit), wage") in [(name, text[:23]) for name, text in loom_pairs(woven)]
 
 
 def test_a_carpet_is_woven_on_a_hand_loom_with_chart_time_and_wage_and_no_programme(tmp_path: Path) -> None:

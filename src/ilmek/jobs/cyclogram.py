@@ -52,9 +52,10 @@ def cyclograms_of(machine: str, settings: Mapping[str, Setting], progress: Progr
     Raises ParameterError for an unknown machine, and for one without cyclograms; Cancelled.
     """
     kind, params = find_machine(machine).ordered(settings)
-    if kind.cyclograms is None:
+    made = kind.cyclograms(kind.designed(params, progress)) if kind.cyclograms else ()
+    if not made:
         raise ParameterError(f"{kind.name} has no cyclogram", allowed=f"machines with some: {', '.join(timed())}")
-    return tuple(kind.cyclograms(kind.designed(params, progress)))
+    return tuple(made)
 
 
 def timed() -> list[str]:

@@ -117,6 +117,7 @@ class LoomResult:
 
 NO_PROGRAMME = "no programme: the weavers tie by the chart and its rows; the loom does the same after each row"
 NO_DRIVES = "no programme: the weavers tie by the chart and its rows; nothing of the loom is driven"
+BEATS_ALONE = "no programme: the weavers tie by the chart and its rows; the loom beats while all hold their buttons"
 
 OF_THE_CARPET = {
     "width": "--size",
@@ -267,7 +268,8 @@ def _by_hand(machine: AnyComponent, params: Params, *, illustrated: bool, assemb
     made: HandLoom = machine.designed(params)
     report = machine.report(made, illustrated=illustrated, assembled=assembled)
     time, left = made.rows * made.row_time, float(made.beat.row_pitch_left)
-    return LoomResult(report, (), hand=made, row_pitch_left=left, weaving_time=time, notes=(NO_DRIVES,))
+    note = NO_DRIVES if made.drive is None else BEATS_ALONE
+    return LoomResult(report, (), hand=made, row_pitch_left=left, weaving_time=time, notes=(note,))
 
 
 def _for_weavers(

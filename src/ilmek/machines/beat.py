@@ -183,12 +183,8 @@ class BeatDrive:
 
 
 def stroke_needed(task: LoomTask) -> float:
-    """Stroke of the beater [m]: it comes from above the weft, which is laid above the fell."""
-    return task.side.beat_stroke if task.side is not None else USUAL_STROKE
-
-
-USUAL_STROKE = 0.1
-"""Stroke of the comb [m] where there is no side view: assumed by this project."""
+    """Stroke of the beater [m]: it comes from above the weft, which a carrier or, without a side view, hands lay."""
+    return task.side.beat_stroke if task.side is not None else task.params.hands.weft_laid
 
 
 @runtime_checkable

@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from ilmek.elements.carpet_yarns import CarpetYarns
+from ilmek.machines.weaver_hands import HAND
 from ilmek.params import Params
 from ilmek.records import record
+from ilmek.units import mm
 from ilmek.weaving.cloth import Cloth
 
 if TYPE_CHECKING:
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
     from ilmek.machines.weft.design import Weft
 
 P = TypeVar("P", bound=Params)
+
+TO_COLUMNS = 100 * mm
+"""From a bearing of the cylinders to the columns of a hand loom [m]: shaft end, bearing, bracket; assumed."""
 
 
 class MachineDesign(Protocol):
@@ -94,11 +99,11 @@ class LoomTask:
     @property
     def rail_length(self) -> float:
         """Length of the heads' rail [m]: for its belt, and beyond its ends the axes of its retreat are clear of a head
-        and its step. Without heads as far as between the bearings.
+        and its step. Without heads as far as between the bearings; to the columns where these bear what lies along it.
         """
         head, cloth = self.weaver, self.cloth
         if head is None:
-            return self.width
+            return self.width + (2 * TO_COLUMNS if self.params.shed == HAND else 0.0)
         room = head.width / 2 + self.params.clearance
         return max(self.width, cloth.width + cloth.knot_pitch + 2 * room, head.belt_length)
 

@@ -31,12 +31,22 @@ class WeaverHands(Params):
     weft_speed: float = kind.speed(
         0.15, at_least=1e-3, at_most=5.0, doc="speed of the weft's bobbin, passed from hand to hand; assumed"
     )
+    weft_laid: float = kind.length(
+        150 * mm,
+        at_least=1 * mm,
+        at_most=1.0,
+        doc="weft over the fell that hands have laid, before a drive beats it: the paper's first position of the hand",
+    )
     act_time: float = kind.time(
         4.0, at_least=0.1, at_most=600.0, doc="time to take a tool or a lever, move it and let it go; assumed"
     )
     advance: float = kind.length(
         150 * mm, at_least=5 * mm, at_most=1.0, doc="carpet woven before it is wound on; assumed"
     )
+
+    def weft_time(self, width: float) -> float:
+        """Time of a weft by hand [s] over a width [m]: passed from hand to hand, taken and put down."""
+        return width / self.weft_speed + self.act_time
 
 
 CRANK = 250 * mm

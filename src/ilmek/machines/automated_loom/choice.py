@@ -1,5 +1,6 @@
 """The kinds of beat that a loom may have, each with its drive, and the checks of what is wished of a loom."""
 
+import math
 from collections.abc import Callable
 
 from ilmek.elements.prices import price_of, read_prices
@@ -10,6 +11,7 @@ from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.loom_task import LoomTask
 from ilmek.records import record
 from ilmek.report import Check, at_most
+from ilmek.units import format_quantity
 
 
 @record
@@ -48,6 +50,30 @@ def deadline_check(
 ) -> Check:
     """Whether the carpet is woven within the deadline [s], by the estimated time [s]."""
     return at_most("weaving time, estimated", time, deadline, "h", "parameter deadline").with_cure(cure)
+
+
+def weavers_deadline_check(deadline: float, time: float, needed: int | None, width: float) -> Check:
+    """The same where weavers tie: no weaver is quicker, so that persons are missing.
+
+    needed  weavers who would keep it, whether they find room or not; None: no number does      width  of one [m]
+    """
+    wide = format_quantity((needed or 0) * width, "m")
+    cure = f"{needed} weavers are needed, who find room on {wide}: set a later deadline, or knotting=cams"
+    alone = "no number of weavers is enough: set a later deadline"
+    return deadline_check(deadline, time, cure if needed else alone)
+
+
+def weavers_needed(knots: float, knot_time: float, columns: int) -> int | None:
+    """The fewest weavers who tie a row of knots within a time of the row for them [s]; None: no number does.
+
+    >>> weavers_needed(10.0, 3.0, 300), weavers_needed(2.0, 3.0, 300)
+    (100, None)
+    """
+    each = math.floor(knots / knot_time + _ROUNDING)
+    return math.ceil(columns / each) if each >= 1 else None
+
+
+_ROUNDING = 1e-9
 
 
 def row_check(drive: BeatDrive) -> Check:

@@ -9,6 +9,7 @@ from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.automated_loom.design import LoomDesign, ready_loom
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.tree import OF_A_HEAD
 from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.machine_cost import machine_cost, with_control
@@ -23,7 +24,7 @@ def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float)
     listed  parts of the loom      time, energy  of weaving the carpet [s], [J]
     """
     params, rates = loom.params, rates_of(loom, loom.weavers)
-    fence = fence_of(loom)
+    fence = fence_of(site_of(loom))
     margins = 2 * (POST + rates.aisle)
     return CarpetCost(
         rates=rates,

@@ -16,6 +16,7 @@ the carriage's position is to be taken from there. A rapier goes in and out in e
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +53,8 @@ EVEN, ODD, BEATER, TAKE_UP = "even warps", "odd warps", "beater", "take-up"
 SLIDE = "slide of the beater"
 SOURCE = "thesis, 3.3: the four steps of a row"
 HEADS, WEAVERS, LOOM = "heads", "weavers", "loom"
+WEAVERS_ROW = "row with its weavers"
+"""Name of the cyclogram of weavers and loom."""
 RETREAT_END = 36 * deg
 """Cam angle at which the heads have retreated from the warps; they return behind the second beat."""
 
@@ -133,14 +136,22 @@ def knot_cyclogram(head: Weaver, period: float) -> Cyclogram:
     return Cyclogram(tied.name, period, (*tied.tracks, track), relations, (*tied.exclusions, *apart))
 
 
-def weavers_row(knots: float, wefts: float) -> Cyclogram:
-    """The cyclogram of a row that weavers tie: the time of its knots, then that of its wefts and beats [s]."""
-    begin, law = turn * knots / (knots + wefts), _law("uniform")
-    tied = Track(
-        WEAVERS, "weavers by hand", (TrackSegment("knots", 0.0, begin, 0.0, 1.0, law),), unit="1", revolves=1.0
-    )
-    woven = Track(LOOM, "loom", (TrackSegment("wefts and beats", begin, turn, 0.0, 1.0, law),), unit="1", revolves=1.0)
-    return Cyclogram("row with its weavers", knots + wefts, (tied, woven))
+def weavers_row(acts: Sequence[tuple[str, str, float]]) -> Cyclogram:
+    """The cyclogram of a row that weavers tie: acts of weavers and loom by name and time [s], one after the other."""
+    period, actuators = sum(time for *_, time in acts), {WEAVERS: "weavers by hand", LOOM: "loom"}
+    ends, law = np.cumsum([turn * time / period for *_, time in acts]).tolist(), _law("uniform")
+    spans = list(zip([0.0, *ends], ends, acts, strict=False))
+
+    def track(who: str) -> Track:
+        own = [(act, begin, end) for begin, end, (doer, act, _) in spans if doer == who]
+        share = 1 / len(own)
+        parts = (
+            TrackSegment(act, begin, end, number * share, (number + 1) * share, law)
+            for number, (act, begin, end) in enumerate(own)
+        )
+        return Track(who, actuators[who], tuple(parts), unit="1", revolves=1.0)
+
+    return Cyclogram(WEAVERS_ROW, period, (track(WEAVERS), track(LOOM)))
 
 
 def cam_tables_of(cyclogram: Cyclogram, names: tuple[str, ...]) -> tuple[CamTable, ...]:
@@ -193,8 +204,7 @@ def cyclogram(timing: RowTiming, period: float) -> Cyclogram:
         _warps(EVEN, timing, 0.0),
         _warps(ODD, timing, _HALF),
         _weft(timing),
-        _beater(timing, period),
-        *_slide(timing, period),
+        *beat_tracks(timing.beat, period, timing.late(timing.beat_end)),
         _take_up(timing),
         *_heads(timing),
     )
@@ -268,9 +278,17 @@ def weft_windows(row: Cyclogram) -> tuple[tuple[float, float], tuple[float, floa
     return (first[0].start, first[-1].end), (second[0].start, second[-1].end)
 
 
-def _beater(timing: RowTiming, period: float) -> Track:
+def beat_tracks(beat: Beat, period: float, end: float) -> tuple[Track, ...]:
+    """The tracks of what beats and of its slide, if any, over two beats; end: angle at which all of the first stands
+    [rad], the second half a turn later.
+    """
+    back = end - turn * beat.park_time / period  # but for the run of the slide to where it stands
+    return (_beater(beat, period, back), *_slide(beat, period, back))
+
+
+def _beater(beat: Beat, period: float, back: float) -> Track:
     """Two beats, each forward, pressed where it is, and back."""
-    beat, spent, back = timing.beat, turn * timing.beat.time / period, _crank_rests(timing, period)
+    spent = turn * beat.time / period
     parts: list[TrackSegment] = []
     for number, end in ((1, back), (2, _HALF + back)):
         start = end - spent
@@ -283,16 +301,11 @@ def _beater(timing: RowTiming, period: float) -> Track:
     return Track(BEATER, beat.actuator, tuple(parts), events)
 
 
-def _crank_rests(timing: RowTiming, period: float) -> float:
-    """Master angle at which the first beat ends but for the run of its slide to where it stands [rad]."""
-    return timing.late(timing.beat_end) - turn * timing.beat.park_time / period
-
-
-def _slide(timing: RowTiming, period: float) -> tuple[Track, ...]:
+def _slide(beat: Beat, period: float, back: float) -> tuple[Track, ...]:
     """The slide that carries the beater across, from edge to edge and back in the two beats; drawn as one motion, with
     its runs from and to where it stands beside the cloth.
     """
-    beat, back, law = timing.beat, _crank_rests(timing, period), _law("modified-sine")
+    law = _law("modified-sine")
     spent, parked = (turn * time / period for time in (beat.time, beat.park_time))
     first, last = back - spent * (1 - beat.forward), back - spent * (1 - beat.forward - beat.pressed)
     whole = 2 * beat.park + beat.slide

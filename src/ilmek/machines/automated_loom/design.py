@@ -13,6 +13,8 @@ from ilmek.machines import loom_parts
 from ilmek.machines.arrangement.side_view import SideView, laid_out
 from ilmek.machines.automated_loom.choice import BeatOption, beat_options
 from ilmek.machines.automated_loom.cyclogram import (
+    LOOM,
+    WEAVERS,
     RowTiming,
     cyclogram,
     knot_cyclogram,
@@ -287,7 +289,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
         row_cyclogram=_row_cyclogram(timing, period, machines),
         knot_cyclogram=knot_cyclogram(knotting.weaver, times.knot)
         if knotting.weaver
-        else weavers_row(task.row_time - period, period),
+        else weavers_row(((WEAVERS, "knots", task.row_time - period), (LOOM, "wefts and beats", period))),
         times=times,
         journal=journal or SearchJournal(),
     )

@@ -7,11 +7,13 @@ by this project: 70 % from the mains to the shaft, 10 W for the electronics of e
 within the efficiency.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.estimate import estimated_time
+from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.records import computed, record
+from ilmek.report import Work
 
 
 @record
@@ -47,15 +49,26 @@ def energy_of(loom: LoomDesign, axes: int) -> Energy:
 
 
 def energy_of_acts(loom: LoomDesign, axes: int, acts: Mapping[str, float], time: float, area: float) -> Energy:
+    """The energy of weaving a carpet on a loom; parameters as of `energy_of_works`."""
+    works = (work for child in loom.machines.values() for work in child.work)
+    return energy_of_works(loom.params, (*works, *loom.beat.work), axes, acts, time, area)
+
+
+def energy_of_works(  # noqa: PLR0917
+    params: AutomatedLoomParams,
+    works: Iterable[Work],
+    axes: int,
+    acts: Mapping[str, float],
+    time: float,
+    area: float,
+) -> Energy:
     """The energy of weaving a carpet.
 
     axes  number of driven axes      acts  number of each act: knot, colour change, row, pass, beat, carpet
     time  of weaving [s]             area  of the carpet [m^2]
     """
-    params = loom.params
     shares: dict[str, float] = {}
-    works = (work for child in loom.machines.values() for work in child.work)
-    for work in (*works, *loom.beat.work):
+    for work in works:
         shares[work.name] = shares.get(work.name, 0.0) + work.energy * acts[work.per] / params.drive_efficiency
     shares["standing by"] = params.standby_power * axes * time
     return Energy(shares, time, area)

@@ -6,7 +6,6 @@ n knots of the widest part in each half of a row, c colour changes a knot; stops
 the slower of two heads is not in the estimate; a programme has it.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -45,17 +44,9 @@ def estimated_times_at(loom: LoomDesign, pitch: float, numbers: Sequence[int]) -
     return np.array([loom.head.least_time(rows, columns, number, times) + stops for number in numbers])
 
 
-def weavers_needed(loom: LoomDesign, deadline: float) -> int | None:
-    """The fewest weavers, whether they find room or not, who weave the carpet within a deadline [s]; None: no number
-    does, the wefts and beats alone take longer.
-    """
-    times = loom.times
-    of_row = (deadline - stop_time(loom.bobbins, loom.rows)) / loom.rows - times.weft
-    knots = math.floor(of_row / times.knot + _ROUNDING)
-    return math.ceil(loom.columns / knots) if knots >= 1 else None
-
-
-_ROUNDING = 1e-9
+def time_for_knots(loom: LoomDesign, deadline: float) -> float:
+    """What a deadline [s] leaves of a row for its knots [s]."""
+    return (deadline - stop_time(loom.bobbins, loom.rows)) / loom.rows - loom.times.weft
 
 
 @record

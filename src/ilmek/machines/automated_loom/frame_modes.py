@@ -203,7 +203,7 @@ def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, H
 
 def _beat_beam(loom: LoomDesign) -> float:
     """The beat's beam on its posts, all that beats in its middle."""
-    beam, _ = beat_beam(loom)
+    beam, _ = beat_beam(loom.beat)
     mass = sum(part.mass_all for part in loom.beat.parts) - beam.part.mass
     return _lowest(Beam(beam.span, (0.0, beam.span)), beam.section, Mass(beam.span / 2, max(mass, 0.0)))
 

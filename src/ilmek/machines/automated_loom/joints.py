@@ -66,20 +66,23 @@ def _of_posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Seam]:
     """Each post at its foot, by its force and the moment of that."""
     held = supports(loom, frame)
     moment = held.force * held.height if held.across else 0.0
-    yield _round("post of the beat", "beat-post", held.post.side, held.post.wall, held.force, moment)
+    yield post_seam("post of the beat", "beat-post", held.post.side, held.post.wall, held.force, moment)
     for own in rail_supports(loom, frame):
         bent = own.load * own.lever + own.push * own.height
         title = "post of the rail" if own.name == "rail-post" else "post of the rail between its ends"
-        yield _round(title, own.name, own.post.side, own.post.wall, own.load + own.push, bent)
+        yield post_seam(title, own.name, own.post.side, own.post.wall, own.load + own.push, bent)
         arm = title.replace("post", "arm")
-        yield _round(arm, own.arm_name, own.arm.side, own.arm.wall, own.load, own.load * own.reach)
+        yield post_seam(arm, own.arm_name, own.arm.side, own.arm.wall, own.load, own.load * own.reach)
     post = steady_post(loom, frame, brackets_of(loom))
     if post is not None:
         section, force = post.section, post.force
-        yield _round("post of the steadies", "steady-post", section.side, section.wall, force, force * post.arm)
+        yield post_seam("post of the steadies", "steady-post", section.side, section.wall, force, force * post.arm)
 
 
-def _round(title: str, part: str, side: float, wall: float, force: float, moment: float) -> Seam:  # noqa: PLR0917
+def post_seam(  # noqa: PLR0917
+    title: str, part: str, side: float, wall: float, force: float, moment: float
+) -> Seam:
+    """The weld round a post or an arm of a square section at its root, by its force and the moment of that."""
     on_length = RoundSquare(side).force(force, moment)
     return Seam(title, part, throat_for(on_length, wall), on_length)
 
@@ -102,7 +105,7 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check | None:
     where nothing pushes it along the warps.
     """
     held, weight = supports(loom, frame), 2 * frame.number * frame.foot_load
-    lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom)
+    lever, (_, corner) = min(foot_reach(loom, frame)), beat_beam(loom.beat)
     height = corner.imag - loom.side.floor
     pushes = sum(own.push * len(own.stations) * (own.height + FOOT) for own in rail_supports(loom, frame))
     moment = (loom.beat.frame_force * height if held.across else 0.0) + pushes

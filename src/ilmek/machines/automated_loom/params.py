@@ -133,7 +133,9 @@ class AutomatedLoomParams(Params):
         0.9, at_least=0.05, at_most=1.0, doc="opening of the shed at the cams, over the lift, at which a weft may pass"
     )
     weft: str = param(
-        AUTO, choices=(AUTO, *WEFT_CARRIERS), doc="what lays the weft: shuttles or a rapier; auto: chosen by aim"
+        AUTO,
+        choices=(AUTO, *WEFT_CARRIERS, HAND),
+        doc="what lays the weft: shuttles or a rapier; hand: its bobbin by hand (hand loom); auto: chosen by aim",
     )
     shed: str = param(
         "cams", choices=("cams", HAND), doc="what opens the shed: cams, or rod and string heddles by hand (hand loom)"
@@ -326,13 +328,22 @@ class AutomatedLoomParams(Params):
             raise LoomError(f"weavers={self.weavers} with knotting={self.knotting}", do="set knotting=hand, or heads=")
 
     def _check_hands(self) -> None:
-        """Raise LoomError where shed or beat are by hand, and not all that a hand loom's weavers do."""
-        given = {"knotting": self.knotting, "shed": self.shed, "beat": self.beat}
-        if HAND in (self.shed, self.beat) and set(given.values()) != {HAND}:
-            shown = ", ".join(f"{name}={kind}" for name, kind in given.items())
-            allowed = "a hand loom: knotting, shed and beat by hand; a drive for the shed or the beat needs both"
-            raise LoomError(shown, allowed=allowed, do="set all three to hand, or shed=cams and another beat")
+        """Raise LoomError where something is by hand that no loom has so beside what is driven."""
+        by_hand = self.shed == HAND
+        wanted = {"knotting": (HAND,), "beat": BEATS_BY_HAND, "weft": (AUTO, HAND)} if by_hand else {}
+        driven = {"beat": (AUTO, *BEATS), "weft": (AUTO, *WEFT_CARRIERS)}
+        for name, kinds in (wanted or driven).items():
+            given = getattr(self, name)
+            if given not in kinds:
+                allowed = f"where the shed is {'opened by hand' if by_hand else 'driven'}: {' or '.join(kinds)}"
+                do = f"set {name}={kinds[-1]}, or shed={'cams' if by_hand else HAND}"
+                raise LoomError(f"{name}={given} with shed={self.shed}", allowed=allowed, do=do)
 
+
+BEATS_BY_HAND = (HAND, "travelling", "comb")
+"""Kinds of beat where weavers open the shed: their comb, the paper's crank-rocker, or a comb on its own axes, all below
+rod and levers. A comb on crank-rockers would rest over the hands that tie; guide cams are those of the shed.
+"""
 
 _OF_HEADS = ("heads", "head_width", "head_mass", "tubes", "knot_cycle")
 """Parameters that only a loom with heads has; all are open by default."""

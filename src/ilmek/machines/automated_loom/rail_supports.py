@@ -30,7 +30,7 @@ from ilmek.machines.automated_loom.frame import (
     rail_ahead,
     rail_support_load,
 )
-from ilmek.machines.automated_loom.shaking import stiff_post
+from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, rail_middle
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
@@ -128,7 +128,8 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             stations=(near - RAIL_AXIS / 2, RAIL_AXIS / 2 - near),
         )
 
-    return _lightest(chosen, math.inf, lambda strong: stiff_post(loom, strong, axis.imag - bottom, load / GRAVITY))
+    height, least = axis.imag - bottom, least_frequency(loom)
+    return _lightest(chosen, math.inf, lambda strong: stiff_post(strong, height, load / GRAVITY, least))
 
 
 def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:

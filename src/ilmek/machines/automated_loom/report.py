@@ -9,16 +9,17 @@ import numpy as np
 from ilmek.carpet.pile import pile_check
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
-from ilmek.machines.automated_loom.choice import deadline_check, row_check
+from ilmek.machines.automated_loom.choice import deadline_check, row_check, weavers_deadline_check, weavers_needed
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
 from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.energy import Energy, energy_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.tree import equipment_checks, whole_list
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path, yarn_tables
-from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_shares, weavers_needed
+from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time, time_for_knots, time_shares
 from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.machine_cost import price_shares
@@ -135,7 +136,7 @@ def analyse(loom: LoomDesign) -> LoomAnalysis:
 
 def results(found: LoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    served = yarn_path(found.loom) if found.loom.heads else station_of(found.loom)
+    served = yarn_path(found.loom) if found.loom.heads else station_of(site_of(found.loom))
     return (
         found.cost,
         found,
@@ -253,12 +254,9 @@ def _deadline_check(found: LoomAnalysis, deadline: float) -> Check:
     """The deadline [s]; where weavers tie, with how many of them it needs."""
     if not found.loom.weavers:
         return deadline_check(deadline, found.time)
-    needed = weavers_needed(found.loom, deadline)
-    wide = format_quantity((needed or 0) * found.loom.head.width, "m")
-    cure = f"{needed} weavers are needed, who find room on {wide}: set a later deadline, or knotting=cams"
-    return deadline_check(
-        deadline, found.time, cure if needed else "no number of weavers is enough: set a later deadline"
-    )
+    loom = found.loom
+    needed = weavers_needed(time_for_knots(loom, deadline), loom.times.knot, loom.columns)
+    return weavers_deadline_check(deadline, found.time, needed, loom.head.width)
 
 
 def _cam_speed_check(loom: LoomDesign, required: float) -> Check:

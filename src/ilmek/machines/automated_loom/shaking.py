@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.beat import BeatDrive
 from ilmek.units import turn
 
 DISTANCE = 2.0
@@ -23,13 +24,17 @@ STIFFER = 2.0
 
 def drive_frequencies(loom: LoomDesign) -> Mapping[str, float]:
     """Strokes of the beat, turns of its crank, knots of all heads in turn, picks: frequency of each [Hz]."""
-    crank = {"crank of the beat": loom.params.beat_speed / turn} if loom.beat.crank_rockers else {}
     return {
-        "strokes of the beat": loom.beat.beat.strokes / loom.beat.beat.time,
-        **crank,
+        **beat_frequencies(loom.beat),
         **({"knots of the heads": loom.heads / loom.times.knot} if loom.heads else {}),
         "picks of the weft": 1 / loom.weft.passage.time,
     }
+
+
+def beat_frequencies(beat: BeatDrive) -> Mapping[str, float]:
+    """Strokes of a beat, and turns of its crank, if it has one [Hz]."""
+    crank = {"crank of the beat": beat.task.params.beat_speed / turn} if beat.crank_rockers else {}
+    return {"strokes of the beat": beat.beat.strokes / beat.beat.time, **crank}
 
 
 def least_frequency(loom: LoomDesign) -> float:
@@ -37,9 +42,9 @@ def least_frequency(loom: LoomDesign) -> float:
     return DISTANCE * max(drive_frequencies(loom).values())
 
 
-def stiff_post(loom: LoomDesign, strong: Sequence[HollowSquare], height: float, mass: float) -> HollowSquare | None:
+def stiff_post(strong: Sequence[HollowSquare], height: float, mass: float, least: float) -> HollowSquare | None:
     """The first of the sections for a post of a height [m] that is stiff enough with a mass at its end [kg]; where none
-    is, the first of them; None of none.
+    is, the first of them; None of none. least: natural frequency that drives allow [Hz].
     """
-    needed = (turn * STIFFER * least_frequency(loom)) ** 2 * mass * height**3 / (3 * STEEL.modulus)
+    needed = (turn * STIFFER * least) ** 2 * mass * height**3 / (3 * STEEL.modulus)
     return next((one for one in strong if one.inertia >= needed), strong[0] if strong else None)

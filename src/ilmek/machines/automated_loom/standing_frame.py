@@ -54,7 +54,12 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
         *_feet(loom, frame, made),
         *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
         *_carried(loom, made),
-        *_control(loom, frame, made, axes),
+        *control_parts(
+            made.face + frame.column.side,
+            loom.side.floor,
+            loom.side.column - frame.column.side / 2 - frame.task.depth,
+            axes,
+        ),
         *support_bodies(loom, frame, made.face),
         *steady_posts(loom, frame, made),
     )
@@ -179,8 +184,11 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
         yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
 
 
-def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> Iterator[Occurrence]:
-    """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there."""
+def control_parts(right: float, floor: float, rear: float, axes: int) -> Iterator[Occurrence]:
+    """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there.
+
+    right, rear  outer side of the column, and end of its rear foot [m]      axes  of the control
+    """
     columns, (across, upwards), (least, high, deep) = -(-axes // _MODULE_ROWS), _MODULE_PITCH, CABINET
     wide = max(least, columns * across + 2 * WALL)
     inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
@@ -195,8 +203,7 @@ def _control(loom: LoomDesign, frame: LoomFrame, made: Brackets, axes: int) -> I
         Bought("amplifier"),
         size="amplifier, cable, switch",
     )
-    rear = loom.side.column - frame.column.side / 2 - frame.task.depth
-    x, y = made.face + frame.column.side - wide / 2, loom.side.floor + high / 2
+    x, y = right - wide / 2, floor + high / 2
     yield Occurrence(control, (placement(x, y, rear - deep),))
     if axes:
         positions = tuple(

@@ -19,7 +19,8 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
-from ilmek.machines.automated_loom.shaking import stiff_post
+from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.beat_up.beam import POST, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
@@ -109,7 +110,7 @@ class LoomSupports:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Strength and stiffness of all."""
-        posts = _post_checks(self.post, self.height, self.force, across=self.across)
+        posts = post_checks(self.post, self.height, self.force, across=self.across)
         tube = () if self.tube is None or self.loads is None else self.loads.checks(self.tube)
         return (*posts, *tube, *(() if self.rapier is None else self.rapier.checks))
 
@@ -117,12 +118,13 @@ class LoomSupports:
 @lru_cache(maxsize=4)
 def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     """The lightest sections that keep their checks, of the posts one that is stiff too; the largest where none does."""
-    made, (beam, corner) = loom.weft.carried, beat_beam(loom)
+    made, (beam, corner) = loom.weft.carried, beat_beam(loom.beat)
     height, across = corner.imag - floor_top(loom, frame), loom.beat.crank_rockers > 0
     # The axes of a comb press along the posts; their beam counts half of what is spread over it.
     force = beam.carried / 2 if across else beam.carried
-    strong = [one for one in ascending() if all(check.ok for check in _post_checks(one, height, force, across=across))]
-    post = stiff_post(loom, strong, height, sum(part.mass_all for part in loom.beat.parts) / 2) or ascending()[-1]
+    post = post_for(
+        height, force, sum(part.mass_all for part in loom.beat.parts) / 2, least_frequency(loom), across=across
+    )
     if not isinstance(made, Shuttle):
         rapier = rapier_support(loom, brackets_of(loom).face, frame.column.side)
         return LoomSupports(post, height, force, across, None, None, rapier)
@@ -138,13 +140,21 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
     return LoomSupports(post, height, force, across, tube, loads, None)
 
 
-def beat_beam(loom: LoomDesign) -> tuple[BeatBeam, complex]:
+def beat_beam(beat: BeatDrive) -> tuple[BeatBeam, complex]:
     """The beam that carries what beats, and its lower corner towards the warps in the side view [m]."""
-    beat = loom.beat
     return (beat.use.beam, beam_corner(beat.design)) if isinstance(beat.design, BeatUp) else beam_of(beat.design)
 
 
-def _post_checks(section: HollowSquare, height: float, force: float, *, across: bool) -> tuple[Check, ...]:
+def post_for(height: float, force: float, mass: float, least: float, *, across: bool) -> HollowSquare:
+    """The lightest section of a post of the beat that keeps its checks and is stiff, else that is strong.
+
+    height  [m]      force, mass  at its end [N, kg]      least  natural frequency of the frame [Hz]
+    """
+    strong = [one for one in ascending() if all(check.ok for check in post_checks(one, height, force, across=across))]
+    return stiff_post(strong, height, mass, least) or ascending()[-1]
+
+
+def post_checks(section: HollowSquare, height: float, force: float, *, across: bool) -> tuple[Check, ...]:
     """A force across at the end of a post, or along it, free at its end: buckling of twice its height."""
     parts = (part_id("beat-post"),)
     if not across:
@@ -182,7 +192,7 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
     """Axis of the posts of the beat in the side view [m]: under the middle of its beam, or as near to it as the arms of
     the rail leave room.
     """
-    beam, corner = beat_beam(loom)
+    beam, corner = beat_beam(loom.beat)
     middle, half = corner.real + beam.section.side / 2, supports(loom, frame).post.side / 2
     if loom.side.heads is None:
         return middle

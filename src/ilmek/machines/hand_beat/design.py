@@ -68,8 +68,7 @@ class HandBeat:
 
     @computed("s", "time of a weft by hand: passed from hand to hand, taken and put down")
     def weft_time(self) -> float:
-        hands, width = self.params.hands, self.params.cloth.width
-        return width / hands.weft_speed + hands.act_time
+        return self.params.hands.weft_time(self.params.cloth.width)
 
     @property
     def warps(self) -> int:

@@ -5,7 +5,7 @@ import numpy as np
 from ilmek.dynamics.animation import frames
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.hand_beat.design import STRENGTH, HandBeat
-from ilmek.machines.hand_beat.tools import DEEP, SHELF, comb_parts, part_id, shelf_length, tool_bodies
+from ilmek.machines.hand_beat.tools import DEEP, SHELF, comb_parts, comb_wide, part_id, shelf_length, tool_bodies
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.tree import Tree
 from ilmek.report import (
@@ -32,7 +32,7 @@ ROW_TOLERANCE = 0.02
 def tree(beat: HandBeat, shelf: Placement = IDENTITY) -> Tree:
     """The shelf with the tools on it; shelf  its axes."""
     comb = comb_parts(beat.params, beat.leaf, beat.warps)
-    return Tree(tuple(tool_bodies(beat.params, comb, beat.warps, shelf)))
+    return Tree(tuple(tool_bodies(shelf, comb, comb_wide(beat.params, beat.warps))))
 
 
 def checks(beat: HandBeat) -> tuple[Check, ...]:
@@ -67,7 +67,7 @@ def checks(beat: HandBeat) -> tuple[Check, ...]:
 def shelf_stress(beat: HandBeat) -> float:
     """Stress of the shelf at its rear edge [Pa]: tools and plate in half of its depth, 6 m g (d / 2) / (l s²)."""
     mass = tree(beat).mass
-    return 6 * mass * GRAVITY * DEEP / 2 / (shelf_length(beat.params, beat.warps) * SHELF**2)
+    return 6 * mass * GRAVITY * DEEP / 2 / (shelf_length(comb_wide(beat.params, beat.warps)) * SHELF**2)
 
 
 def figures(beat: HandBeat) -> tuple[Figure, ...]:

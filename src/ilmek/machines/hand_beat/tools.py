@@ -3,6 +3,7 @@
 Axes of the shelf: x along it, y up from its upper side, z to the front, 0 at its rear edge.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -59,27 +60,25 @@ def comb_wide(params: HandBeatParams, number: int) -> float:
     return max(number * params.cloth.warp_pitch, HANDLE[0])
 
 
-def shelf_length(params: HandBeatParams, number: int) -> float:
-    """Length of the shelf for all tools beside each other [m]."""
-    sizes = [comb_wide(params, number), *(size[0] for *_, size, count in TOOLS for _ in range(count))]
-    return sum(sizes) + (len(sizes) + 1) * LOOSE
+def shelf_length(comb: float = 0.0) -> float:
+    """Length of the shelf for all tools beside each other [m]; comb: room of the comb, 0 without one."""
+    sizes = [*((comb,) if comb else ()), *(size[0] for *_, size, count in TOOLS for _ in range(count))]
+    return math.fsum(sizes) + (len(sizes) + 1) * LOOSE
 
 
-def tool_bodies(
-    params: HandBeatParams, comb: tuple[Occurrence, ...], number: int, shelf: Placement
-) -> Iterator[RigidBody]:
+def tool_bodies(shelf: Placement, comb: tuple[Occurrence, ...] = (), wide: float = 0.0) -> Iterator[RigidBody]:
     """The shelf, and the tools on it from left to right.
 
-    shelf  its axes
+    shelf  its axes      comb, wide  parts of the comb and its room [m]; none where the beat is driven
     """
-    long = shelf_length(params, number)
+    long = shelf_length(wide)
     plate = Part(part_id("shelf"), "shelf of the tools", "laser-cut part", in_mm(SHELF), box(DEEP, SHELF, long), STEEL)
     lies = Occurrence(plate, (placement(-long / 2, -SHELF / 2, DEEP / 2).after(_FLAT),))
     yield RigidBody(part_id("shelf"), (lies,), positions=(shelf,))
     at = LOOSE - long / 2
-    wide = comb_wide(params, number)
-    yield _lifted("comb", comb, "comb-handle", (shelf.after(placement(at + wide / 2, 0.0, LOOSE)),))
-    at += wide + LOOSE
+    if comb:
+        yield _lifted("comb", comb, "comb-handle", (shelf.after(placement(at + wide / 2, 0.0, LOOSE)),))
+        at += wide + LOOSE
     for name, title, row, mass, size, count in TOOLS:
         part = Part(part_id(name), title, "hand tool", row, box(*size), purchase=Bought(row, mass), envelope=True)
         own = tuple(

@@ -9,9 +9,11 @@ Source: thesis, 1.3.1 and 3.1 to 3.2, Figures 3.3 to 3.6 and 3.13 to 3.15; it pr
 """
 
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
-from ilmek.machines.automated_loom.equipment.bench import Bench
+from ilmek.machines.automated_loom.energy import Energy
+from ilmek.machines.automated_loom.equipment.station import WeaversStation
 from ilmek.machines.automated_loom.off_loom import OffLoom
 from ilmek.machines.automated_loom.report import LoomVerdict
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.component import Component
 from ilmek.machines.hand_loom.design import HandLoom, design
 from ilmek.machines.hand_loom.figures import figures
@@ -38,13 +40,24 @@ MACHINE: Component[HandLoomParams, HandLoom, HandLoomAnalysis] = Component(
     design=design,
     analysis=analyse,
     results=results,
-    reported=(LoomVerdict, HandLoomAnalysis, Bench, CarpetCost, OffLoom, Warping, HandAssembly),
+    reported=(
+        LoomVerdict,
+        HandLoomAnalysis,
+        Energy,
+        BeatDrive,
+        WeaversStation,
+        CarpetCost,
+        OffLoom,
+        Warping,
+        HandAssembly,
+    ),
     checks=checks,
     tables=tables,
     figures=figures,
     tree=tree,
     own_tree=own_tree,
     children=lambda loom: loom.children,
+    cyclograms=lambda loom: loom.cyclograms,
     assembly=assembly,
     verdict=LoomVerdict,
     headline=("weaves", BUILDABLE),

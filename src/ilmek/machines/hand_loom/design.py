@@ -1,9 +1,11 @@
-"""Design of the hand loom: cylinders that are wound by hand, shed and beat by hand, a frame; nothing is driven.
+"""Design of the hand loom: cylinders that are wound by hand, the shed by hand, a frame; nothing but the beat is driven.
 
     row = knots / weavers * t_knot + 2 t_shed + wefts * t_weft + t_blows + t_wound w / advance
+    row = ...                                                  + 2 (t_grip + t_beat) + ...              driven beat
 
 t_knot by the knots of a weaver's day, which count all that she does for them; two changes of the shed a row, each moves
-the rod and the levers and locks or unlocks them; t_wound: the carpet is wound on after it has grown by `advance`.
+the rod and the levers and locks or unlocks them; t_wound: the carpet is wound on after it has grown by `advance`;
+t_grip: all weavers take hold of their buttons for a driven beat.
 """
 
 import math
@@ -13,10 +15,20 @@ from functools import lru_cache
 from typing import Any
 
 from ilmek.machines.automated_loom.design import knotters
+from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.knotting import KnottingHead
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.component import Child
 from ilmek.machines.hand_beat import HandBeat, HandBeatParams
+from ilmek.machines.hand_loom.driven_beat import (
+    BeatPosts,
+    planned_drive,
+    posts_for,
+    row_with_weavers,
+    shed_over,
+    two_beats,
+)
 from ilmek.machines.hand_loom.layout import HandLoomLayout, laid_out
 from ilmek.machines.hand_loom.params import HandLoomParams
 from ilmek.machines.hand_shed import HandShed, HandShedParams
@@ -25,10 +37,14 @@ from ilmek.machines.warp_tension import WarpTensionDesign, WarpTensionParams
 from ilmek.machines.warp_tension.design import USUAL
 from ilmek.machines.weaver_hands import HAND
 from ilmek.records import record
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.weaving.warping import WarpEnd
 
 ACTS = 3
 """Acts of a change of the shed: rod, levers, locks."""
+
+WEFTS = 2
+"""Wefts of a row, each beaten, where the beat is driven. [Topalbekiroglu and Celik, 2.1.1]"""
 
 WOUND = 6
 """Acts of winding the carpet on beside the turning of the wheels: locks, rod, both wheels, tension by feel; assumed."""
@@ -36,7 +52,10 @@ WOUND = 6
 
 @record
 class HandLoom:
-    """A hand loom for one carpet: weavers, and the most that find room; its machines by name, its layout."""
+    """A hand loom for one carpet: weavers, and the most that find room; its machines by name, its layout.
+
+    drive  of the beat; None: the comb of the weavers, one of the machines
+    """
 
     params: HandLoomParams
     rows: int
@@ -45,6 +64,7 @@ class HandLoom:
     knotters_max: int
     machines: Mapping[str, Child]
     layout: HandLoomLayout
+    drive: BeatDrive | None = None
 
     @property
     def heads_max(self) -> int:
@@ -54,7 +74,9 @@ class HandLoom:
     @property
     def children(self) -> tuple[Child, ...]:
         """Every machine in the loom."""
-        return tuple(self.machines.values())
+        drive = self.drive
+        beats = () if drive is None else (Child(MACHINES[drive.name], drive.design, drive.number),)
+        return (*beats, *self.machines.values())
 
     @property
     def winding(self) -> WarpTensionDesign:
@@ -67,9 +89,20 @@ class HandLoom:
         return self.machines["hand-shed"].design_as(HandShed)
 
     @property
-    def beat(self) -> HandBeat:
-        """Comb and tools."""
-        return self.machines["hand-beat"].design_as(HandBeat)
+    def beat(self) -> HandBeat | BeatDrive:
+        """What beats: comb and tools, or a drive."""
+        return self.drive or self.machines["hand-beat"].design_as(HandBeat)
+
+    @property
+    def posts(self) -> BeatPosts | None:
+        """The posts of a driven beat; None: a comb by hand has none."""
+        return None if self.drive is None else posts_for(self.drive, self.layout.floor + FOOT + self.layout.base.side)
+
+    @property
+    def cyclograms(self) -> tuple[Cyclogram, ...]:
+        """A row with its weavers, and its two beats; none where nothing is driven."""
+        drive = self.drive
+        return () if drive is None else (row_with_weavers(drive, self.row_acts), two_beats(drive.beat))
 
     def warp_guide(self, end: WarpEnd) -> str:
         """What lifts a warp: its string, or the rod that it passes in front."""
@@ -78,13 +111,16 @@ class HandLoom:
     @property
     def row_acts(self) -> dict[str, float]:
         """Time of each act of a row [s]."""
-        params, beat = self.params, self.beat
-        hands = params.hands
+        params, beat, hands = self.params, self.beat, self.params.hands
+        wefts = beat.params.passes if isinstance(beat, HandBeat) else WEFTS
         return {
             "knots": math.ceil(self.columns / self.weavers) * params.hand_knot,
-            "shed": beat.params.passes * ACTS * hands.act_time,
-            "wefts": beat.params.passes * beat.weft_time,
-            "blows": beat.beat_time,
+            **_of_wefts(params, wefts),
+            **(
+                {"blows": beat.beat_time}
+                if isinstance(beat, HandBeat)
+                else {"beats": wefts * (hands.act_time + beat.beat.whole)}
+            ),
             "winding": self.winding_time * self.winding.params.cloth.row_distance / hands.advance,
         }
 
@@ -110,13 +146,12 @@ def design(params: HandLoomParams) -> HandLoom:
     weavers = knotters(params, most, tying)
     task, machines = LoomTask(params, rows, columns, cloth, {}), dict[str, Child]()
     hands = params.hands
-    shed: HandShed = _made(
-        "hand-shed", task, HandShedParams(cloth=cloth, hands=hands, weavers=weavers, clearance=params.clearance)
-    )
+    opened = HandShedParams(cloth=cloth, hands=hands, weavers=weavers, clearance=params.clearance)
+    drive = None if params.beat == HAND else planned_drive(task, sum(_of_wefts(params, WEFTS).values()))
+    shed: HandShed = _made("hand-shed", task, opened) if drive is None else shed_over(task, opened, drive)
     long = shed.params.free_length
-    beat: HandBeat = _made(
-        "hand-beat", task, HandBeatParams(cloth=cloth, hands=hands, weavers=weavers, warp_length=long)
-    )
+    combed = HandBeatParams(cloth=cloth, hands=hands, weavers=weavers, warp_length=long)
+    beat: HandBeat | BeatDrive = drive or _made("hand-beat", task, combed)
     pressed = beat.fabric.warp_rate * float(beat.fabric.fell(beat.beat_force_needed))
     wound = WarpTensionParams(
         cloth=cloth,
@@ -130,7 +165,7 @@ def design(params: HandLoomParams) -> HandLoom:
         tension_shed=shed.rear.tension,
         tension_shed_low=shed.front.tension,
         tension_beat=cloth.warp_tension + pressed,
-        warps_beaten=min(beat.warps * weavers, cloth.warps),
+        warps_beaten=min(beat.warps * weavers, cloth.warps) if isinstance(beat, HandBeat) else beat.beaten,
         rows_between=max(1, round(hands.advance / cloth.row_distance)),
         tube=USUAL,
     )
@@ -138,11 +173,15 @@ def design(params: HandLoomParams) -> HandLoom:
     safety = params.column_safety, params.buckling_safety, params.column_bow
     layout = laid_out(winding, shed, params.pile.pile_height, safety)
     winding = _made("warp-tension", task, replace(wound, crank_shaft=layout.column.side))
-    machines = {
-        name: Child(MACHINES[name], own)
-        for name, own in (("hand-shed", shed), ("hand-beat", beat), ("warp-tension", winding))
-    }
-    return HandLoom(params, rows, columns, weavers, most, machines, layout)
+    by_hand = {"hand-shed": shed, **({} if drive else {"hand-beat": beat}), "warp-tension": winding}
+    machines = {name: Child(MACHINES[name], own) for name, own in by_hand.items()}
+    return HandLoom(params, rows, columns, weavers, most, machines, layout, drive)
+
+
+def _of_wefts(params: HandLoomParams, wefts: int) -> dict[str, float]:
+    """Times of the changes of the shed and of the wefts of a row [s]."""
+    hands = params.hands
+    return {"shed": wefts * ACTS * hands.act_time, "wefts": wefts * hands.weft_time(params.cloth.width)}
 
 
 def _made(name: str, task: LoomTask, derived: P) -> Any:

@@ -1,10 +1,14 @@
-"""The frame of a hand loom: two columns on feet, beams between them, brackets of the cylinders, the weavers' bench."""
+"""The frame of a hand loom: two columns on feet, beams between them, brackets of the cylinders, the weavers' bench.
+
+Where the beat is driven, posts on the front feet carry its beam, and a cabinet stands behind a rear foot.
+"""
 
 from collections.abc import Iterator
 from functools import lru_cache
 
 from ilmek.elements.columns import STEEL
 from ilmek.elements.materials import GRAVITY
+from ilmek.errors import LoomError
 from ilmek.machines.automated_loom.equipment.bench import (
     BOARD,
     ELBOW,
@@ -15,13 +19,20 @@ from ilmek.machines.automated_loom.equipment.bench import (
     bench_for,
     bench_parts,
 )
+from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.feet import FOOT, Foot, foot_for
 from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.automated_loom.in_space.beating import beat_branch
 from ilmek.machines.automated_loom.in_space.machines import joined
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
+from ilmek.machines.automated_loom.standing_frame import control_parts
+from ilmek.machines.beat import BeatDrive
+from ilmek.machines.hand_beat import HandBeat
 from ilmek.machines.hand_beat.report import tree as tools_tree
-from ilmek.machines.hand_beat.tools import shelf_length
+from ilmek.machines.hand_beat.tools import comb_wide, shelf_length, tool_bodies
 from ilmek.machines.hand_loom.design import HandLoom
+from ilmek.machines.hand_loom.driven_beat import two_beats
+from ilmek.machines.hand_loom.equipment import OWN, beat_site, equipment
 from ilmek.machines.hand_loom.layout import CylinderBracket
 from ilmek.machines.hand_shed.tree import tree as shed_tree
 from ilmek.machines.warp_tension.tree import tree as winding_tree
@@ -46,34 +57,58 @@ def tree(loom: HandLoom) -> Tree:
 
 
 def branches(loom: HandLoom) -> tuple[MachineTree, ...]:
-    """The trees of frame and machines."""
-    return _whole(loom, foot_of(loom))
+    """The trees of frame and machines, and of what a driven beat needs beside."""
+    return (*_whole(loom, foot_of(loom)), *(equipment(site_of(loom)) if loom.drive else ()))
+
+
+@lru_cache(maxsize=4)
+def site_of(loom: HandLoom) -> LoomSite:
+    """What the guards of a driven beat and its weavers' station are made for. Raises LoomError without a drive."""
+    if loom.drive is None:
+        raise LoomError("no guards", allowed="a loom of which something is driven")
+    return beat_site(loom.drive, joined(_whole(loom, foot_of(loom))), loom.layout.floor, loom.weavers)
 
 
 def own_tree(loom: HandLoom) -> Tree:
-    """The bodies that are in none of its machines: frame and bench."""
-    return Tree(tree(loom).bodies[:1])
+    """The bodies that are in none of its machines: frame and bench, tools beside a driven beat, guards, control."""
+    own = (branch.tree for branch in branches(loom) if branch.machine == OWN)
+    return Tree(tuple(body for one in own for body in one.bodies))
 
 
 def _whole(loom: HandLoom, foot: Foot | None) -> tuple[MachineTree, ...]:
     """The trees, with a levelling foot or without."""
-    layout, beat = loom.layout, loom.beat
+    layout, drive, comb = loom.layout, loom.drive, loom.machines.get("hand-beat")
     over = layout.floor + FOOT + layout.base.side  # the feet
     axes = {"upper": layout.upper.at, "lower": layout.lower.at, "spacer": layout.spacer.at}
     positions = {name: placement(0.0, at.imag, at.real).after(ALONG_WIDTH) for name, at in axes.items()}
-    aside = layout.face + shelf_length(beat.params, beat.warps) / 2
+    made = None if comb is None else comb.design_as(HandBeat)
+    wide = 0.0 if made is None else comb_wide(made.params, made.warps)
+    aside = layout.face + shelf_length(wide) / 2
     shelf = placement(aside, SHELF_LEVEL, layout.depth + layout.column.side / 2)
     parts = (
         *_standing(loom, foot),
         *(occurrence for own in layout.brackets for occurrence in _bracket(loom, own)),
-        *bench_parts(bench_of(loom), over, over),
+        *(bench_parts(bench_of(loom), over, over) if drive is None else _of_a_drive(loom, drive)),
     )
+    tools = MachineTree(OWN, Tree(tuple(tool_bodies(shelf))))
     return (
-        MachineTree("hand-loom", Tree((RigidBody(part_id("frame"), parts),))),
+        MachineTree(OWN, Tree((RigidBody(part_id("frame"), parts),))),
         MachineTree("warp-tension", winding_tree(loom.winding, positions)),
         MachineTree("hand-shed", shed_tree(loom.shed, layout.depth, layout.face)),
-        MachineTree("hand-beat", tools_tree(beat, shelf)),
+        tools if made is None else MachineTree("hand-beat", tools_tree(made, shelf)),
+        *(() if drive is None else (beat_branch(drive, two_beats(drive.beat)),)),
     )
+
+
+def _of_a_drive(loom: HandLoom, drive: BeatDrive) -> Iterator[Occurrence]:
+    """Posts of the beat on the front feet, and the cabinet of its control."""
+    layout, section, posts = loom.layout, loom.layout.column, loom.posts
+    assert posts is not None
+    x, over = layout.face + section.side / 2, layout.floor + FOOT + layout.base.side
+    post = member("beat-post", "post of the beat", posts.section, posts.height)
+    yield Occurrence(post, tuple(placement(side, over, posts.depth).after(UPRIGHT) for side in (-x, x)))
+    axes = sum(line.number for line in drive.parts if line.drives)
+    yield from control_parts(layout.face + section.side, layout.floor, layout.depth - layout.reach, axes)
 
 
 @lru_cache(maxsize=4)
@@ -100,7 +135,8 @@ def _standing(loom: HandLoom, foot: Foot | None) -> Iterator[Occurrence]:
     ):
         beam = member(name, title, own, 2 * layout.face)
         yield Occurrence(beam, (placement(-layout.face, y, layout.depth).after(ALONG_WIDTH),))
-    front, rear = BENCH_BEFORE + BOARD[0], layout.depth - layout.reach
+    posts, rear = loom.posts, layout.depth - layout.reach
+    front = BENCH_BEFORE + BOARD[0] if posts is None else posts.depth + max(posts.section.side, section.side)
     for name, title, begin, end in (
         ("front-foot", "front foot of the frame", layout.depth + half, front),
         ("rear-foot", "rear foot of the frame", rear, layout.depth - half),

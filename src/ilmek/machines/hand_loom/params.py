@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from ilmek.machines.automated_loom.params import AutomatedLoomParams
+from ilmek.machines.automated_loom.params import BEATS_BY_HAND, AutomatedLoomParams
 from ilmek.machines.weaver_hands import HAND
 from ilmek.params import param
 
@@ -13,4 +13,6 @@ class HandLoomParams(AutomatedLoomParams):
 
     knotting: str = param(HAND, choices=(HAND,), doc="what ties the knots: weavers by hand")
     shed: str = param(HAND, choices=(HAND,), doc="what opens the shed: rod and string heddles, by hand")
-    beat: str = param(HAND, choices=(HAND,), doc="what beats the rows: a comb, by hand")
+    beat: str = param(
+        HAND, choices=BEATS_BY_HAND, doc="what beats the rows: a comb by hand, or a crank-rocker on its carriage"
+    )

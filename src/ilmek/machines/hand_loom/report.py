@@ -1,6 +1,5 @@
 """What is reported of a hand loom: times, hands, frame, cost, its parts in space, and what it does not have."""
 
-import math
 from dataclasses import replace
 from functools import lru_cache
 
@@ -10,15 +9,22 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import read_prices
 from ilmek.machines.automated_loom.assembly import joint_check, mesh_check
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
-from ilmek.machines.automated_loom.choice import deadline_check
+from ilmek.machines.automated_loom.choice import row_check, weavers_deadline_check, weavers_needed
 from ilmek.machines.automated_loom.drives import drive_checks
+from ilmek.machines.automated_loom.energy import Energy, energy_of_works
+from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.frame import column_checks, part_id
+from ilmek.machines.automated_loom.knotting import ELBOW_ROOM
 from ilmek.machines.automated_loom.machine_cost import machine_cost
-from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of
+from ilmek.machines.automated_loom.nearest_parts import NearParts, nearest_of, row_windows
 from ilmek.machines.automated_loom.off_loom import OffLoom, carpet_off_loom
 from ilmek.machines.automated_loom.price_tables import parts_table
-from ilmek.machines.hand_loom.design import HandLoom
-from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, tree
+from ilmek.machines.automated_loom.supports import beat_beam
+from ilmek.machines.beat import BeatDrive
+from ilmek.machines.hand_loom.design import WEFTS, HandLoom
+from ilmek.machines.hand_loom.driven_beat import BEAT, room_checks, two_beats
+from ilmek.machines.hand_loom.equipment import equipment_checks
+from ilmek.machines.hand_loom.frame import bench_of, foot_load, foot_of, site_of, tree
 from ilmek.machines.hand_loom.layout import CylinderBracket
 from ilmek.machines.hand_shed.tree import BEAM, SHED, half_width
 from ilmek.part.bill import bill
@@ -32,15 +38,30 @@ from ilmek.report import BillLine, Check, Json, Table, at_least, at_most, column
 TIPPING = 1.5
 """Weight's moment over that of the hands at least; assumed by this project."""
 
+OVERHEAD = 1.9
+"""What a weaver who stands reaches and pulls, over the floor [m]; assumed by this project."""
+
 ABSENT = (
-    ("cyclogram, programme", "nothing is driven: the weaver is the order of the acts"),
-    ("cabinet, amplifiers, sensors, list of signals", "nothing is driven, nothing is measured"),
-    ("guards, emergency stop", "nothing moves but by the hand that is at it"),
-    ("energy", "of the weavers alone"),
+    ("programme", "the weaver is the order of the acts"),
     ("back rest, tension compensator", "strings pull half of the warps by so little that these bear it"),
     ("shuttle or rapier", "the weft's bobbin goes from hand to hand"),
 )
 """What an automated loom has and a hand loom has not, and why."""
+
+UNDRIVEN = (
+    ("cyclogram", "nothing is driven"),
+    ("cabinet, amplifiers, sensors, list of signals", "nothing is driven, nothing is measured"),
+    ("guards, emergency stop", "nothing moves but by the hand that is at it"),
+    ("energy", "of the weavers alone"),
+)
+"""What it has not beside where nothing is driven."""
+
+BEAT_DRIVEN = (
+    ("drives of shed, weft and cylinders", "the hands of the weavers"),
+    ("sensors of shed and warps", "the weaver sees them; rod and levers have their room above all that beats"),
+    ("comb of the weaver", "the beat is driven"),
+)
+"""What it has not where the beat is driven."""
 
 
 @record
@@ -50,6 +71,7 @@ class HandLoomAnalysis:
     loom: HandLoom
     lines: tuple[BillLine, ...]
     cost: CarpetCost
+    energy: Energy | None = None
 
     weaving_time = computed("h", "the carpet, estimated", lambda it: it.loom.rows * it.loom.row_time)
     row_time = computed("s", "a row with its knots, estimated", lambda it: it.loom.row_time)
@@ -147,10 +169,11 @@ _NEAREST, _HORIZON = 10, 20e-3
 @lru_cache(maxsize=4)
 def assembly(loom: HandLoom) -> HandAssembly:
     """The parts of a loom against each other."""
-    whole = tree(loom)
-    return HandAssembly(
-        loom, contacts(whole), nearest_of(NearParts(near) for near in approaches(whole, SHED, _HORIZON))
-    )
+    whole, drive = tree(loom), loom.drive
+    near = approaches(whole, SHED, _HORIZON)
+    if drive is not None:
+        near = (*near, *approaches(whole, BEAT, _HORIZON, row_windows(two_beats(drive.beat), drive.path)))
+    return HandAssembly(loom, contacts(whole), nearest_of(NearParts(one) for one in near))
 
 
 def _worst(through: tuple[Approach, ...]) -> str:
@@ -161,25 +184,30 @@ def _worst(through: tuple[Approach, ...]) -> str:
 def analyse(loom: HandLoom) -> HandLoomAnalysis:
     """Parts and cost of a loom. Raises ParameterError for unreadable prices."""
     lines, params = bill(tree(loom)), loom.params
-    rates = replace(params.cost, persons=float(loom.weavers), commissioning=0.0)
+    rates = replace(params.cost, persons=float(loom.weavers))
     low, high = around(extents(tree(loom), (SHED,)))
     aisle = 2 * rates.aisle
+    time, area, drive = loom.rows * loom.row_time, params.width * params.length, loom.drive
+    machine, acts = machine_cost(lines, read_prices(params.prices)), {"beat": float(WEFTS * loom.rows)}
+    energy = energy_of_works(params, drive.work, int(machine.axes), acts, time, area) if drive else None
     whole = CarpetCost(
-        rates=rates,
+        rates=rates if drive else replace(rates, commissioning=0.0),
         knots=loom.rows * loom.columns,
-        area=params.width * params.length,
-        time=loom.rows * loom.row_time,
-        energy=0.0,
+        area=area,
+        time=time,
+        energy=float(energy.total) if energy else 0.0,
         dressing=float(params.dressing.dressing_time),
         floor=float((high[0] - low[0] + aisle) * (high[2] - low[2] + aisle)),
-        machine=machine_cost(lines, read_prices(params.prices)),
+        machine=machine,
     )
-    return HandLoomAnalysis(loom, lines, whole)
+    return HandLoomAnalysis(loom, lines, whole, energy)
 
 
 def results(found: HandLoomAnalysis) -> tuple[object, ...]:
     """The records whose results are reported, in order."""
-    return found, bench_of(found.loom), found.cost, off_loom_of(found.loom), found.loom.params.dressing
+    loom = found.loom
+    driven = (found.energy, loom.drive, station_of(site_of(loom))) if loom.drive else (bench_of(loom),)
+    return found, *driven, found.cost, off_loom_of(loom), loom.params.dressing
 
 
 def off_loom_of(loom: HandLoom) -> OffLoom:
@@ -193,7 +221,7 @@ def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:
     loom, params = found.loom, found.loom.params
     layout, limit = loom.layout, STEEL.strength / params.column_safety
     cure = "set a lower tension, or a narrower carpet"
-    late = () if params.deadline is None else (_deadline(found, params.deadline),)
+    late = () if params.deadline is None else (_deadline(loom, params.deadline),)
     return (
         *late,
         pile_check(params.cloth.carpet_yarns.pile, params.quality),
@@ -205,10 +233,25 @@ def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:
         at_least(
             "loom stands: weight over the hands' pull", tipping(loom, found.lines), TIPPING, "1", "moments; assumed"
         ).with_cure("set a smaller hands.pull", part_id("front-foot")),
+        at_most(
+            "shed rod, pushed up, over the floor", loom.shed.params.rod_high - layout.floor, OVERHEAD, "m", "assumed"
+        ).with_cure("set a smaller hand-shed.rod_high"),
         at_most("load of a levelling foot", foot_load(loom), foot_of(loom).rating, "N", "its pad and screw").with_cure(
             cure, part_id("levelling-foot")
         ),
-        *bench_of(loom).checks("set a shorter carpet"),
+        *(bench_of(loom).checks("set a shorter carpet") if loom.drive is None else _of_a_drive(loom, loom.drive)),
+    )
+
+
+def _of_a_drive(loom: HandLoom, drive: BeatDrive) -> tuple[Check, ...]:
+    """Rows that a driven beat leaves, its room below the shed, its posts, and what guards it."""
+    assert loom.posts is not None
+    return (
+        row_check(drive),
+        *drive.checks,
+        *room_checks(drive, loom.shed),
+        *loom.posts.checks,
+        *equipment_checks(site_of(loom)),
     )
 
 
@@ -231,28 +274,30 @@ def beam_stress(loom: HandLoom) -> float:
 
 
 def tipping(loom: HandLoom, lines: tuple[BillLine, ...]) -> float:
-    """Moment of the loom's weight about the rear ends of its feet, over that of all hands at the upper cylinder."""
+    """Moment of the loom's weight about the rear ends of its feet, over that of all hands at the upper cylinder, or of
+    a driven beat at its beam: hands are on their buttons then.
+    """
     layout, hands = loom.layout, loom.params.hands
     weight = sum(line.mass_all for line in lines) * GRAVITY
     pull = 2 * loom.weavers * hands.pull * (layout.upper.at.imag - layout.floor)
-    return weight * layout.reach / pull
+    drive = loom.drive
+    across = drive.frame_force * (beat_beam(drive)[1].imag - layout.floor) if drive and drive.crank_rockers else 0.0
+    return weight * layout.reach / max(pull, across)
 
 
-def _deadline(found: HandLoomAnalysis, deadline: float) -> Check:
-    """The deadline: no weaver is quicker, so that persons are missing, not speed."""
-    loom = found.loom
-    needed = math.ceil(loom.weavers * loom.rows * loom.row_time / deadline)
-    check = deadline_check(deadline, loom.rows * loom.row_time)
-    persons = f"{needed} weavers would keep it, {loom.weavers} find room"
-    return check.with_cure(f"{persons}: set a later deadline, or a loom with heads")
+def _deadline(loom: HandLoom, deadline: float) -> Check:
+    """The deadline [s]; what of a row is not knots takes as long with more weavers, but for blows of combs."""
+    acts = loom.row_acts
+    needed = weavers_needed(deadline / loom.rows - (loom.row_time - acts["knots"]), loom.params.hand_knot, loom.columns)
+    return weavers_deadline_check(deadline, loom.rows * loom.row_time, needed, ELBOW_ROOM)
 
 
 def tables(found: HandLoomAnalysis) -> tuple[Table, ...]:
     """Acts of a row, parts, and what the loom does not have."""
-    acts = tuple(found.loom.row_acts.items())
+    acts, absent = tuple(found.loom.row_acts.items()), BEAT_DRIVEN if found.loom.drive else UNDRIVEN
     return (
         Table("hand-loom-row", "Time of a row by its acts", columns("act", "time [s]"), acts),
         *found.loom.params.dressing.tables(found.loom.warp_guide),
         parts_table(found.lines, read_prices(found.loom.params.prices)),
-        Table("hand-loom-absent", "What a hand loom does not have", columns("not there", "why"), ABSENT),
+        Table("hand-loom-absent", "What this loom does not have", columns("not there", "why"), (*absent, *ABSENT)),
     )

@@ -276,7 +276,7 @@ def _with_rod(params: HandShedParams, rod: Tube, tubes: Sequence[Tube]) -> HandS
         if sag_of(tube, force, length) <= made.bar_limit and stress_of(tube, force, length) <= limit
     )
     bar = next(kept, tubes[-1])
-    allowed = made.hands_on_levers * params.hands.pull
+    allowed = made.hands_on_levers * params.hand_limit
     least = max(bar.outer_radius + SHAFT.outer_radius + GAP, made.stroke / (2 * math.sin(SWING)))
     arm = params.arm or max(min(ARM, allowed * params.lever_limit / force), least)
     lever = force * arm / allowed

@@ -6,7 +6,7 @@ from itertools import pairwise
 from ilmek.errors import ParameterError
 from ilmek.machines.weaver_hands import WeaverHands
 from ilmek.params import Params, kind, nested
-from ilmek.units import format_quantity, mm
+from ilmek.units import deg, format_quantity, mm
 from ilmek.weaving.cloth import Cloth
 
 
@@ -43,6 +43,12 @@ class HandShedParams(Params):
         symbol="r",
     )
     lever_limit: float = kind.length(0.6, unit="m", at_least=0.1, at_most=2.0, doc="longest lever; assumed")
+    lever_tilt: float = kind.angle(
+        35 * deg,
+        at_least=0.0,
+        at_most=120 * deg,
+        doc="from the bar's arm to its lever, to the front: hands pull a steep one, lift a level one; assumed",
+    )
     rod_sag: float = kind.length(25 * mm, at_least=1e-6, at_most=0.1, doc="allowed sag of the shed rod; assumed")
     bar_sag: float = kind.ratio(
         0.0015, at_least=1e-6, at_most=0.1, doc="allowed sag of the heddle bar over its length; assumed"
@@ -52,6 +58,11 @@ class HandShedParams(Params):
         60.0, at_least=0.1, at_most=1e4, doc="breaking force of a string heddle, cotton twine of 1 mm; assumed"
     )
     clearance: float = kind.length(2 * mm, at_least=0.0, at_most=0.1, doc="least distance of what moves from the warps")
+
+    @property
+    def hand_limit(self) -> float:
+        """Force of a hand along the way of a lever [N]: it pulls a lever that hangs, lifts one that lies."""
+        return self.hands.pull if self.lever_tilt <= 45 * deg else self.hands.lift
 
     def check_together(self) -> None:
         """Raise ParameterError where the heights are not in their order from the fell up."""

@@ -26,9 +26,9 @@ def checks(shed: HandShed) -> tuple[Check, ...]:
         at_least("opening, the strings pulled", shed.opening_high, params.opening, "mm", "parameter opening").with_cure(
             "set a larger bar_sag or rod_sag", *bar
         ),
-        at_most("force of a hand on its lever", shed.lever_force, params.hands.pull, "N", f"{hands}pull").with_cure(
-            f"set a larger lever_limit, a smaller arm, or {_SHORTER[4:]}", *lever
-        ),
+        at_most(
+            "force of a hand on its lever", shed.lever_force, params.hand_limit, "N", f"{hands}pull, lift"
+        ).with_cure(f"set a larger lever_limit, a smaller arm, or {_SHORTER[4:]}", *lever),
         at_most("force of a hand on the rod", shed.rod_force, params.hands.lift, "N", f"{hands}lift").with_cure(
             _SHORTER, *rod
         ),

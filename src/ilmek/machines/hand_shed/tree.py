@@ -23,7 +23,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion, ScenePhase
-from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import format_quantity, in_mm, mm, round_size, turn
 
 SHED = "shed"
 """The drive of the picture in motion: a change of the shed and back."""
@@ -37,9 +37,6 @@ PIVOT = 20 * mm
 ROD_END, ROD_PLAY = 16 * mm, 0.5 * mm
 """Diameter of the rod's ends in their guides, and play there [m]; assumed by this project."""
 
-LEVER_TILT = 35 * deg
-"""From an arm to its lever, to the front [rad]: the lever swings before the cylinders; assumed by this project."""
-
 RIM = 20 * mm
 """Least metal of a side plate about its openings [m]; assumed by this project."""
 
@@ -48,6 +45,9 @@ INSIDE = 30 * mm
 
 HANDLE = 120 * mm, 30 * mm
 """Length and diameter of a lever's handle [m]; assumed by this project."""
+
+STRING = 1 * mm
+"""Diameter of a heddle's twine [m]."""
 
 BEHIND = 60 * mm
 """Axes of the beams behind the warps, where no loom sets them [m]."""
@@ -82,11 +82,11 @@ class ShedLayout:
 
     def end(self, swing: float) -> complex:
         """End of a lever."""
-        return self.pivot - 1j * self.shed.lever * cmath.exp(1j * (swing + LEVER_TILT))
+        return self.pivot - 1j * self.shed.lever * cmath.exp(1j * (swing + self.shed.params.lever_tilt))
 
     def lock(self, swing: float) -> complex:
         """Hole of a lever for its lock."""
-        return self.pivot - 1j * LOCK_ARM * cmath.exp(1j * (swing + LEVER_TILT))
+        return self.pivot - 1j * LOCK_ARM * cmath.exp(1j * (swing + self.shed.params.lever_tilt))
 
 
 def layout(shed: HandShed) -> ShedLayout:
@@ -219,10 +219,26 @@ def _across(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:
     journal = bar(PIVOT, INSIDE + half_width(shed) - cloth + SIDE_PLATE)
     end = _part("shaft-end", "end of the heddle bar's shaft", "turned part", round_size(PIVOT), journal, _SHAFT)
     yield Occurrence(end, _both_ends(cloth - INSIDE))
+    yield _strings(shed, down)
+
+
+def warps_across(shed: HandShed) -> FloatArray:
+    """All warps from left to right, x [m]; the first and every other one have strings and run behind the rod."""
+    cloth = shed.params.cloth
+    return np.asarray((np.arange(cloth.warps) - (cloth.warps - 1) / 2) * cloth.warp_pitch)
+
+
+def _strings(shed: HandShed, down: complex) -> Occurrence:
+    """A string for every other warp, stretched as when it pulls its warp level to the front; down: to the bar [m]."""
     twine, long = Bought("cotton twine 1 mm", 0.2e-3), format_quantity(shed.string, "mm")
-    string = Part(part_id("string-heddle"), "string heddle", "string heddle", f"loop of {long}", purchase=twine)
-    along = (np.arange(shed.pulled_warps) - (shed.pulled_warps - 1) / 2) * 2 * shed.params.cloth.warp_pitch
-    yield Occurrence(string, tuple(placement(float(x), down.imag, down.real) for x in along))
+    loop = bar(STRING, shed.string)
+    string = Part(part_id("string-heddle"), "string heddle", "string heddle", f"loop of {long}", loop, purchase=twine)
+    begin = down - shed.bar.outer_radius * cmath.exp(-1j * shed.lift_angle)
+    along = warps_across(shed)[::2][: shed.pulled_warps]
+    tilt = turn / 2 + float(shed.lift_angle)
+    return Occurrence(
+        string, tuple(placement(float(x), begin.imag, begin.real, about=(1.0, 0.0, 0.0), angle=tilt) for x in along)
+    )
 
 
 def _levers(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:

@@ -38,10 +38,11 @@ export function NearestPairs({ about, chosen, onChoose }: NearestProps) {
   );
 }
 
-const AT: Partial<Record<string, "loom.atOfRow" | "loom.atOfKnot" | "loom.atOfShed">> = {
+const AT: Partial<Record<string, "loom.atOfRow" | "loom.atOfKnot" | "loom.atOfShed" | "loom.atOfBeat">> = {
   row: "loom.atOfRow",
   knot: "loom.atOfKnot",
   shed: "loom.atOfShed",
+  beat: "loom.atOfBeat",
 };
 
 /** When two parts come nearest: the angle of what turns, and where the heads stand. */

@@ -178,7 +178,12 @@ function Movers({ about, body }: { about: SceneAbout; body: string }) {
   return names.length === 0 ? null : <div class="ui-muted">{t("loom.movedBy", { names: names.join(" ← ") })}</div>;
 }
 
-const MOVES = { row: "loom.movesWithRow", knot: "loom.movesWithKnot", shed: "loom.movesWithShed" } as const;
+const MOVES = {
+  row: "loom.movesWithRow",
+  knot: "loom.movesWithKnot",
+  shed: "loom.movesWithShed",
+  beat: "loom.movesWithBeat",
+} as const;
 
 /** The text of each kind of joint; the kinds are those of `JointKind` in the server's part/tree.py. */
 const JOINTS: Record<string, string> = {

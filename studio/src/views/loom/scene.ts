@@ -86,8 +86,8 @@ export interface SceneChart {
   yarns: string[];
 }
 
-/** What turns: the cyclogram of a row, that of a knot, or the change of a shed by hand and back. */
-export type Drive = "row" | "knot" | "shed";
+/** What turns: the cyclogram of a row, that of a knot, the change of a shed by hand and back, or its two driven beats. */
+export type Drive = "row" | "knot" | "shed" | "beat";
 
 /** A motion of a cyclogram, from one angle to another [rad]. */
 export interface ScenePhase {

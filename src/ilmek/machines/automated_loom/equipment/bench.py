@@ -64,8 +64,13 @@ class Bench:
 
     @computed("mm", "from the shoulder of a weaver who leans forward to the fell", name="weaver_reach")
     def reach(self) -> float:
+        return abs(self.shoulder)
+
+    @property
+    def shoulder(self) -> complex:
+        """Shoulder of a weaver who leans forward, in the side view, the fell at 0 [m]."""
         forward = self.front + HIP - SHOULDER * math.sin(LEAN)
-        return math.hypot(forward, self.floor + self.seat + SHOULDER * math.cos(LEAN))
+        return complex(forward, self.floor + self.seat + SHOULDER * math.cos(LEAN))
 
     @property
     def rear(self) -> float:

@@ -8,10 +8,10 @@ import math
 from collections.abc import Iterator
 
 from ilmek.elements.field_devices import CONTROLLER, RELAY, SUPPLY, TERMINAL, FieldDevice
-from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, surroundings
+from ilmek.machines.automated_loom.equipment.site import LoomSite
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.standing_frame import WALL
 from ilmek.part.extents import Extent
@@ -43,21 +43,21 @@ _DEVICES: tuple[tuple[str, str, FieldDevice], ...] = (
 )
 
 
-def terminals(loom: LoomDesign) -> int:
+def terminals(site: LoomSite) -> int:
     """Terminals of two levels, a level for each signal."""
-    return math.ceil(signals.signal_count(loom.heads, loom.weavers) / 2)
+    return math.ceil(site.signals / 2)
 
 
-def circuit(loom: LoomDesign) -> Tree:
+def circuit(site: LoomSite) -> Tree:
     """The devices on both side walls of the cabinet; those of the right one only where the left one is full."""
-    (control,) = surroundings(loom).of(CONTROL)
+    (control,) = site.near.of(CONTROL)
     long, base = _rail_length(control), float(control.low[1]) + _FREE
     height, stands = base, list[Occurrence]()
     for name, title, row in _DEVICES:
         height += row.size[0]
         position = _on_wall(control, height - row.size[0] / 2, left=True)
         stands.append(Occurrence(device(name, title, row), (position,)))
-    number, wide = terminals(loom), TERMINAL.size[0]
+    number, wide = terminals(site), TERMINAL.size[0]
     left = min(number, int((base + long - height) / wide))
     levels = [(height + (k + 0.5) * wide, True) for k in range(left)]
     levels += [(base + (k + 0.5) * wide, False) for k in range(number - left)]
@@ -104,13 +104,11 @@ def _on_wall(control: Extent, y: float, *, left: bool) -> Placement:
     return placed(x, y, _middle(control), (TO_THE_RIGHT if left else TO_THE_LEFT).after(_QUARTER))
 
 
-def circuit_checks(loom: LoomDesign) -> tuple[Check, ...]:
+def circuit_checks(site: LoomSite) -> tuple[Check, ...]:
     """Whether the terminals of all signals have room on two rails."""
-    (control,) = surroundings(loom).of(CONTROL)
-    needed = math.fsum(row.size[0] for _, _, row in _DEVICES) + terminals(loom) * TERMINAL.size[0]
-    source = (
-        f"two side walls of the cabinet; {signals.signal_count(loom.heads, loom.weavers)} signals, two on a terminal"
-    )
+    (control,) = site.near.of(CONTROL)
+    needed = math.fsum(row.size[0] for _, _, row in _DEVICES) + terminals(site) * TERMINAL.size[0]
+    source = f"two side walls of the cabinet; {site.signals} signals, two on a terminal"
     return (
         at_most("control: length of its mounting rails", needed, 2 * _rail_length(control), "mm", source).with_cure(
             "set fewer heads or weavers", signals.TERMINAL, part_id("mounting-rail")

@@ -19,6 +19,7 @@ from ilmek.elements.field_devices import BRAKE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.energy_chain import trough_box
 from ilmek.machines.automated_loom.equipment.guards import POST, fence_of, side_posts
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.on_rail import CONDUIT_SIZE
@@ -100,7 +101,7 @@ _REAL = 1e-9
 @lru_cache(maxsize=4)
 def creel_of(loom: LoomDesign) -> Creel:
     """The creel of a loom."""
-    near, fence = surroundings(loom), fence_of(loom)
+    near, fence = surroundings(loom), fence_of(site_of(loom))
     size, number = package_size(loom.params.package_mass), loom.heads * loom.weaver.params.tubes
     hand = 1 if loom.weft.carrier == RAPIER else -1
     foot = foot_under_duct(near, hand)

@@ -12,7 +12,6 @@ import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, GRID, INTERLOCK, STOP
-from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
     TO_THE_BACK,
@@ -36,7 +35,8 @@ from ilmek.machines.automated_loom.equipment.guards import (
     rear_feet,
     side_posts,
 )
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Surroundings, surroundings
+from ilmek.machines.automated_loom.equipment.site import LoomSite
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
@@ -70,13 +70,13 @@ _LEAST_PANEL = 12 * mm
 _SECTION = HollowSquare(POST, 3 * mm)
 
 
-def guards(loom: LoomDesign) -> Tree:
+def guards(site: LoomSite) -> Tree:
     """The fence, its doors, and what is on its posts."""
-    fence, near = fence_of(loom), surroundings(loom)
-    lines = _Lines(fence, near, doors=loom.heads > 0)
-    front = (lines.lintel(), *_latches(fence, lines.front)) if loom.heads else (_grid(fence),)
+    fence = fence_of(site)
+    lines = _Lines(fence, site.near, doors=site.heads > 0)
+    front = (lines.lintel(), *_latches(fence, lines.front)) if site.heads else (_grid(fence),)
     parts = (*lines.posts(), *front, *lines.panels(), *lines.ties(), *_on_posts(fence, lines.front))
-    doors = (_doors(fence, lines.front),) if loom.heads else ()
+    doors = (_doors(fence, lines.front),) if site.heads else ()
     return Tree((RigidBody(GUARDS[0], parts), *doors))
 
 

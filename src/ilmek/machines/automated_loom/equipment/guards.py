@@ -17,12 +17,12 @@ from itertools import pairwise
 
 from ilmek.elements.field_devices import ENCODER
 from ilmek.elements.safety_distances import FENCES, GRID_REACH, approach, least_fence, over_span, through
-from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.sensors import ROW_MOTORS
+from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.station import station_of
-from ilmek.machines.automated_loom.equipment.stopping import StoppingTime, stopping_time
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Hazard, Surroundings, surroundings
+from ilmek.machines.automated_loom.equipment.stopping import StoppingTime
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Hazard, Surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -87,28 +87,28 @@ class Fence:
 
 
 @lru_cache(maxsize=4)
-def fence_of(loom: LoomDesign) -> Fence:
+def fence_of(site: LoomSite) -> Fence:
     """The fence of a loom."""
-    near, stopping, floor = surroundings(loom), stopping_time(loom), loom.side.floor
+    near, stopping, floor = site.near, site.stops, site.floor
     (stands_low, stands_high), (moves_low, moves_high) = near.standing, near.moving
     (control,) = near.of(CONTROL)
     reach = through(MESH - WIRE)
     # A post stands on each side of the cabinet, beside those of the corners.
     ends = float(control.low[0]) - 2 * POST, float(control.high[0]) + 2 * POST
-    left = min(float(stands_low[0]) - BESIDE, float(moves_low[0]) - reach, ends[0])
+    inside, beside = (0.0, 0.0) if site.heads else (station_of(site).bench.rear, station_of(site).bench.half + BESIDE)
+    left = min(float(stands_low[0]) - BESIDE, -beside, float(moves_low[0]) - reach, ends[0])
     behind = max((float(one.high[0]) for one in near.extents if one.part in ROW_MOTORS), default=0.0)  # their encoders
     encoders = behind + ENCODER.size[2] + GAP
-    right = max(float(stands_high[0]) + BESIDE, float(moves_high[0]) + reach, ends[1], encoders)
+    right = max(float(stands_high[0]) + BESIDE, beside, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
-    inside = 0.0 if loom.heads else station_of(loom).bench.rear
-    front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(loom, stopping))
+    front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(site))
     hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
 
 
-def _approach(loom: LoomDesign, stopping: StoppingTime) -> float:
+def _approach(site: LoomSite) -> float:
     """Least distance of the front, doors or a light grid, from all that moves [m]."""
-    return approach(stopping.whole, 0.0 if loom.heads else GRID_REACH)
+    return approach(site.stops.whole, 0.0 if site.heads else GRID_REACH)
 
 
 def _heights(floor: float, hazard: Hazard) -> tuple[float, float]:
@@ -135,15 +135,15 @@ def rear_feet(near: Surroundings) -> tuple[float, ...]:
     return tuple(float(one.low[0] + one.high[0]) / 2 for one in clear)
 
 
-def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
+def guard_checks(site: LoomSite) -> tuple[Check, ...]:
     """Reaching through the mesh and over the fence, and the distance of the front; stopping time of the loom."""
-    fence = fence_of(loom)
+    fence = fence_of(site)
     nearest = min(fence.hazards, key=fence.distance)
     worst = min(fence.hazards, key=lambda one: fence.distance(one) - fence.needed(one))
     moved = max(float(hazard.high[2]) for hazard in fence.hazards)
     height, opening = format_quantity(fence.height, "m", 3), format_quantity(MESH - WIRE, "mm")
     stops = format_quantity(fence.stopping.whole, "s", 3)
-    title, device = ("doors", signals.INTERLOCK) if loom.heads else ("light grid", signals.GRID)
+    title, device = ("doors", signals.INTERLOCK) if site.heads else ("light grid", signals.GRID)
     return (
         at_least(
             f"guards: reaching through, to the {_named(nearest)}",
@@ -162,10 +162,10 @@ def guard_checks(loom: LoomDesign) -> tuple[Check, ...]:
         at_least(
             f"guards: distance of the {title}",
             fence.front - moved,
-            _approach(loom, fence.stopping),
+            _approach(site),
             "mm",
             f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after it opens",
-        ).with_cure(_CURE, *((DOOR,) if loom.heads else ()), device, signals.RELAY),
+        ).with_cure(_CURE, *((DOOR,) if site.heads else ()), device, signals.RELAY),
         at_most("guards: height", fence.height, FENCES[-1], "m", "highest fence of ISO 13857, table 2").with_cure(
             "set a lower tension or a smaller lift", PANEL
         ),

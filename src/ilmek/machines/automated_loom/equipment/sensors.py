@@ -63,11 +63,11 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     near = surroundings(loom)
     of_heads: tuple[MountedSensor, ...] = ()
     if loom.heads:
-        of_heads = _encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)), _on_the_axis(near)
+        of_heads = encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)), _on_the_axis(near)
     return (
         *of_heads,
-        _encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)),
-        _encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (signals.SHEDDING_MOTOR,)),
+        encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)),
+        encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (signals.SHEDDING_MOTOR,)),
         _strain(near),
         _barriers(loom, near),
         _weft_sensor(loom, near),
@@ -76,12 +76,16 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
 
 def sensors(loom: LoomDesign) -> Iterator[MachineTree]:
     """The sensors, each as a body on the body that carries it."""
-    for place in mounted_sensors(loom):
-        body = RigidBody(place.part.id, (Occurrence(place.part, place.positions),))
-        yield MachineTree("automated-loom", Tree((body,)), parent=place.carrier)
+    return (sensor_tree(place, "automated-loom") for place in mounted_sensors(loom))
 
 
-def _encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MountedSensor:
+def sensor_tree(mounted: MountedSensor, machine: str) -> MachineTree:
+    """A sensor as a body on the body that carries it."""
+    body = RigidBody(mounted.part.id, (Occurrence(mounted.part, mounted.positions),))
+    return MachineTree(machine, Tree((body,)), parent=mounted.carrier)
+
+
+def encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MountedSensor:
     """An encoder behind a motor, whose flange is at z = 0 and whose body lies behind it."""
     body, motor, position = near.occurrence(motors)
     assert motor.shape is not None

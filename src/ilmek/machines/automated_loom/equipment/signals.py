@@ -82,6 +82,12 @@ PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieFault", "TieStart", "TieCol
 """Signals of which each head has its own."""
 
 
+OF_A_BEAT = frozenset(
+    ("EmergencyStop", "BeaterBack", "EndDone", "EndFault", "Halt", "EndStart", "EndCode", "JogStart", *OF_WEAVERS)
+)
+"""Signals of a loom of which the beat alone is driven."""
+
+
 def signals_of(heads: int, weavers: int = 0) -> tuple[tuple[str, tuple[str, ...]], ...]:
     """The signals of a loom with a number of heads, or for a number of weavers, each with the ids of its parts."""
     if not weavers:

@@ -15,7 +15,6 @@ from functools import lru_cache
 
 from ilmek.elements.field_devices import BUTTON, STOP
 from ilmek.elements.safety_distances import approach
-from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.bench import (
     BOARD,
@@ -30,8 +29,8 @@ from ilmek.machines.automated_loom.equipment.bench import (
     bench_parts,
 )
 from ilmek.machines.automated_loom.equipment.devices import UPWARDS, device, placed
-from ilmek.machines.automated_loom.equipment.stopping import stopping_time
-from ilmek.machines.automated_loom.equipment.surroundings import Hazard, surroundings
+from ilmek.machines.automated_loom.equipment.site import LoomSite
+from ilmek.machines.automated_loom.equipment.surroundings import Hazard
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.part.placement import UPRIGHT, placement
 from ilmek.part.tree import Occurrence, RigidBody, Tree
@@ -67,11 +66,10 @@ class WeaversStation:
 
 
 @lru_cache(maxsize=4)
-def station_of(loom: LoomDesign) -> WeaversStation:
+def station_of(site: LoomSite) -> WeaversStation:
     """The station of a loom: as near to the warps as its buttons and what stands before the weavers allow."""
-    near, floor = surroundings(loom), loom.side.floor
-    seat, cloth = max(loom.side.fell_height - ELBOW, LEAST_SEAT), loom.task.cloth.width
-    stops = stopping_time(loom)
+    near, floor, cloth, stops = site.near, site.floor, site.width, site.stops
+    seat = max(-floor - ELBOW, LEAST_SEAT)
     hazard = max(near.hazards, key=lambda one: float(one.high[2]) + approach(stops.of(one.body)))
     distance = approach(stops.of(hazard.body))
     feet = near.of(part_id("front-foot"))
@@ -92,20 +90,20 @@ def station_of(loom: LoomDesign) -> WeaversStation:
         before(top, top + SHOULDER, cloth / 2) + _GAP + TRUNK - HIP,
         float(hazard.high[2]) + distance + BUTTON.size[0] / 2 - BOARD[0],
     )
-    number = loom.weavers
+    number = site.weavers
     middles = tuple(((k + 0.5) / number - 0.5) * cloth for k in range(number))
     return WeaversStation(bench_for(front, seat, floor, half, number), middles, hazard, distance)
 
 
-def station_tree(loom: LoomDesign) -> Tree:
+def station_tree(site: LoomSite) -> Tree:
     """The bench, fixed to the front feet, with its buttons."""
-    station = station_of(loom)
-    return Tree((RigidBody(BENCH, (*_stand(loom, station.bench), *_on_board(station))),))
+    station = station_of(site)
+    return Tree((RigidBody(BENCH, (*_stand(site, station.bench), *_on_board(station))),))
 
 
-def _stand(loom: LoomDesign, bench: Bench) -> Iterator[Occurrence]:
+def _stand(site: LoomSite, bench: Bench) -> Iterator[Occurrence]:
     """Rails beside the front feet, with feet at their rear ends, and the bench on them."""
-    foot, side, floor = surroundings(loom).of(part_id("front-foot"))[-1], SECTION.side, bench.floor
+    foot, side, floor = site.near.of(part_id("front-foot"))[-1], SECTION.side, bench.floor
     begin = min(float(foot.high[2]) - 4 * side, bench.front)
     y, x = float(foot.low[1] + foot.high[1]) / 2, bench.half - side / 2
     rail = member("bench-rail", "rail of the bench at a front foot", SECTION, bench.rear - begin)
@@ -127,10 +125,10 @@ def _on_board(station: WeaversStation) -> Iterator[Occurrence]:
     yield Occurrence(stop, tuple(placed(x, top, z, UPWARDS) for x in (-aside, aside)))
 
 
-def station_checks(loom: LoomDesign) -> tuple[Check, ...]:
+def station_checks(site: LoomSite) -> tuple[Check, ...]:
     """Reach of the weavers, the distance of their buttons, and the beams of the bench."""
-    station, nearer = station_of(loom), "set beat=comb, or a shorter shed_stop"
-    until = f"ISO 13855, 1.6 m/s: until the {stopping_time(loom).axis_of(station.hazard.body)} stands; shrouded"
+    station, nearer = station_of(site), "set beat=comb, or a shorter shed_stop"
+    until = f"ISO 13855, 1.6 m/s: until the {site.stops.axis_of(station.hazard.body)} stands; shrouded"
     return (
         *station.bench.checks(nearer),
         at_least(

@@ -10,11 +10,13 @@ its own motion is, the shedding cams in the time in which they stop for a beat.
 
 from collections.abc import Mapping
 
-from ilmek.elements.field_devices import CONTROLLER, GRID, INTERLOCK, RELAY
+from ilmek.elements.field_devices import CONTROLLER, GRID, INTERLOCK, RELAY, FieldDevice
 from ilmek.machines.automated_loom.cyclogram import BEATER, HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.beat import BeatDrive
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.records import record
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import peak_acceleration, peak_speed
 
 BEAT, CARRIER = "beat", "carrier of the weft"
@@ -55,23 +57,29 @@ class StoppingTime:
 def stopping_time(loom: LoomDesign) -> StoppingTime:
     """The stopping time of a loom."""
     row, params, weft = loom.row_cyclogram, loom.params, loom.weft.params
-    beater, carrier = row.track(BEATER), loom.row_timing.carrier
+    carrier = loom.row_timing.carrier
     times = {
         "shedding cams": params.shed_stop,
         CARRIER: peak_speed(row.track(carrier), row.period) / weft.acceleration,
-        BEAT: max(peak_speed(beater, row.period) / peak_acceleration(beater, row.period), _slide(loom)),
+        BEAT: beat_stop(loom.beat, row),
     }
     if loom.heads:
         carriage = loom.weaver.params
         times["heads' retreat"] = peak_speed(row.track(HEADS), row.period) / params.retreat_acceleration
         times["carriages"] = carriage.carriage_speed / carriage.carriage_acceleration
-    guard = INTERLOCK if loom.heads else GRID
-    return StoppingTime(guard.response + RELAY.response + CONTROLLER.response, times)
+    return StoppingTime(circuit_time(INTERLOCK if loom.heads else GRID), times)
 
 
-def _slide(loom: LoomDesign) -> float:
-    """Time in which the slide of a travelling beater stands [s]; 0 without one."""
-    if not isinstance(loom.beat.design, BeatUp):
-        return 0.0
-    across = loom.beat.use.travel
-    return float(across.step.speed / across.params.acceleration)
+def circuit_time(guard: FieldDevice) -> float:
+    """Response of the safety circuit with a device of the guards [s]."""
+    return guard.response + RELAY.response + CONTROLLER.response
+
+
+def beat_stop(beat: BeatDrive, row: Cyclogram) -> float:
+    """Time in which what beats stands, and the slide of a travelling beater [s]."""
+    beater = row.track(BEATER)
+    stops = peak_speed(beater, row.period) / peak_acceleration(beater, row.period)
+    if not isinstance(beat.design, BeatUp):
+        return stops
+    across = beat.use.travel
+    return max(stops, float(across.step.speed / across.params.acceleration))

@@ -96,12 +96,18 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     found = extents(tree, (ROW, KNOT))
     row = half_width(loom) + loom.head_width / 2
     riding = {body.id for body in head_tree(loom.weaver).bodies} if loom.heads else set[str]()
+    return Surroundings(
+        tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards_of(found))
+    )
+
+
+def hazards_of(found: Iterable[Extent]) -> Iterator[Hazard]:
+    """The bodies that move, each with all that its pieces sweep."""
     bodies: dict[str, list[Extent]] = {}
     for one in found:
         if one.moving:
             bodies.setdefault(one.body, []).append(one)
-    hazards = (Hazard(name, *around(pieces)) for name, pieces in bodies.items())
-    return Surroundings(tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards))
+    return (Hazard(name, *around(pieces)) for name, pieces in bodies.items())
 
 
 def _widened(hazard: Hazard, half: float) -> Hazard:

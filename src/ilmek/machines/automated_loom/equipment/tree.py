@@ -12,6 +12,7 @@ from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import sensor_checks, sensors
 from ilmek.machines.automated_loom.equipment.signals import HEAD_ANGLE, YARN_STOP
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_checks, station_tree
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_checks
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
@@ -32,9 +33,9 @@ def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of the equipment, on bodies of the machines or on the floor."""
     return (
         *sensors(loom),
-        MachineTree(_NAME, guards(loom)),
-        MachineTree(_NAME, circuit(loom)),
-        *(_of_heads(loom) or (MachineTree(_NAME, station_tree(loom)),)),
+        MachineTree(_NAME, guards(site_of(loom))),
+        MachineTree(_NAME, circuit(site_of(loom))),
+        *(_of_heads(loom) or (MachineTree(_NAME, station_tree(site_of(loom))),)),
     )
 
 
@@ -70,5 +71,6 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """The checks of guards, sensors, circuit, and of chains and yarn path of heads or of the weavers' station."""
-    served = (*chain_checks(loom), *yarn_checks(loom)) if loom.heads else station_checks(loom)
-    return (*guard_checks(loom), *sensor_checks(loom), *circuit_checks(loom), *served)
+    site = site_of(loom)
+    served = (*chain_checks(loom), *yarn_checks(loom)) if loom.heads else station_checks(site)
+    return (*guard_checks(site), *sensor_checks(loom), *circuit_checks(site), *served)

@@ -11,7 +11,8 @@ from ilmek.linkage.solve import solve
 from ilmek.machines.automated_loom.beat_motion import beat_tip, beat_windows
 from ilmek.machines.automated_loom.cyclogram import SLIDE
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.maker import ROW, MachineTree, along_track, half_width
+from ilmek.machines.automated_loom.in_space.maker import MachineTree, along_track
+from ilmek.machines.beat import BeatDrive, BeatPath
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS
 from ilmek.machines.beat_up.tree import CARRIAGE, in_side_view, link_motions, travelling
@@ -20,6 +21,7 @@ from ilmek.machines.hammer.tree import tree as hammer_tree
 from ilmek.part.placement import IN_SIDE_VIEW, Placement
 from ilmek.part.tree import Tree
 from ilmek.report.scene import SceneMotion
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import turn
 
 _TABLE = 721
@@ -27,45 +29,44 @@ _TABLE = 721
 
 def beating(loom: LoomDesign) -> MachineTree:
     """The machine of the beat, on the ground."""
-    bodies, position = _placed(loom)
-    return MachineTree(loom.beat.name, bodies, position)
+    return beat_branch(loom.beat, loom.row_cyclogram)
 
 
-def _placed(loom: LoomDesign) -> tuple[Tree, Placement]:
+def beat_branch(beat: BeatDrive, row: Cyclogram) -> MachineTree:
+    """The tree of a drive of the beat, moved by the beater's track of a cyclogram and by that of its slide, if any."""
+    return MachineTree(beat.name, *_placed(beat, row))
+
+
+def _placed(beat: BeatDrive, row: Cyclogram) -> tuple[Tree, Placement]:
     """The bodies with their motions, and where their axes lie."""
-    beat, row = loom.beat, loom.row_cyclogram
-    angle, tip = _beat(loom)
+    angle, tip = _beat(beat.path, row)
     if isinstance(beat.design, BeatUp):
-        one = beat.design
-        slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if _slides(loom) else None
-        motions = _of_links(one, angle, tip) | ({CARRIAGE: slide} if slide else {})
+        one, cloth = beat.design, beat.task.cloth
+        slides = any(track.name == SLIDE for track in row.tracks)
+        slide = along_track(row, SLIDE, (0.0, 0.0, 1.0)) if slides else None
+        motions = _of_links(one, row.name, angle, tip) | ({CARRIAGE: slide} if slide else {})
         # At angle 0 the beater stands at the left edge of the cloth, or beside it.
-        start = beat.beaten * loom.task.cloth.warp_pitch / 2 - half_width(loom) - beat.beat.park if slide else 0.0
+        start = (beat.beaten * cloth.warp_pitch - cloth.width) / 2 - beat.beat.park if slide else 0.0
         return travelling(one, beat.use, motions, start), in_side_view(one)
     if beat.design.linkage is None:
         shift = np.stack([tip.real, tip.imag, np.zeros(tip.size)], axis=1)
-        return hammer_tree(beat.design, {COMB: SceneMotion(ROW, angle, shift, np.zeros(tip.size))}), IN_SIDE_VIEW
+        return hammer_tree(beat.design, {COMB: SceneMotion(row.name, angle, shift, np.zeros(tip.size))}), IN_SIDE_VIEW
     one = beat.design.linkage.one
-    motions = _of_links(one, angle, tip)
+    motions = _of_links(one, row.name, angle, tip)
     return hammer_tree(beat.design, motions | {COMB: motions[PART_IDS["rocker"]]}), in_side_view(one)
 
 
-def _slides(loom: LoomDesign) -> bool:
-    return any(track.name == SLIDE for track in loom.row_cyclogram.tracks)
-
-
-def _beat(loom: LoomDesign) -> tuple[FloatArray, ComplexArray]:
-    """Angles of the row [rad], and the tip of what beats from the fell in the side view [m]."""
-    row, path = loom.row_cyclogram, loom.beat.path
+def _beat(path: BeatPath, row: Cyclogram) -> tuple[FloatArray, ComplexArray]:
+    """Angles of a cyclogram [rad], and the tip of what beats from the fell in the side view [m]."""
     inner = [start + path.share * (end - start) for start, end in beat_windows(row)]
     angle = np.unique(np.clip(np.concatenate([[0.0, turn], *inner]), 0.0, turn))
     return angle, beat_tip(path, row, angle)
 
 
-def _of_links(beat_up: BeatUp, angle: FloatArray, tip: ComplexArray) -> dict[str, SceneMotion]:
+def _of_links(beat_up: BeatUp, drive: str, angle: FloatArray, tip: ComplexArray) -> dict[str, SceneMotion]:
     """The motions of crank, coupler and rocker by the tip of what beats from the fell [m]."""
     swing = np.maximum(-np.angle(1 - tip / beat_up.lengths["beater"]), 0.0)
-    return link_motions(beat_up, ROW, angle, crank_angles(beat_up, swing))
+    return link_motions(beat_up, drive, angle, crank_angles(beat_up, swing))
 
 
 def crank_angles(beat_up: BeatUp, swing: FloatArray) -> FloatArray:

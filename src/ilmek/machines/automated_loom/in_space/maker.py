@@ -73,9 +73,11 @@ def motion(
     shift: Float[np.ndarray, "samples 3"] | None = None,
     rotation: FloatArray | None = None,
 ) -> SceneMotion:
-    """A motion over the angle of a cyclogram of a row or a knot."""
-    drive = ROW if cyclogram.name == "row" else KNOT
+    """A motion over the angle of a cyclogram, whose name is that of the scene's drive."""
     still = np.zeros(len(angle))
     return SceneMotion(
-        drive, angle, np.zeros((len(angle), 3)) if shift is None else shift, still if rotation is None else rotation
+        cyclogram.name,
+        angle,
+        np.zeros((len(angle), 3)) if shift is None else shift,
+        still if rotation is None else rotation,
     )

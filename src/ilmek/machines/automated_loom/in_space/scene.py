@@ -1,6 +1,6 @@
 """The scene of a loom: all its parts, its warps, yarns and carpet."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
@@ -29,6 +29,7 @@ from ilmek.part.space import frames_of, parts_of, rotations
 from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
 from ilmek.report import Report
 from ilmek.report.scene import Scene, SceneBody, SceneCarpet, SceneFrame, ScenePart, ScenePhase, SceneYarn
+from ilmek.timing.cyclogram import Cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import turn
 from ilmek.weaving.cloth import Cloth
@@ -53,15 +54,23 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
         roll=carpet_roll(winding, side.lower, side.roll),
         periods=periods_of(loom),
         phases=tuple(
-            ScenePhase(drive, track.name, own.name, own.start, own.end)
-            for drive, cyclogram in ((ROW, loom.row_cyclogram), *(((KNOT, loom.knot_cyclogram),) if loom.heads else ()))
-            for track in cyclogram.tracks
-            for own in track.segments
+            phase
+            for cyclogram in (loom.row_cyclogram, *((loom.knot_cyclogram,) if loom.heads else ()))
+            for phase in phases_of(cyclogram)
         ),
         floor=side.floor,
     )
     yarns = (*wefts(loom), *knot_yarn(loom))
     return replace(whole, yarns=yarns, heads=HEAD, tools=tools(loom), dyed=(PACKAGE, TUBE), guards=GUARDS)
+
+
+def phases_of(cyclogram: Cyclogram) -> Iterator[ScenePhase]:
+    """What moves when, over the cyclogram that names the drive."""
+    return (
+        ScenePhase(cyclogram.name, track.name, own.name, own.start, own.end)
+        for track in cyclogram.tracks
+        for own in track.segments
+    )
 
 
 def scene_of(

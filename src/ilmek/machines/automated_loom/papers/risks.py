@@ -17,6 +17,7 @@ from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.creel_parts import CREEL, YARN_DUCT
 from ilmek.machines.automated_loom.equipment.guards import GUARDS, MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
@@ -66,7 +67,7 @@ def risks(loom: LoomDesign, report: Report) -> Paper:
 
 
 def _moving(loom: LoomDesign) -> PaperSection:
-    fence, tree = fence_of(loom), loom_tree(loom)
+    fence, tree = fence_of(site_of(loom)), loom_tree(loom)
     near = _nearest(loom)
     rows = []
     for hazard in fence.hazards:
@@ -121,7 +122,7 @@ def _nearest(loom: LoomDesign) -> dict[str, float]:
 
 def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str]]:
     """What stores energy, how much [J], and the measure."""
-    stands = Sentence("risk.stops", stop=format_quantity(fence_of(loom).stopping.whole, "s", 3))
+    stands = Sentence("risk.stops", stop=format_quantity(fence_of(site_of(loom)).stopping.whole, "s", 3))
     cams = 0.5 * value_of(report, "shedding.inertia") * loom.shedding.params.speed**2
     yield Sentence("risk.cams-turn"), cams, stands
     carrier = known(report, "weft.moving_mass"), known(report, "weft.speed_max")
