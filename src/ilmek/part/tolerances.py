@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from ilmek.part.placement import Placement
 from ilmek.records import record
+from ilmek.units import format_quantity, um
 
 
 class FeatureKind(StrEnum):
@@ -95,6 +96,18 @@ class ToleratedFeature:
     joint: str = ""
 
     @property
+    def label(self) -> str:
+        """Size, class and limits in one line: `bore 25 mm H7, 0 to 21 um`."""
+        text = f"{self.kind} {format_quantity(self.nominal, 'mm')} {self.tolerance}"
+        limits = f", {_microns(self.lower)} to {_microns(self.upper)} um" if self.lower or self.upper else ""
+        deep = f", {format_quantity(self.depth, 'mm')} across" if self.depth else ""
+        return f"{text}{limits}{deep}"
+
+    @property
     def reason(self) -> str:
         """Why it must hold this: what it does, and with what."""
         return " ".join((self.duty.value, *(f"[{name}]" for name in self.mates[:1])))
+
+
+def _microns(deviation: float) -> str:
+    return f"{deviation / um:+.3g}" if deviation else "0"
