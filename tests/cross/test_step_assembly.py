@@ -259,6 +259,8 @@ def _wanted_sizes(features: Sequence[ToleratedFeature]) -> list[tuple[object, ..
             wanted.append((size, *limits, ()))
             deep = (round(value / mm, 6) + 0.0 for value in (one.depth, one.depth_lower, one.depth_upper))
             wanted.append((*deep, "", (round(shaft.nominal / mm / 2, 6),)))
+        elif one.kind is FeatureKind.FACE:
+            continue
         elif one.kind in {FeatureKind.SQUARE, FeatureKind.SQUARE_BORE}:
             wanted += [(size, *limits, ())] * 2
         else:
@@ -287,6 +289,7 @@ def _geometric(read: _Read) -> list[tuple[object, ...]]:
 
 
 _NAMES = {
+    Characteristic.FLATNESS: "Flatness",
     Characteristic.CYLINDRICITY: "Cylindricity",
     Characteristic.POSITION: "Position",
     Characteristic.RUN_OUT: "CircularRunout",
@@ -315,8 +318,9 @@ PARTS = {
     "shedding": ("cam-shaft", "shedding-cam"),
     "warp-tension": ("upper-driven-end",),
     "weaver": ("cam-shaft", "partition", "handler-pinion", "sley-follower"),
+    "hammer": ("bar",),
 }
-"""Parts whose files are read again: journals, bores, squares, keyways, threads; with and without datums."""
+"""Parts whose files are read again: journals, bores, squares, keyways, faces; with and without datums."""
 
 
 @pytest.mark.parametrize("machine", PARTS)

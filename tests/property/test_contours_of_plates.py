@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ilmek.cams.laws import LAWS
@@ -113,3 +113,32 @@ def test_a_keyed_bore_has_the_area_of_bore_and_slot() -> None:
     assert contours.area(contours.keyed_bore(radius, width, depth)) == pytest.approx(expected, rel=1e-12)
     with pytest.raises(ParameterError, match="a keyway 25 mm wide; above 0 mm, less than the bore of 25 mm"):
         contours.keyed_bore(radius, 2 * radius, depth)
+
+
+@settings(max_examples=40)
+@given(
+    st.floats(0.003, 0.1), st.floats(0.1, 0.6), st.floats(-0.3, 0.3), st.integers(1, 2), st.floats(0, 6), st.booleans()
+)
+def test_a_keyed_bore_is_known_again_wherever_it_lies(  # noqa: PLR0917
+    radius: float, wide: float, deep: float, number: int, angle: float, back: bool
+) -> None:
+    assume(abs(deep) > 0.05)
+    width, depth = wide * radius, deep * radius
+    drawn = contours.keyed_bore(radius, width, depth, number)
+    points, bulges = 0.3 - 0.1j + np.exp(1j * angle) * drawn.points, drawn.bulges
+    if back:
+        points, bulges = points[::-1], -np.roll(bulges[::-1], -1)
+    keyed = contours.as_keyed(Contour(points, bulges))
+    assert keyed is not None
+    assert keyed.centre == pytest.approx(0.3 - 0.1j, abs=1e-9)
+    assert (keyed.radius, keyed.width, keyed.floor) == pytest.approx((radius, width, radius + depth), rel=1e-7)
+    assert min(abs(one - np.exp(1j * angle)) for one in keyed.directions) < 1e-7
+    assert len(keyed.directions) == number
+
+
+def test_other_contours_are_no_keyed_bore() -> None:
+    bar = contours.rounded_hull(np.array([0, 0.1 + 0j]), 0.01)  # two arcs and two straight pieces
+    tilted = contours.keyed_bore(0.01, 0.006, 0.0028)
+    moved = Contour(tilted.points + np.array([0, 0, 1e-4, 0]), tilted.bulges)
+    square = contours.polygon(np.array([0, 1, 1 + 1j, 1j]))
+    assert [contours.as_keyed(one) for one in (bar, moved, square, contours.circle(0j, 1.0))] == [None] * 4

@@ -10,6 +10,7 @@ from default_machines import default_design
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.fits import fit, tolerance_zone
 from ilmek.elements.hexagon_screws import SCREWS
+from ilmek.elements.linear_guides import LINEAR_GUIDES
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.plates import round_bore
@@ -234,6 +235,20 @@ def test_what_runs_has_play_and_what_is_fixed_has_none(machine: str) -> None:
         else:
             assert least < 0
     assert pairs > 0
+
+
+def test_the_face_under_a_rail_is_flat() -> None:
+    rail = catalogue.guide_rail("rail", "rail", LINEAR_GUIDES[2], 0.8)
+    beam = _made("beam", box(40 * mm, 20 * mm, 1.0))
+    on_it = Occurrence(rail, (placement(0.0, 10 * mm, 0.1),))
+    ((face,),) = tolerances_of(Tree((RigidBody("rail", (_at(beam), on_it)),))).values()
+    assert (face.part, face.kind, face.mates, face.nominal) == ("beam", FeatureKind.FACE, ("rail",), 0.8)
+    assert face.position.origin.tolist() == pytest.approx([0.0, 10 * mm, 0.5])
+    assert face.position.rotation[:, 2].tolist() == pytest.approx([0.0, 1.0, 0.0])
+    (flat,) = face.geometric
+    assert (flat.characteristic, flat.value) == (Characteristic.FLATNESS, pytest.approx(24 * um))
+    lifted = Occurrence(rail, (placement(0.0, 10.1 * mm, 0.1),))
+    assert tolerances_of(Tree((RigidBody("rail", (_at(beam), lifted)),))) == {}
 
 
 def test_features_of_a_sum_lie_where_its_members_do() -> None:

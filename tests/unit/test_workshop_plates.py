@@ -14,9 +14,10 @@ from processes import printed, python
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
-from ilmek.elements.plates import link_plate, round_bore, square_bore, zero_mark
+from ilmek.elements.plates import link_plate, round_bore, zero_mark
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.dxf import LAYERS, read_dxf, write_dxf
+from ilmek.part.shapes import rectangle
 from ilmek.report import Hole, Plate
 
 CAM = PlateCam(
@@ -51,7 +52,8 @@ def coupler() -> Plate:
 
 def square_bored() -> Plate:
     surface = CAM.surface(np.arange(720) * math.tau / 720)
-    return Plate("shed", "Shedding cam", surface, 0.0018, "POM", number=600, **square_bore(0.02)._asdict())
+    bore = rectangle(0.02, 0.02)
+    return Plate("shed", "Shedding cam", surface, 0.0018, "POM", number=600, cutouts=(bore,))
 
 
 PLATES = {plate.name: plate for plate in (cam_plate(), coupler(), square_bored())}

@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.keyways import keyway_for
 from ilmek.errors import ParameterError
-from ilmek.plane.contours import area, keyed_bore, polygon, rounded_hull
+from ilmek.plane.contours import area, keyed_bore, rounded_hull
 from ilmek.report import Contour, Hole, Plate
 from ilmek.units import format_quantity
 
@@ -66,7 +66,6 @@ class Bore(NamedTuple):
 
     holes: tuple[Hole, ...]
     cutouts: tuple[Contour, ...]
-    notes: tuple[str, ...]
 
 
 def round_bore(diameter: float, *, key: bool = True) -> Bore:
@@ -74,22 +73,13 @@ def round_bore(diameter: float, *, key: bool = True) -> Bore:
 
     Raises ParameterError for a diameter beyond those of parallel keys.
 
-    >>> round_bore(0.025).notes
-    ('bore 25 mm H7, keyway 8 mm JS9, 28.3 mm across bore and keyway (DIN 6885-1)',)
+    >>> round_bore(0.025, key=False).cutouts
+    ()
     """
-    bore = f"bore {format_quantity(diameter, 'mm')} H7"
     if not key:
-        return Bore((Hole(0j, diameter / 2, "bore"),), (), (bore,))
+        return Bore((Hole(0j, diameter / 2, "bore"),), ())
     keyway = keyway_for(diameter)
-    across = format_quantity(diameter + keyway.in_hub, "mm")
-    keyed = f"keyway {format_quantity(keyway.width, 'mm')} JS9, {across} across bore and keyway (DIN 6885-1)"
-    return Bore((), (keyed_bore(diameter / 2, keyway.width, keyway.in_hub),), (f"{bore}, {keyed}",))
-
-
-def square_bore(side: float) -> Bore:
-    """The bore for a square shaft about the origin, its faces along the axes."""
-    corners = side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
-    return Bore((), (polygon(corners),), (f"square bore {format_quantity(side, 'mm')} H9",))
+    return Bore((), (keyed_bore(diameter / 2, keyway.width, keyway.in_hub),))
 
 
 def zero_mark(radius: float, angle: float = 0.0) -> dict[str, ComplexArray]:

@@ -24,6 +24,7 @@ from ezdxf.units import MM
 from ilmek.errors import OutputError
 from ilmek.io.dxf_dimensions import dimension, text_height
 from ilmek.io.plate_shape import PlateShape, plate_shape
+from ilmek.part.tolerances import ToleratedFeature
 from ilmek.plane.contours import area
 from ilmek.report import Contour, Plate, RoundSolid
 from ilmek.units import format_quantity, mm
@@ -154,8 +155,10 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
     thick = f"{format_quantity(plate.thickness, 'mm')} thick"
     round_solid = plate.solid if isinstance(plate.solid, RoundSolid) else None
     size = thick if round_solid is None else f"diameter {format_quantity(2 * round_solid.outer, 'mm')}"
-    lines = (f"{plate.title} ({plate.name})", f"{plate.material}, {size}, {pieces}", *plate.notes, f"mm, 1:1; {known}")
-    _put(space, lines, low, height)
+    features = [one for one in plate.features if isinstance(one, ToleratedFeature)]
+    fits = dict.fromkeys(one.label for one in features if one.tolerance)
+    first = f"{plate.title} ({plate.name})", f"{plate.material}, {size}, {pieces}"
+    _put(space, (*first, *plate.notes, *fits, f"mm, 1:1; {known}"), low, height)
 
 
 def _put(space: Modelspace, lines: Iterable[str], low: complex, height: float) -> None:

@@ -30,6 +30,9 @@ TIME_STAMP = "2000-01-01T00:00:00"
 
 SETTINGS: Mapping[str, str] = {"write.step.schema": "AP242DIS", "write.step.unit": "MM"}
 
+_METRE, _MILLIMETRE = b"SI_UNIT($,.METRE.)", b"SI_UNIT(.MILLI.,.METRE.)"
+"""In a file without sizes the kernel states the unit of geometric tolerances, which are in mm as all lengths, as m."""
+
 for _printer in Message.DefaultMessenger_s().Printers():
     _printer.SetTraceLevel(Message_Gravity.Message_Fail)  # otherwise each transfer is printed on standard output
 
@@ -66,7 +69,7 @@ class StepDocument:
         _with_header(writer.ChangeWriter().Model(False), self._title)
         if not done or writer.WriteStream(written) != IFSelect_ReturnStatus.IFSelect_RetDone:
             raise OutputError(f"{self._title} cannot be written as STEP")
-        return written.getvalue()
+        return written.getvalue().replace(_METRE, _MILLIMETRE)
 
     @staticmethod
     def named(label: TDF_Label, name: str) -> TDF_Label:

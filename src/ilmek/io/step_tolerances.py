@@ -40,6 +40,7 @@ _NEAR = 1e-4
 """Distance that counts as rounding of the kernel [mm], and of directions."""
 
 _TYPES = {
+    Characteristic.FLATNESS: "Flatness",
     Characteristic.CYLINDRICITY: "Cylindricity",
     Characteristic.POSITION: "Position",
     Characteristic.RUN_OUT: "CircularRunout",
@@ -75,7 +76,7 @@ def add_tolerances(
     surfaces: tuple[_Surface, ...] = tuple(_surfaces(solid))
     faces = {one.name: _faces(one, surfaces) for one in features}
     for one in features:
-        for first, second in faces[one.name]:
+        for first, second in faces[one.name] if one.kind is not FeatureKind.FACE else ():
             added.size(one, first, second)
         if one.depth:
             added.depth(one, surfaces)
@@ -241,6 +242,16 @@ class _Frame:
             and middle[0] > beyond
         )
 
+    def facing(self) -> tuple[_Surface, ...]:
+        """The plane face in the feature's plane whose middle is nearest."""
+        seen = ((surface, *self._seen(surface)) for surface in self.surfaces if surface.radius == 0)
+        apart = [
+            (float(np.hypot(middle[0], middle[1])), number, surface)
+            for number, (surface, middle, _, along) in enumerate(seen)
+            if abs(abs(along[2]) - 1) < _NEAR and abs(middle[2]) < _NEAR
+        ]
+        return (min(apart)[2],) if apart else ()
+
     def _beside(self, middle: FloatArray) -> bool:
         """Whether the middle of a face is that of the feature along its axis."""
         return bool(abs(middle[2] - self.one.length / mm / 2) < _NEAR)
@@ -249,6 +260,9 @@ class _Frame:
 def _faces(one: ToleratedFeature, surfaces: tuple[_Surface, ...]) -> tuple[_Sides, ...]:
     """The faces of a feature: of a cylinder, without others; of a keyway its sides, of a square two pairs of them."""
     frame, half = _Frame(one, surfaces), one.nominal / mm / 2
+    if one.kind is FeatureKind.FACE:
+        under = frame.facing()
+        return _required(one, ((under, ()),), under)
     if one.kind in _SQUARES:
         pairs = tuple(
             (frame.planes(axis, sense=1, distance=half), frame.planes(axis, sense=-1, distance=half)) for axis in (0, 1)

@@ -1,4 +1,4 @@
-"""Features of size of a shape: its cylinders, with their keyways, and its squares, in the part's own axes.
+"""Features of a shape in the part's own axes: of size, its cylinders with their keyways and its squares; plane faces.
 
 They are read from the shape: the straight lines along z of a turned profile; circles, circles with keyways, and squares
 among the contours of a prism's section; of a sum those of its members. Arcs that are no whole circle are none.
@@ -8,11 +8,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ilmek.arrays import Float
 from ilmek.elements.keyways import Keyway, keyway_for
 from ilmek.errors import ParameterError
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.shapes import Prism, Shape, Sum, Turned
-from ilmek.plane.contours import STRAIGHT, KeyedCircle, as_hole, as_keyed, counter_clockwise
+from ilmek.plane.contours import STRAIGHT, KeyedCircle, as_hole, as_keyed, bounds, counter_clockwise
 from ilmek.plane.vectors import dot, following
 from ilmek.records import record
 from ilmek.report import Contour
@@ -118,3 +119,32 @@ def _is_square(contour: Contour) -> bool:
     sides = following(contour.points) - contour.points
     even = np.ptp(np.abs(sides)) < _LEAST
     return bool(even and np.max(np.abs(dot(sides, following(sides)))) < _LEAST * np.abs(sides[0]))
+
+
+@record
+class PlaneFace:
+    """A plane face: the corners of a rectangle about it [m], and its normal, out of the material."""
+
+    corners: Float[np.ndarray, "4 3"]
+    normal: Float[np.ndarray, " 3"]
+
+
+def faces_of(shape: Shape, position: Placement = IDENTITY) -> Iterator[PlaneFace]:
+    """The plane faces of the prisms of a shape that lies at a position: their ends, and straight pieces of outlines."""
+    if isinstance(shape, Sum):
+        for member in shape.members:
+            for own in member.positions:
+                yield from faces_of(member.shape, position.after(own))
+    elif isinstance(shape, Prism):
+        outline, length = counter_clockwise(shape.section.outline), shape.length
+        low, high = bounds(outline)
+        around = [low, complex(high.real, low.imag), high, complex(low.real, high.imag)]
+        for z, sense in ((0.0, -1.0), (length, 1.0)):
+            corners = np.array([[one.real, one.imag, z] for one in around])
+            yield PlaneFace(position.points(corners), position.rotation @ np.array([0.0, 0.0, sense]))
+        for start, end, bulge in zip(outline.points, following(outline.points), outline.bulges, strict=True):
+            if abs(bulge) < STRAIGHT and not shape.section.smooth:
+                out = -1j * (end - start) / abs(end - start)
+                ends = [(start, 0.0), (end, 0.0), (end, length), (start, length)]
+                corners = np.array([[one.real, one.imag, z] for one, z in ends])
+                yield PlaneFace(position.points(corners), position.rotation @ np.array([out.real, out.imag, 0.0]))

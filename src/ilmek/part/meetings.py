@@ -1,7 +1,8 @@
 """Which features of size of a tree's parts meet, and how one moves in the other: at rest, every drive at angle 0.
 
 A bore and a journal meet where they have the same size, the same axis, and lie along it beside each other. How they
-move follows from the joints between their bodies: of the chains from the body that carries both.
+move follows from the joints between their bodies: of the chains from the body that carries both. A bought guide sits on
+the faces on which its own lie.
 """
 
 from collections.abc import Iterator, Sequence
@@ -9,7 +10,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.part.features import FeatureOfSize, features_of_size
+from ilmek.part.features import FeatureOfSize, faces_of, features_of_size
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
@@ -138,3 +139,60 @@ def _joint(bore: _Placed, inner: _Placed) -> tuple[JointKind, str]:
 
 _STANDING = {JointKind.FIXED, JointKind.MISSING}
 _TURNING = {JointKind.PIN, JointKind.ROLLING, JointKind.TRANSMISSION}
+
+
+GUIDES = frozenset({"linear guide", "guide carriage", "linear axis"})
+"""Processes of bought guides, which take the form of the face that they sit on."""
+
+
+@record
+class GuideSeat:
+    """The face of a made part that a bought guide sits on.
+
+    position  in the part's own axes: the middle of what both cover, z out of the part      length  of that [m]
+    """
+
+    part: Part
+    guide: Part
+    body: str
+    position: Placement
+    length: float
+
+
+def guide_seats(tree: Tree) -> tuple[GuideSeat, ...]:
+    """The seats of guides on made parts of the same body, each once."""
+    seats: dict[tuple[str, ...], GuideSeat] = {}
+    for body in tree.bodies:
+        placed = [(own.part, position) for own in body.occurrences for position in own.positions]
+        guides = [(part, position) for part, position in placed if part.process in GUIDES]
+        made = [(part, position) for part, position in placed if part.material is not None] if guides else []
+        for part, position in made:
+            for guide, at in guides:
+                for middle, length in _covered(part, position, guide, at):
+                    lies = GuideSeat(part, guide, body.id, middle, length)
+                    rounded = str(np.round(middle.origin / SAME))
+                    seats.setdefault((part.id, guide.id, rounded), lies)
+    return tuple(seats.values())
+
+
+def _covered(part: Part, position: Placement, guide: Part, at: Placement) -> Iterator[tuple[Placement, float]]:
+    """Where a face of a guide lies on one of a part, in the part's axes: the middle and length of what both cover."""
+    if part.shape is None or guide.shape is None:
+        return
+    others = tuple(faces_of(guide.shape, position.inverse.after(at)))
+    for own in faces_of(part.shape):
+        for other in others:
+            apart = (other.corners[0] - own.corners[0]) @ own.normal
+            if own.normal @ other.normal > SAME - 1 or abs(apart) > _FLUSH:
+                continue
+            across = own.corners[1] - own.corners[0]
+            axes = np.stack([across / np.linalg.norm(across), np.cross(own.normal, across / np.linalg.norm(across))])
+            low = np.maximum((own.corners @ axes.T).min(0), (other.corners @ axes.T).min(0))
+            high = np.minimum((own.corners @ axes.T).max(0), (other.corners @ axes.T).max(0))
+            if (high - low).min() > _COVERED:
+                middle = (low + high) / 2 @ axes + own.corners[0] @ own.normal * own.normal
+                yield Placement(middle, np.stack([*axes, own.normal], axis=1)), float((high - low).max())
+
+
+_FLUSH, _COVERED = 10 * um, 1e-3
+"""Distance within which faces lie on each other, and least width of what both cover [m]."""

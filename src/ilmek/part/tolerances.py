@@ -7,6 +7,7 @@ from enum import StrEnum
 
 from ilmek.part.placement import Placement
 from ilmek.records import record
+from ilmek.units import format_quantity, um
 
 
 class FeatureKind(StrEnum):
@@ -19,6 +20,7 @@ class FeatureKind(StrEnum):
     THREAD = "thread"
     SHAFT_KEYWAY = "shaft keyway"
     HUB_KEYWAY = "hub keyway"
+    FACE = "face"
 
 
 class FitDuty(StrEnum):
@@ -30,11 +32,13 @@ class FitDuty(StrEnum):
     KEYED = "carries a hub with a key"
     FIXED = "is fixed"
     SCREWED = "takes a screw"
+    GUIDING = "seats a guide"
 
 
 class Characteristic(StrEnum):
     """What a geometric tolerance limits: ISO 1101."""
 
+    FLATNESS = "flatness"
     CYLINDRICITY = "cylindricity"
     POSITION = "position"
     RUN_OUT = "circular run-out"
@@ -63,9 +67,11 @@ class ToleratedFeature:
 
     part      id of its part          name   unique on it: `bore-1`
     position  in the part's own axes: where a cylinder or square begins, z along its axis into it; of a keyway the same
-              of its bore or shaft, x out of the axis through the middle of the keyway
-    length    along the axis [m]      nominal   diameter, width across flats, width of a keyway [m]
-    tolerance class by ISO 286, `H7`, or of a thread by ISO 965, `6H`
+              of its bore or shaft, x out of the axis through the middle of the keyway; of a face the middle of what
+              sits on it, z out of the part
+    length    along the axis [m]; of a face 0
+    nominal   diameter, width across flats, width of a keyway, length of what sits on a face [m]
+    tolerance class by ISO 286, `H7`, or of a thread by ISO 965, `6H`; of a face none
     lower, upper  limit deviations of the nominal size [m]; of a thread those of ISO 965, here 0
     depth     of a keyway: from the opposite side of the shaft or bore to its floor, d - t1 or d + t2 [m]; else 0
     depth_lower, depth_upper   limit deviations of the depth [m]
@@ -95,6 +101,18 @@ class ToleratedFeature:
     joint: str = ""
 
     @property
+    def label(self) -> str:
+        """Size, class and limits in one line: `bore 25 mm H7, 0 to 21 um`."""
+        text = f"{self.kind} {format_quantity(self.nominal, 'mm')} {self.tolerance}"
+        limits = f", {_microns(self.lower)} to {_microns(self.upper)} um" if self.lower or self.upper else ""
+        deep = f", {format_quantity(self.depth, 'mm')} across" if self.depth else ""
+        return f"{text}{limits}{deep}"
+
+    @property
     def reason(self) -> str:
         """Why it must hold this: what it does, and with what."""
         return " ".join((self.duty.value, *(f"[{name}]" for name in self.mates[:1])))
+
+
+def _microns(deviation: float) -> str:
+    return f"{deviation / um:+.3g}" if deviation else "0"

@@ -10,6 +10,7 @@ which follows from the joint between them [`meetings`]; both parts read it from 
     seat of a rolling bearing          shaft k6, up to 18 mm js6; where its outer ring turns, of an insert bearing with
                                        grub screws and of a freewheel h6; housing H7, of a freewheel N7
     end of a screw                     thread 6H
+    face under a bought guide          flat
 
 Sources: DIN 6885-1 (light fit), ISO 4379 (bushes), ISO 965-1 (threads); rolling bearings of the class Normal under
 normal loads: SKF, Rolling bearings, tables of fits, of roughness and of geometrical tolerances of seats, IT5 / 2 of a
@@ -29,7 +30,7 @@ from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
 from ilmek.elements.keyways import Keyway
 from ilmek.errors import ParameterError
 from ilmek.part.features import FeatureOfSize, features_of_size
-from ilmek.part.meetings import Meeting, SeatFeature, meetings
+from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
@@ -85,6 +86,8 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
         if one.seat.part.material is not None:
             tolerance = journals[key] if key in journals else _bore(one, journals)
             features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
+    for seat in guide_seats(tree):
+        features[seat.part.id].append(_face(seat))
     return {part: tuple(_related(_named(own))) for part, own in features.items()}
 
 
@@ -179,6 +182,7 @@ _ROUGH = {
     FitDuty.KEYED: 1.6 * um,
     FitDuty.FIXED: 1.6 * um,
     FitDuty.SCREWED: 3.2 * um,
+    FitDuty.GUIDING: 1.6 * um,
 }
 """Ra by duty [m]; a bore in which a journal runs is twice as rough."""
 
@@ -217,6 +221,31 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
         mates=tuple(mates),
         joint=next((meeting.body for own, _, meeting in one.others if own is duty), ""),
     )
+
+
+def _face(seat: GuideSeat) -> ToleratedFeature:
+    """The face under a guide."""
+    flat = max(_FLAT * seat.length, _LEAST_FLAT)
+    return ToleratedFeature(
+        part=seat.part.id,
+        name="",
+        kind=FeatureKind.FACE,
+        position=seat.position,
+        length=0.0,
+        nominal=round(seat.length, 9),
+        tolerance="",
+        lower=0.0,
+        upper=0.0,
+        roughness=_ROUGH[FitDuty.GUIDING],
+        duty=FitDuty.GUIDING,
+        geometric=(GeometricTolerance(Characteristic.FLATNESS, flat, reason="a guide takes the form of its seat"),),
+        mates=(seat.guide.id,),
+        joint=seat.body,
+    )
+
+
+_FLAT, _LEAST_FLAT = 30 * um / 1.0, 10 * um
+"""Flatness of a guide's seat over its length, and the least [m]; assumed by this project, as makers of rails ask."""
 
 
 def _form(duty: FitDuty, size: float) -> Iterator[GeometricTolerance]:

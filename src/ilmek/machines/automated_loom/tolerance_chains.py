@@ -14,8 +14,9 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.shedding.tolerance_chain import tolerance_chain
 from ilmek.part.meetings import Meeting, meetings
-from ilmek.part.tolerances import Characteristic
+from ilmek.part.tolerances import Characteristic, FeatureKind
 from ilmek.part.tolerancing import play_of, tolerances_of
+from ilmek.part.tree import Tree
 from ilmek.report import Check, Table, at_most, columns
 from ilmek.units import mm
 
@@ -25,7 +26,7 @@ PROFILE = 0.1 * mm
 TEETH = 0.05 * mm
 """Deviation of the opener's teeth from the bores of its rods, and of its walls [m]; assumed by this project."""
 
-CAM, CAM_SHAFT = "shedding/shedding-cam", "shedding/cam-shaft"
+CAM_SHAFT = "shedding/cam-shaft"
 GRIPPER, FACE, BAR = "weaver/side-gripper", "weaver/face", "weaver/cross-bar"
 ROD, PARTITION = "weaver/carriage-rod", "weaver/partition"
 
@@ -40,10 +41,11 @@ def _stacks(loom: LoomDesign) -> Iterator[ToleranceStack]:
     params = shedding.params
     ratio = shedding.shed_opening / params.lift
     cams = [ToleranceLink(f"profile of the {which} cam", PROFILE, ratio) for which in ("upper", "lower")]
-    loose = play_of(tree, CAM, CAM_SHAFT) / 2
+    loose = _on_bar(tree) / 2
     cams += [ToleranceLink(f"{which} cam on its bar", loose, ratio, play=True) for which in ("upper", "lower")]
     yield ToleranceStack("height of the shed", shedding.shed_opening - params.shuttle_height, tuple(cams))
-    if not loom.heads or ROD not in tolerances_of(tree):
+    met = [(one.bore.part.id, one.inner.part.id) for one in meetings(tree)] if loom.heads else []
+    if (PARTITION, ROD) not in met:
         return
     own, opener = loom.weaver.params.opener, loom.weaver.opener
     on_rods = (
@@ -63,6 +65,14 @@ def _stacks(loom: LoomDesign) -> Iterator[ToleranceStack]:
     guided = [one for one in meetings(tree) if one.inner.part.id == GRIPPER and one.bore.part.id in {FACE, BAR}]
     if len({one.bore.part.id for one in guided}) == len((FACE, BAR)):
         yield ToleranceStack("gripper beside a warp", loom.weaver.params.clearance, (*_guides(loom, guided), *on_rods))
+
+
+def _on_bar(tree: Tree) -> float:
+    """Largest play of the cams on the bar of the first shaft [m]; 0: their bore does not fit, and that check fails."""
+    tolerances = tolerances_of(tree)
+    bars = [one for one in tolerances.get(CAM_SHAFT, ()) if one.kind is FeatureKind.SQUARE]
+    bores = [one for own in tolerances.values() for one in own if CAM_SHAFT in one.mates]
+    return max((bore.upper - bar.lower for bar in bars for bore in bores if bar.nominal == bore.nominal), default=0.0)
 
 
 def _guides(loom: LoomDesign, guided: list[Meeting]) -> Iterator[ToleranceLink]:

@@ -47,13 +47,10 @@ def cutouts(design: CamDesign, cam: CamRole) -> tuple[Contour, ...]:
 
 
 def hub_notes(design: CamDesign) -> tuple[str, ...]:
-    """Bore and keyway, for the workshop."""
-    hub = design.hub
+    """What of the bore no keyway tells [`part.features`], for the workshop."""
     if not cutouts(design, design.cam):
         return ("without its bore, which does not fit",)
-    width, depth = format_quantity(hub.key_width, "mm"), format_quantity(hub.key_depth, "mm")
-    key = (f"keyway {width} wide, {depth} deep, DIN 6885-1",) if hub.key_width else ()
-    return (f"bore {format_quantity(hub.bore, 'mm')} H7", *key)
+    return () if design.hub.key_width else (f"bore {format_quantity(design.hub.bore, 'mm')} H7",)
 
 
 def zero_mark(design: CamDesign) -> ComplexArray:

@@ -158,5 +158,5 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         STEEL,
         paths={"pitch curve": pitch, "cutter path": pitch},
         marks=zero_mark(float(np.abs(surface[-1]))),
-        notes=(*bore.notes, f"cutter of {in_mm(2 * cam.cam.roller_radius)}"),
+        notes=(f"cutter of {in_mm(2 * cam.cam.roller_radius)}",),
     )
