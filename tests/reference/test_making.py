@@ -12,7 +12,7 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.elements.prices import PRICES, batch_price, piece_price
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.bill import bill
-from ilmek.part.making import HARDENED, ROUTES, steps_of
+from ilmek.part.making import ROUTES, steps_of
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.shapes import Placed, Sum, box, tube
@@ -156,7 +156,9 @@ def test_every_made_part_has_its_steps_and_no_quantity_is_below_0() -> None:
         if line.steps:
             bought = sum(step.mass for step in line.steps if step.kind == line.material)
             assert bought >= part.mass * (1 - 1e-9), part.id
-            assert ("hardening" in {step.kind for step in line.steps}) == (line.material in HARDENED)
+            assert ("hardening" in {step.kind for step in line.steps}) == (
+                line.material in ("induction-hardened steel", "bearing steel")
+            )
 
 
 def test_each_rate_is_usual_and_every_material_has_one() -> None:

@@ -31,9 +31,6 @@ WEB, KERF, ALLOWANCE, OFFCUT = 8 * mm, 3 * mm, 2 * mm, 0.05
 """Width between plates on a sheet, width of a saw's cut, allowance of a blank [m], share of stock that is left; assumed
 by this project."""
 
-HARDENED = ("induction-hardened steel", "case-hardened steel", "bearing steel")
-"""Materials whose parts are hardened when they are made."""
-
 _ROUND = 0.85
 """Share of a circle about its axis from which a section is round: of a square it is 0.64, of a hexagon 0.83."""
 
@@ -257,6 +254,5 @@ def steps_of(part: Part) -> tuple[ProcessStep, ...]:
 
 @lru_cache(maxsize=4096)
 def _steps(shape: Shape, material: Material, process: str) -> tuple[ProcessStep, ...]:
-    hardened = material.name in HARDENED
-    treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if hardened else ()
+    treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if material.treatment else ()
     return (*ROUTES[process](shape, material), *treated)
