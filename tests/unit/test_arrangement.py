@@ -182,7 +182,8 @@ def test_coordinates_agree() -> None:
     assert side.fell_height == pytest.approx(-side.floor)
     assert side.loom_height > side.spans.back_rest + side.fell_height
     assert side.lower.at.imag - side.roll > side.floor
-    assert side.roll**2 == pytest.approx(side.lower.radius**2 + 1.8 * (pile + 3 * side.room.warp) / math.pi)
+    woven = 450 * loom().task.cloth.row_distance
+    assert side.roll**2 == pytest.approx(side.lower.radius**2 + woven * (pile + 3 * side.room.warp) / math.pi)
 
 
 def test_the_figures_of_the_docs_are_those_of_the_default_loom() -> None:

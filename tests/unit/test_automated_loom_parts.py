@@ -290,7 +290,7 @@ def test_every_kind_of_beat_leaves_the_rows_that_the_carpet_has(kind):
     beat, report = beaten(kind).beat, beaten_report(kind)
     assert beat.beat_force_needed == pytest.approx(10.0)  # the hammer's fabric: 10 N on 15 N of tension
     assert beat.beat_force_warp >= beat.beat_force_needed * (1 - 1e-9)
-    assert beat.row_pitch_left <= 4e-3 * (1 + 1e-9)
+    assert beat.row_pitch_left <= 4e-3 * (1 + 15 / 1346) / 0.99  # strained, unwashed
     # The bar of a comb on crank-rockers rests where a head with all of its parts stands.
     assert all("comb's bar" in check.name for check in report.failed) if kind == "linkage" else report.failed == ()
 

@@ -147,10 +147,11 @@ def test_values_set_for_the_machine_are_in_its_beat() -> None:
 
 
 def test_the_fabric_set_for_the_hammer_is_that_of_every_kind() -> None:
-    usual = driven("comb").beat_force_needed
+    usual = driven("comb")
+    packing = f"{2e3 * usual.fabric.packing}mm"
     for kind in BEATS:
-        harder = driven(kind, **{"hammer.packing": "2mm"})
-        assert harder.beat_force_needed == pytest.approx(2 * usual)
+        harder = driven(kind, **{"hammer.packing": packing})
+        assert harder.beat_force_needed == pytest.approx(2 * usual.beat_force_needed)
 
 
 def test_a_comb_takes_the_time_of_its_beat_out_of_the_row() -> None:
