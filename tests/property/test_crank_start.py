@@ -1,5 +1,8 @@
 """Start and stop of a beat's crank: its torque against Newton and Euler, its energy against motion and fell."""
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -10,7 +13,7 @@ from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import PointForce
 from ilmek.linkage.solve import solve
 from ilmek.machines.beat_up import BeatUpParams, design
-from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start
+from ilmek.machines.beat_up.crank_start import CrankDuty, CrankStart, crank_start, start_checks
 from ilmek.machines.beat_up.use_params import CrankStartParams
 from ilmek.units import turn
 from ilmek.weaving.fell import assumed_fabric
@@ -112,3 +115,14 @@ def test_strokes_lengthen_the_beat_by_a_turn_each() -> None:
     one, many = started(every=60.0), started(strokes=100, every=60.0)
     assert many.beat_time - one.beat_time == pytest.approx(99 * turn / 15.5)
     assert many.start_work > 50 * one.start_work
+
+
+@pytest.mark.parametrize("long", [0.1, 0.59, 0.61, 4.6])
+def test_a_flywheel_is_not_longer_than_wide(long: float) -> None:
+    """A hollow cylinder of 600 by 200 mm has J = pi rho l (R^4 - r^4) / 2; a shorter one is thinner than its rim."""
+    inertia = math.pi * 7850 * long * (0.3**4 - 0.1**4) / 2
+    wheel = replace(started(drive="clutch"), start_flywheel=inertia)
+    (check,) = (one for one in start_checks(wheel) if one.name == "length of the flywheel")
+    assert check.ok is (long < 0.6)
+    if long > 0.2:
+        assert check.value == pytest.approx(long, rel=1e-9)

@@ -254,7 +254,7 @@ def make_loomed(
     report = reported(made)
     report = replace(report, choices=(*choices, *report.choices))
     report = with_nearest(report, params, progress.part(0.9, 1.0))
-    require_price(loom_order.wishes, made, report, programme.duration)
+    require_price(loom_order.wishes, params, made, report, programme.duration)
     left = made.beat.row_pitch_left
     checks = (*colours, *deadline_checks(loom_order.deadline, programme.duration))
     setup = loom_setup(made, carpet, programme)

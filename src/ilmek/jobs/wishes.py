@@ -12,6 +12,7 @@ from ilmek.loom.programme import least_heads, weaving_time
 from ilmek.loom.sharing import MOST_HEADS
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.params import AIMS
+from ilmek.machines.automated_loom.report import analyse
 from ilmek.progress import SILENT, Progress
 from ilmek.report import Choice, Report
 from ilmek.units import format_number, format_quantity, hour
@@ -74,8 +75,10 @@ def _of_heads(made: LoomDesign, carpet: CarpetPile) -> Choice:
     return Choice("heads", str(made.heads), "the deadline", str(fewer) if fewer else "", failed)
 
 
-def require_price(wishes: Wishes, made: LoomDesign, report: Report, duration: float) -> None:
-    """Raise ParameterError, naming every wish, for a loom above the price that is wished."""
+def require_price(
+    wishes: Wishes, params: AutomatedLoomParams, made: LoomDesign, report: Report, duration: float
+) -> None:
+    """Raise ParameterError, naming every wish, for a loom above the price that is wished; params: as given."""
     price = report["price"]
     if wishes.price is None or not isinstance(price, float) or price <= wishes.price:
         return
@@ -84,7 +87,17 @@ def require_price(wishes: Wishes, made: LoomDesign, report: Report, duration: fl
     deadline = (
         [] if wishes.deadline is None else [f"the deadline of {_hours(wishes.deadline)} needs {_heads(made.heads)}"]
     )
-    raise _error([costs, takes, *deadline], "give a higher price_limit, more time, fewer heads, or a narrower carpet")
+    parts = [costs, takes, *deadline, *_quickest_for(wishes.price, params)]
+    raise _error(parts, "give a higher price_limit, more time, fewer heads, or a narrower carpet")
+
+
+def _quickest_for(price: float, params: AutomatedLoomParams) -> list[str]:
+    """How quickly the carpet is woven for a price at most, estimated; nothing where no loom is so cheap."""
+    quickest = design(replace(params, aim=TIME, deadline=None, price_limit=price))
+    found = analyse(quickest)
+    if found.listed.price > price:
+        return []
+    return [f"for {format_number(price)} it is woven in about {_hours(found.time)} by {_heads(quickest.heads)}"]
 
 
 def _contradiction(wishes: Wishes, made: LoomDesign, carpet: CarpetPile) -> ParameterError:

@@ -128,11 +128,12 @@ def _tight(loom: LoomDesign) -> list[Check]:
 
 
 def _nearest(params: AutomatedLoomParams, refused: Refused) -> LoomDesign:
-    """The loom that comes nearest to a deadline or a limit of the price that no loom keeps: its check fails."""
-    aim = PRICE if params.deadline is None else TIME
-    near = _chosen(replace(params, aim=aim, deadline=None, price_limit=None), refused)
-    wishes = replace(near.params, aim=params.aim, deadline=params.deadline, price_limit=params.price_limit)
-    ready = ready_loom(wishes)
+    """The loom that comes nearest to a limit of the price or a deadline that no loom keeps, of both together: the
+    cheapest that keeps the deadline, or where none does the quickest. Its check of what it misses fails.
+    """
+    aim, missed = (TIME, "deadline") if params.price_limit is None else (PRICE, "price_limit")
+    near = _chosen(replace(params, aim=aim, **{missed: None}), refused)
+    ready = ready_loom(replace(near.params, deadline=params.deadline, price_limit=params.price_limit))
     return with_beat(ready, ready.options[0], near.journal)
 
 

@@ -39,8 +39,8 @@ from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
 from ilmek.units import format_quantity, in_mm, turn
 from ilmek.weaving.fell import Fabric
 
-MOTOR, CLUTCH = "beat-up/motor", "beat-up/clutch"
-"""Id of the motor of the crank."""
+MOTOR, CLUTCH, FLYWHEEL = "beat-up/motor", "beat-up/clutch", "beat-up/flywheel"
+"""Ids of what starts and turns the crank."""
 
 CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0)
 """Torques of clutches and brakes to choose from [N m], each twice the one before: usual sizes."""
@@ -56,6 +56,9 @@ WEB_SHARES, HUB = (0.1, 0.05, 0.02, 0.01, 0.005, 0.002), 0.2
 
 WIDEST_RIM = 0.2
 """Largest width of a flywheel's rim, across and along, before it gets longer [m]; assumed by this project."""
+
+LONGEST_WHEEL = 2 * (FLYWHEEL_RADIUS + WIDEST_RIM / 2)
+"""Length of a flywheel on the end of its shaft, at most its greatest diameter [m]; assumed by this project."""
 
 STEEL = MATERIALS["structural steel"]
 
@@ -163,7 +166,19 @@ def start_checks(start: CrankStart) -> tuple[Check, ...]:
     torque = at_most("torque of the clutch", start.clutch_torque, CLUTCHES[-1], "Nm", largest).with_cure(
         slower, *clutch
     )
-    return *made, torque
+    return *made, torque, _wheel_check(start)
+
+
+def _wheel_check(start: CrankStart) -> Check:
+    """Whether the flywheel has room beside the loom, on the end of its shaft."""
+    long = _length(_rim(start.start_flywheel)) if start.start_flywheel > 0 else 0.0
+    cure = "set start.drive=servo, a higher speed of the crank, a larger start.speed_drop, or another beat"
+    source = "greatest diameter of a flywheel; assumed by this project"
+    return at_most("length of the flywheel", long, LONGEST_WHEEL, "mm", source).with_cure(cure, FLYWHEEL)
+
+
+def _length(rim: Turned) -> float:
+    return float(rim.profile.outline.points.real.max())
 
 
 def start_parts(start: CrankStart) -> tuple[Part, ...]:
@@ -184,7 +199,7 @@ def _coupled(start: CrankStart) -> Iterator[Part]:
     if start.start_flywheel > 0:
         wheel = _wheel(start.start_flywheel)
         size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"
-        yield Part("beat-up/flywheel", "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
+        yield Part(FLYWHEEL, "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
 
 
 def _wheel(inertia: float) -> Sum:
@@ -195,7 +210,7 @@ def _wheel(inertia: float) -> Sum:
     for share in WEB_SHARES:
         rim = _rim((1 - share) * inertia)
         points = rim.profile.outline.points
-        length, inner = float(points.real.max()), float(points.imag.min())
+        length, inner = _length(rim), float(points.imag.min())
         web, hub = (math.pi * STEEL.density * radius**4 / 2 for radius in (inner, HUB * inner))
         thick = (share * inertia - hub * length) / (web - hub)
         if 0 < thick < length / 2:
