@@ -79,7 +79,7 @@ def test_the_columns_are_the_first_that_are_stiff_enough(settings: dict[str, str
     loom = designed(beat="travelling", **settings)
     frame = parts_of_loom(loom).frame
     assert all(check.ok for check in (*frame_modes(loom, frame).checks, *frame.checks))
-    assert frame_modes(loom, frame).across == sway_checks(loom, frame)[0].value
+    assert frame_modes(loom, frame).across == next(sway_checks(loom, frame)).value
     (choice,) = (one for one in frame.choices if one.name == "frame_columns")
     assert choice.failed
     supported = rail_supports(loom, frame)

@@ -14,7 +14,7 @@ Sections are the lightest square hollow ones of a table that keep the limits, th
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -164,13 +164,13 @@ class LoomFrame:
         return of_columns if self.rail is None else (*of_columns, *rail_checks(self.guide[1], self.rail))
 
 
-def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] = lambda _frame: ()) -> LoomFrame:
+def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], Iterable[Check]] = lambda _frame: ()) -> LoomFrame:
     """The frame of the lightest sections that keep their checks; of the largest where none of the table does.
 
     A side has one column if any has room that keeps its checks, else the least number of them. Where none is as stiff
     as required, the columns are those that strength, bow and buckling need, and the frame fails the checks of its sway.
 
-    sway  frame -> checks of its stiffness as a whole
+    sway  frame -> checks of its stiffness as a whole, of which those after one that fails are not computed
     """
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
@@ -186,9 +186,11 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], tuple[Check, ...]] 
     def strength(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
         return column_checks(task, column[1], column[0])
 
-    def stiffness(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
+    def stiffness(column: tuple[int, HollowSquare]) -> Iterator[Check]:
         own = strength(column)
-        return (*own, *sway(framed(column))) if all(check.ok for check in own) else own
+        yield from own
+        if all(check.ok for check in own):
+            yield from sway(framed(column))
 
     column, of_column = _chosen("columns", columns, stiffness, strength)
     return framed(column, of_column, *of_rail)
@@ -204,7 +206,7 @@ def rail_for(task: RailTask) -> tuple[HollowSquare, tuple[Choice, ...]]:
 def _chosen(
     name: str,
     offered: Sequence[tuple[int, HollowSquare]],
-    *rules: Callable[[tuple[int, HollowSquare]], tuple[Check, ...]],
+    *rules: Callable[[tuple[int, HollowSquare]], Iterable[Check]],
 ) -> tuple[tuple[int, HollowSquare], Choice]:
     """The first number and section that keep the checks of a rule, of the first rule that any keeps, or the last."""
 
@@ -212,12 +214,11 @@ def _chosen(
         return section.name if number == 1 else f"{number} x ({section.name})"
 
     for checks_of in rules:
-        tried: list[Alternative] = []
-        for one in offered:
-            tried.append(Alternative(label(*one), checks_of(one)))
-            if not tried[-1].failed:
-                index, choice = choose(f"frame_{name}", tried)
-                return offered[index], choice
+        first = next((k for k, one in enumerate(offered) if all(check.ok for check in checks_of(one))), None)
+        if first is not None:
+            last = offered[max(first - 1, 0) : first + 1]
+            choice = choose(f"frame_{name}", [Alternative(label(*one), tuple(checks_of(one))) for one in last])[1]
+            return offered[first], choice
     return offered[-1], Choice(f"frame_{name}", label(*offered[-1]), "the largest that has room")
 
 

@@ -54,7 +54,8 @@ class FrameModes:
     def checks(self) -> tuple[Check, ...]:
         """The distance of each but the rail's, which its section is chosen for [`frame`], from the drives."""
         return (
-            *_sway_checks(self.drives, self.across, self.along),
+            _across_check(self.across, self.drives),
+            _along_check(self.along, self.drives),
             _frequency_check("frame: beam of the beat bends", self.beam, self.drives, "beat-post"),
         )
 
@@ -71,16 +72,19 @@ def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
     )
 
 
-def sway_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
+def sway_checks(loom: LoomDesign, frame: LoomFrame) -> Iterator[Check]:
     """Whether both natural frequencies of the frame as a whole keep their distance from those of the drives."""
-    return _sway_checks(drive_frequencies(loom), _across(loom, frame), _along(loom, frame))
+    drives = drive_frequencies(loom)
+    yield _across_check(_across(loom, frame), drives)
+    yield _along_check(_along(loom, frame), drives)
 
 
-def _sway_checks(drives: Mapping[str, float], across: float, along: float) -> tuple[Check, ...]:
-    return (
-        _frequency_check("frame: sway across the width", across, drives, "column"),
-        _frequency_check("frame: sway along the warps", along, drives, "column"),
-    )
+def _across_check(value: float, drives: Mapping[str, float]) -> Check:
+    return _frequency_check("frame: sway across the width", value, drives, "column")
+
+
+def _along_check(value: float, drives: Mapping[str, float]) -> Check:
+    return _frequency_check("frame: sway along the warps", value, drives, "column")
 
 
 def _frequency_check(title: str, value: float, drives: Mapping[str, float], part: str) -> Check:
