@@ -3,12 +3,14 @@
 import contextlib
 import itertools
 import math
+import re
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 import pytest
 
+from ilmek.cli.loom_summary import FEWER, fewer_in_words
 from ilmek.errors import LoomError, ParameterError
 from ilmek.machines import BEATS, WEFT_CARRIERS
 from ilmek.machines.automated_loom import design
@@ -167,6 +169,28 @@ def test_fewer_carpets_pay_for_the_loom_and_for_as_many_hours_as_they_take() -> 
     assert cost.of_fewer(most / 3) == pytest.approx(yearly / (most / 3) + each)
     assert cost.of_fewer(cost.even_with_hand) == pytest.approx(cost.hand_cost)
     assert replace(cost, knots=1).even_with_hand == math.inf
+
+
+def test_the_loom_for_fewer_carpets_is_the_least_of_those_that_weave_so_many() -> None:
+    """The line of the terminal, with a loan of nine years at 8 % and 5 h between two carpets, as of `RATES`."""
+    chosen = design(AutomatedLoomParams(width=0.45, length=0.6, cost=RATES))
+    found, (_, *texts) = analyse(chosen), re.split(r"estimated, |; ", fewer_in_words(chosen))
+    rows = costs_by_beats(chosen, found.listed, found.energy.total)
+    own = f"beat={chosen.params.beat}, heads={chosen.heads}"
+    assert len(texts) == len(FEWER)
+    for share, text in zip(FEWER, texts, strict=True):
+        wanted = round(share * 4000 * 0.85 / (found.time / 3600 + 5))
+        each = {"by hand": found.knots / 8000 * 8 * 14 + 12 * 0.27}
+        for beat, number, cost in ((beat, n, cost) for beat, row in rows.items() for n, cost in enumerate(row, 1)):
+            hours = cost.time / 3600 + 5
+            if wanted * hours <= 4000 * 0.85:
+                made = cost.machine
+                sold = 1.2 * (made.parts + 35 * (made.screws * 1.5 / 60 + made.axes * 6 + 80))
+                yearly = sold * (0.08 / (1 - 1.08**-9) + 0.03) + 40 * cost.floor
+                running = 14 * 0.5 * hours / 0.85 + 0.15 * cost.energy / 3.6e6 + 12 * 0.27
+                each[f"beat={beat}, heads={number}"] = yearly / wanted + running
+        best = min(each, key=each.__getitem__)
+        assert text == f"for {wanted:,} a year {best}: {each[best]:,.0f}, with this loom {each[own]:,.0f}"
 
 
 def test_a_rate_moves_as_far_as_two_looms_cost_the_same() -> None:

@@ -115,6 +115,7 @@ PARTS = (
     ),
     Part("sheets", "photographed sheets of squared paper", _numbered("sheet_readings", ()), whole=True),
     Part("weights", "masses of 200 looms and machines, measured on meshes", _numbered("made_parts", ()), whole=True),
+    Part("looms", "every loom of a table of choices: the least was chosen", _numbered("every_loom", ()), whole=True),
     Part(
         "faults",
         "faults planted in a loom, found by its own measure and by a judge of its file",

@@ -62,7 +62,7 @@ def motors(parts: tuple[BillLine, ...]) -> int:
     return sum(part.number for part in parts if part.drives)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=16)
 def parts_of_loom(loom: LoomDesign) -> PartsList:
     """The parts list; the feet are so long that the loom does not tip. Raises ParameterError for unreadable prices."""
     prices = read_prices(loom.params.prices)
