@@ -6,11 +6,16 @@
     cost      that of this time on a loom of this price, with the standby power of its axes  [`cost`]
 
 All other machines are designed for each carrier and beat: heads and their knots do not change them. The head is that
-of the slowest knot, and frame and equipment are those of the simplest loom, with the fewest heads, less `OTHER_SLACK`.
-Nearer bounds have the head of the time of the knot, the frame of the carrier and the beat with the fewest heads, and
-the equipment of designed looms with the carrier and with no more heads. So they hold where neither is cheaper for more
-heads or a quicker knot; `SLACK` is left for sizes, which are steps of tables. A head by arms has the parts of the arms,
-and `ARMS_REST` of one on cams, until it is designed. A test holds the bounds against all looms of a table.
+of the slowest knot, the frame that of the loom with the fewest heads, the equipment that of the first loom that was
+designed, both less `OTHER_SLACK`. Nearer bounds have the head of the time of the knot, the frame of the carrier and the
+beat with the fewest heads, and the equipment of designed looms with the carrier, less a share for each head that they
+have more; the nearest the frame of the loom itself. A head by arms has the parts of the arms, and `ARMS_REST` of one on
+cams, until it is designed.
+
+The time is exact. That frame and equipment are no cheaper with more heads or quicker knots is no proof, as sizes are
+steps of tables: `SLACK` is left for it. Of 992 looms of the usual carpet designed one by one (`every_loom` of `make
+campaigns`) the cheapest frame costs 1.6 % less than that with the fewest heads and the slowest knot, of arms, equipment
+0.02 % less, of another beat 1.6 %, a head 0.5 % less than the slowest; no bound was above what its loom has.
 """
 
 import contextlib
@@ -19,6 +24,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -305,8 +311,9 @@ class Bounds:
             return time
         if self.params.aim == PRICE:
             return np.full(time.shape, cost.parts)
-        energy = self.params.standby_power * cost.axes * time
-        least = replace(self.simplest.cost, time=time, energy=energy, floor=floor, machine=cost)
+        each: Any = time  # the cost is a formula: of all times at once
+        energy = self.params.standby_power * cost.axes * each
+        least = replace(self.simplest.cost, time=each, energy=energy, floor=floor, machine=cost)
         return np.asarray((1 - ROUNDING) * least.cost_per_carpet)
 
 

@@ -3,7 +3,8 @@
 Of a rate alone the cost of a carpet on a loom is a + b f(rate), with the same f, which ascends or descends, for all
 looms: annuity of life or interest, 1 / hours, the rate itself. So two looms cost the same at one value at most, and
 whatever is cheaper at a bound of a rate decides how far the rate can move towards it: the nearest value is found by
-halving. The looms are those that the search designed; parts, time and floor are theirs.
+halving. The looms are those that the search designed, and the chosen one with a head less and a head more; parts,
+time and floor are theirs.
 """
 
 from collections.abc import Sequence

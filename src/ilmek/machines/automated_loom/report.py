@@ -1,6 +1,6 @@
 """What is reported of an automated loom beside its machines: time, beat, parts, energy, checks of the whole."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -13,7 +13,7 @@ from ilmek.machines.automated_loom.choice import deadline_check, row_check, weav
 from ilmek.machines.automated_loom.cloth_clearances import HORIZON, cloth_checks, cloth_clearances, cloth_table
 from ilmek.machines.automated_loom.cost import carpet_cost, costs_by_beats
 from ilmek.machines.automated_loom.cyclogram import BEATER, CARRIAGE, HEADS, TAKE_UP, cam_tables_of, shortest_passage
-from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.design import LoomDesign, ready_loom, with_beat
 from ilmek.machines.automated_loom.energy import Energy, energy_of
 from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.station import station_of
@@ -29,7 +29,7 @@ from ilmek.machines.automated_loom.parts import PartsList, motors
 from ilmek.machines.automated_loom.price_tables import parts_table, price_table, prices_tables
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
-from ilmek.machines.automated_loom.search import LoomSearch
+from ilmek.machines.automated_loom.search import LoomOffer, LoomSearch
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.automated_loom.supports import supports
 from ilmek.machines.beat import BeatDrive
@@ -326,23 +326,35 @@ def _cost_table(found: LoomAnalysis) -> Table:
 def _rates_table(found: LoomAnalysis) -> tuple[Table, ...]:
     """How far each rate can move, for a loom that was chosen by its cost."""
     search = found.loom.search
-    if search is None or search.params.aim != COST or not search.others:
+    if search is None or search.params.aim != COST:
         return ()
-    rows = tuple(
-        (limits.rate.name, limits.rate.doc, *_moved(limits, search))
-        for limits in rate_limits(found.cost, [cost for _, cost in search.others])
-    )
-    title = f"Rates: how far each can move before another of {len(search.costs)} designed looms is the cheapest"
+    rivals = tuple(_rivals(found, search))
+    limits = rate_limits(found.cost, [cost for _, cost in rivals])
+    names = [search.unlike(offer) for offer, _ in rivals]
+    rows = tuple((one.rate.name, one.rate.doc, *_moved(one, names)) for one in limits)
+    title = f"Rates: how far each can move before another of {len(rivals) + 1} designed looms is the cheapest"
     return (Table("loom-rates", title, columns("rate | what it is | now | down to | then | up to | then"), rows),)
 
 
-def _moved(limits: RateLimits, search: LoomSearch) -> Iterator[str]:
+def _rivals(found: LoomAnalysis, search: LoomSearch) -> Iterator[tuple[LoomOffer, CarpetCost]]:
+    """The other looms that the search designed, and those with a head less and a head more, where these weave."""
+    yield from search.others
+    own, known = search.chosen, {offer.key for offer, _ in search.others}
+    for offer in (replace(own, heads=own.heads + more) for more in (-1, 1)):
+        if 0 < offer.heads <= found.loom.heads_max and offer.key not in known and search.params.heads is None:
+            ready = ready_loom(offer.of(search.params))
+            loom = with_beat(ready, ready.options[0])
+            if all(check.ok for check in all_checks(loom)):
+                yield offer, analyse(loom).cost
+
+
+def _moved(limits: RateLimits, names: Sequence[str]) -> Iterator[str]:
     """A rate's value, and its limits with what is chosen then."""
     unit = limits.rate.unit
     yield format_quantity(limits.now, unit)
     for limit in (limits.below, limits.above):
         yield "any" if limit is None else format_quantity(limit[0], unit)
-        yield "" if limit is None else search.unlike(search.others[limit[1]][0])
+        yield "" if limit is None else names[limit[1]]
 
 
 def _row_table(loom: LoomDesign) -> Table:

@@ -59,6 +59,7 @@ class LoomSearch:
     params  as given        offers  all that can be chosen        costs  of a carpet on each loom that was designed
     lost    offers that were refused, each with its heaviest check, the better ones first
     chosen  the offer of the loom      value  that its loom has
+    slack   share by which bounds allow frame and equipment to be cheaper with more heads, or quicker knots
     rival   the best of all others: its loom has the value, or no loom of it can have less where `rival_designed` is not
     """
 
@@ -68,6 +69,7 @@ class LoomSearch:
     lost: tuple[tuple[LoomOffer, Check], ...]
     chosen: LoomOffer
     value: float
+    slack: float
     rival: LoomOffer | None = None
     rival_value: float = field(default=float("nan"))
     rival_designed: bool = False
@@ -118,7 +120,8 @@ class LoomSearch:
         if self.lost:
             offer, check = self.lost[0]
             found |= {"refused": self.label(offer), "refused_for": f"{check.name}: {failing(check)}"}
-        return {**found, "bound": self.rival_value, "runner_up": self.label(self.rival), "why": self.why}
+        found |= {"bound": self.rival_value, "slack": self.slack}
+        return {**found, "runner_up": self.label(self.rival), "why": self.why}
 
     @property
     def why(self) -> str:

@@ -27,6 +27,7 @@ from ilmek.machines.automated_loom.frame_modes import frame_modes
 from ilmek.machines.automated_loom.knotting import ARMS, CAMS
 from ilmek.machines.automated_loom.machine_cost import MachineCost
 from ilmek.machines.automated_loom.offers import (
+    SLACK,
     Bounds,
     HeadBranch,
     bare_rest,
@@ -131,8 +132,11 @@ def _nearest(params: AutomatedLoomParams, refused: Refused) -> LoomDesign:
     """The loom that comes nearest to a limit of the price or a deadline that no loom keeps, of both together: the
     cheapest that keeps the deadline, or where none does the quickest. Its check of what it misses fails.
     """
-    aim, missed = (TIME, "deadline") if params.price_limit is None else (PRICE, "price_limit")
-    near = _chosen(replace(params, aim=aim, **{missed: None}), refused)
+    if params.price_limit is None:
+        relaxed = replace(params, aim=TIME, deadline=None)
+    else:
+        relaxed = replace(params, aim=PRICE, price_limit=None)
+    near = _chosen(relaxed, refused)
     ready = ready_loom(replace(near.params, deadline=params.deadline, price_limit=params.price_limit))
     return with_beat(ready, ready.options[0], near.journal)
 
@@ -338,7 +342,7 @@ class _Search:
         """The loom, with the record of the search in its journal."""
         lost = sorted((one for one in self.lost if one[0].value <= value), key=lambda one: one[0].value)
         costs = tuple((rest.offer, rest.cost) for rest in self.bounds.rests.values())
-        search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value)
+        search = LoomSearch(self.params, (*self.offers, *self.closed), costs, tuple(lost), offer, value, SLACK)
         if self.heap:
             least, _, _, entry = self.heap[0]
             search = replace(search, rival=entry.offer, rival_value=least, rival_designed=entry.valued)
