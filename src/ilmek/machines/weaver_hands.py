@@ -1,7 +1,8 @@
 """What a weaver's hands do on a loom: forces, speeds and times that every machine moved by hand is measured by.
 
 Forces of one arm of a seated person, occasional, for professional use after EN 1005-3, table 1: 75 N inwards and
-downwards, 50 N upwards. Times and speeds are assumed by this project.
+downwards, 50 N upwards; as they are commonly quoted, not compared with the standard, which has values of its own for
+pulling towards the trunk. Times and speeds are assumed by this project.
 """
 
 from dataclasses import dataclass

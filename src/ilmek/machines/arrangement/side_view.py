@@ -109,6 +109,10 @@ HANDS = complex(200 * mm, 120 * mm)
 """Room of weavers' hands that tie: before the warps, and over the fell [m]; assumed by this project."""
 
 
+GROUND_THICKNESS = 3.0
+"""Thickness of a carpet's ground over the diameter of its warps: wefts, assumed as thick, before and behind them
+[plain weave: Peirce, J. Text. Inst. 28 (1937) T45]."""
+
 _STEPS, _MORE = 65, 1e-4
 """Positions on the heads' retreat, and share of a distance squared that they miss between."""
 
@@ -381,14 +385,14 @@ def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart
 
 
 def rolled(radius: float, length: float, pile_height: float, warp: float) -> float:
-    """Radius of a cylinder with a carpet wound on it [m], its ground three warps' diameters thick.
+    """Radius of a cylinder with a carpet wound on it [m]; warp: its diameter [m].
 
     A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
 
     >>> round(rolled(0.0, math.pi, 0.7, 0.1), 9)
     1.0
     """
-    return math.sqrt(radius**2 + length * (pile_height + 3 * warp) / math.pi)
+    return math.sqrt(radius**2 + length * (pile_height + GROUND_THICKNESS * warp) / math.pi)
 
 
 def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:
