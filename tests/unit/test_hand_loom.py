@@ -223,8 +223,8 @@ def test_a_deadline_that_no_weaver_meets_names_the_persons_needed() -> None:
     [
         ({"shed": "hand"}, "set knotting=hand"),
         ({"beat": "hand"}, "or shed=hand"),
-        ({"knotting": "hand", "shed": "hand", "beat": "linkage"}, "set beat=comb"),
-        ({**BY_HAND, "weft": "rapier"}, "set weft=hand"),
+        ({"knotting": "hand", "shed": "hand", "beat": "linkage"}, "set beat=hand"),
+        ({**BY_HAND, "weft": "rapier"}, "set weft=auto"),
         ({"knotting": "hand", "weft": "hand"}, "or shed=hand"),
     ],
 )

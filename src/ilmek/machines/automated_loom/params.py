@@ -336,7 +336,7 @@ class AutomatedLoomParams(Params):
             given = getattr(self, name)
             if given not in kinds:
                 allowed = f"where the shed is {'opened by hand' if by_hand else 'driven'}: {' or '.join(kinds)}"
-                do = f"set {name}={kinds[-1]}, or shed={'cams' if by_hand else HAND}"
+                do = f"set {name}={kinds[0]}, or shed={'cams' if by_hand else HAND}"
                 raise LoomError(f"{name}={given} with shed={self.shed}", allowed=allowed, do=do)
 
 
