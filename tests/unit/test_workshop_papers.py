@@ -27,6 +27,7 @@ from ilmek.jobs.workshop_papers import papers_of, write_papers
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.assembly_manual import assembly_steps
 from ilmek.part.part import Part
 from ilmek.part.part_lists import SAW, bars_for
 from ilmek.part.placement import placement
@@ -235,6 +236,37 @@ def test_the_mass_centre_of_turned_and_repeated_bodies() -> None:
     assert whole.zeroth == pytest.approx(3 * block.mass)
     assert whole.centre.tolist() == pytest.approx([0.3, 0.1, 0.0])
     assert moments_at_rest(tree, frozenset(("a/stand",))).centre.tolist() == pytest.approx([0.45, 0.1, 0.0])
+
+
+def test_the_manual_has_every_body_after_what_carries_it_and_every_part() -> None:
+    tree = loom_tree(default_design("automated-loom"))
+    steps = assembly_steps(tree)
+    place = {step.body.id: step.number for step in steps}
+    assert sorted(place) == sorted(body.id for body in tree.bodies)
+    assert all(place[step.body.parent] < step.number for step in steps if step.body.parent)
+    manual = next(paper for paper in papers().pages if paper.name == "assembly-manual")
+    rows = [row for section in manual.sections if section.table for row in section.table.rows]
+    assert [row[0] for row in rows] == list(range(1, len(steps) + 1))
+    pieces, copies = dict[str, int](), {step.number: step.copies for step in steps}
+    for row in rows:
+        for named in re.findall(r"(\d+ × [^;]+)", f"{row[4]}; {row[6]}"):
+            number, title = named.split(" × ", 1)
+            title = title.split(", ")[0]
+            pieces[title] = pieces.get(title, 0) + int(number) * copies[int(row[0])]
+    expected = dict[str, int]()
+    for part in listed("parts"):
+        title = (part["designation"] if part["process"] == "fastener" else part["title"]).split(", ")[0]
+        expected[title] = expected.get(title, 0) + int(part["quantity"])
+    assert pieces == expected
+    screws = {
+        row["designation"]: float(row["tightening torque [Nm]"]) for row in listed("fasteners") if row["preload [N]"]
+    }
+    told = {
+        part.split(" × ")[1].split(", ")[0]: part for row in rows for part in str(row[6]).split("; ") if "Nm" in part
+    }
+    assert {name: float(text.split(", ")[1].removesuffix(" Nm")) for name, text in told.items()} == {
+        name: pytest.approx(torque, rel=0.01) for name, torque in screws.items()
+    }
 
 
 def test_pages_are_in_two_languages(tmp_path: Path) -> None:

@@ -246,12 +246,11 @@ PAPERS = {
     "manual.picture": "From the weaver's right: what comes in bold lines, what stands dashed",
     "manual.step": "step",
     "manual.body": "body",
-    "manual.onto": "onto",
+    "manual.onto": "carried by",
     "manual.joint": "joint",
     "manual.comes": "parts",
     "manual.mass": "mass of one",
     "manual.tighten": "screws and keys",
-    "manual.floor": "floor",
     "manual.fixed": "fixed",
     "manual.pin": "turns",
     "manual.slide": "slides",
@@ -263,4 +262,8 @@ PAPERS = {
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",
+    "manual.order": "Order",
+    "manual.order-how": "Each body comes after what carries it. Whether it reaches its place past what stands "
+    "before is not computed: prove it before the loom is ordered.",
+    "manual.stand": "frame or floor",
 }

@@ -245,12 +245,11 @@ PAPERS = {
     "manual.picture": "Dokuyucunun sağından: gelen parçalar kalın, duranlar kesik çizgili",
     "manual.step": "adım",
     "manual.body": "gövde",
-    "manual.onto": "nereye",
+    "manual.onto": "taşıyan",
     "manual.joint": "mafsal",
     "manual.comes": "parçalar",
     "manual.mass": "birinin kütlesi",
     "manual.tighten": "vida ve kamalar",
-    "manual.floor": "zemin",
     "manual.fixed": "sabit",
     "manual.pin": "döner",
     "manual.slide": "kayar",
@@ -262,4 +261,8 @@ PAPERS = {
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
+    "manual.order": "Sıra",
+    "manual.order-how": "Her gövde kendisini taşıyandan sonra gelir. Önceden duranların yanından yerine ulaşıp "
+    "ulaşmadığı hesaplanmamıştır: tezgâh sipariş edilmeden doğrulayın.",
+    "manual.stand": "gövde ya da zemin",
 }

@@ -51,7 +51,7 @@ def assembly_manual(loom: LoomDesign) -> Paper:
     tree = loom_tree(loom)
     seen = outlines(tree, View.SIDE)
     standing: set[str] = set()
-    sections = []
+    sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
     for machine, grouped in groupby(assembly_steps(tree), key=lambda step: machine_of(step.body)):
         steps = tuple(grouped)
         coming = {step.body.id for step in steps}
@@ -82,7 +82,7 @@ def _row(step: AssemblyStep) -> tuple[float | int | str, ...]:
     name = body.id.rpartition("/")[2]
     copies = f"{step.copies} × " if step.copies > 1 else ""
     parts = (f"{len(own.positions)} × {own.part.title}" for own in body.occurrences if own.part.process != FASTENER)
-    onto = body.parent.rpartition("/")[2] or Sentence("manual.floor")
+    onto = body.parent.rpartition("/")[2] or Sentence("manual.stand")
     screws = "; ".join(_screws(body))
     return (
         step.number,
