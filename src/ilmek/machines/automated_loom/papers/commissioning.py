@@ -99,20 +99,24 @@ def _warp(report: Report) -> Rows:
 
 
 def _tools(loom: LoomDesign, report: Report) -> Rows:
-    yield Sentence("setting.beat-stroke"), in_mm(value_of(report, "beat_stroke")), "beat_stroke"
-    yield Sentence("setting.row-pitch"), in_mm(value_of(report, "row_pitch_left")), "row_pitch_left"
-    yield Sentence("setting.weft-height"), in_mm(value_of(report, "weft_height")), "weft_height"
-    if not loom.heads:
-        return
-    yield Sentence("setting.retreat"), in_mm(value_of(report, "head_retreat")), "head_retreat"
-    yield Sentence("setting.pair"), in_mm(value_of(report, "weaver.pair_opened")), "weaver.pair_opened"
-    yield Sentence("setting.gripper"), in_mm(value_of(report, "weaver.gripper_clearance")), "weaver.gripper_clearance"
-    yield Sentence("setting.behind"), in_mm(value_of(report, "weaver.centre_depth")), "weaver.centre_depth"
+    """Strokes, heights and clearances, of those that this loom has."""
+    lengths = {
+        "beat_stroke": Sentence("setting.beat-stroke"),
+        "row_pitch_left": Sentence("setting.row-pitch"),
+        "weft_height": Sentence("setting.weft-height"),
+        "head_retreat": Sentence("setting.retreat"),
+        "weaver.pair_opened": Sentence("setting.pair"),
+        "weaver.gripper_clearance": Sentence("setting.gripper"),
+        "weaver.centre_depth": Sentence("setting.behind"),
+    }
+    found = ((name, title, known(report, name)) for name, title in lengths.items())
+    yield from ((title, in_mm(value), name) for name, title, value in found if value is not None)
     points = check_of(report, "weaver: opener: points between two warps")
     if points is not None:
         yield Sentence("setting.points"), f"≤ {in_mm(points.limit)}", Sentence("setting.of-check", name=points.name)
-    yield Sentence("setting.yarn"), f"≤ {format_quantity(value_of(report, 'yarn_tension'), 'N')}", "yarn_tension"
-    yield Sentence("setting.brake"), format_quantity(value_of(report, "yarn_brake"), "N"), "yarn_brake"
+    if loom.heads:
+        yield Sentence("setting.yarn"), f"≤ {format_quantity(value_of(report, 'yarn_tension'), 'N')}", "yarn_tension"
+        yield Sentence("setting.brake"), format_quantity(value_of(report, "yarn_brake"), "N"), "yarn_brake"
 
 
 def belts(loom: LoomDesign) -> Rows:
