@@ -95,7 +95,7 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
         return Arrangement(views, tables)
     if project is None:
         return None
-    views, more = joined_views(shape, scale, project)
+    views, more = joined_views(shape, scale, project, fits)
     return Arrangement(views, (*tables, *more))
 
 
