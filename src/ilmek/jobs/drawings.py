@@ -72,6 +72,7 @@ def _sheet(sheet: DrawingSheet, part: DrawnPart, work: Path) -> JsonObject:
         "drawing": sheet.number,
         "paper": sheet.paper,
         "scale": sheet.scale,
+        "page": sheet.page,
         "dimensions": len(sheet.dimensions),
         "released": not sheet.stamp,
     }

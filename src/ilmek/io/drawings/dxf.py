@@ -70,9 +70,9 @@ def sheet_document(sheet: DrawingSheet) -> Drawing:
     document.layers.add(STAMP, color=1, lineweight=50)
     style: Any = document.dimstyles.duplicate_entry("Standard", STYLE)
     style.dxf.dimlfac, style.dxf.dimtxt, style.dxf.dimtxsty, style.dxf.dimdec = sheet.scale, 2.5, FONT, 3
-    document.header["$EXTMIN"], document.header["$EXTMAX"] = (0, 0, 0), (sheet.width, sheet.height, 0)
-    document.header["$LIMMIN"], document.header["$LIMMAX"] = (0, 0), (sheet.width, sheet.height)
     space = document.modelspace()
+    space.reset_extents((0, 0, 0), (sheet.width, sheet.height, 0))
+    space.reset_limits((0, 0), (sheet.width, sheet.height))
     for line in sheet.lines:
         _line(space, line)
     for text in sheet.texts:

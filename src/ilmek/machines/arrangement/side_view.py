@@ -366,9 +366,8 @@ def below(path: "BeatPath | None") -> float:
 def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundPart, float]:
     """Spacer, lower cylinder of a radius, and the radius of this with the whole carpet wound on it [m]."""
     head, height = task.weaver, task.params.pile.pile_height
-    roll = rolled(
-        radius, task.params.woven_size[1], head.params.pile_height if head else height, task.yarns.warp.diameter
-    )
+    pile = head.params.pile_height if head else height
+    roll = rolled(radius, task.params.woven_size[1], pile, task.yarns.warp.diameter)
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
     return *under_the_fell(radius, wide, roll), roll

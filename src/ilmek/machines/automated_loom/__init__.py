@@ -21,6 +21,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import YarnPath
 from ilmek.machines.automated_loom.estimate import TimeShares, estimated_time
 from ilmek.machines.automated_loom.figures import figures
 from ilmek.machines.automated_loom.frame_modes import FrameModes
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.off_loom import OffLoom
 from ilmek.machines.automated_loom.papers import papers
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -104,7 +105,9 @@ MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(
     cyclograms=cyclograms,
     papers=papers,
     parts=lambda loom: whole_list(loom).parts,
-    plates=lambda loom: tuple(plate for tree in (own_tree(loom), *equipment_trees(loom)) for plate in plates_of(tree)),
+    plates=lambda loom: tuple(
+        plate for tree in (own_tree(loom), *equipment_trees(loom)) for plate in plates_of(tree, loom_tree(loom))
+    ),
     pieces=lambda loom: tuple(piece for tree in (own_tree(loom), *equipment_trees(loom)) for piece in pieces_of(tree)),
     children=lambda loom: loom.children,
     choices=lambda loom: (*loom.choices, *parts_of_loom(loom).frame.choices),

@@ -64,11 +64,11 @@ def radius_tables(part: DrawnPart) -> tuple[SheetPicture, ...]:
     """Radii of the profile, and of the pitch curve where it is known, at each degree."""
     assert isinstance(part.shape, Prism)
     columns = [polar_radii(part.shape.section.outline)]
-    header = ["θ °", "r profile"]
+    header = ["θ °", "profile"]
     pitch = part.paths.get(PITCH)
     if pitch is not None:
         columns.append(polar_radii(pitch))
-        header.append("r pitch")
+        header.append("pitch")
     rows = [
         (f"{degree:g}", *(f"{radius[number] * 1e3:.3f}" for radius in columns))
         for number, degree in enumerate(_DEGREES)

@@ -7,9 +7,9 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Turned
+from ilmek.part.shapes import Prism, Turned, rectangle
 from ilmek.part.tolerances import FeatureKind
-from ilmek.plane.contours import along, as_hole, circle, polygon
+from ilmek.plane.contours import along, as_hole, bounds, circle, polygon
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import LineKind
@@ -25,12 +25,14 @@ class CoaxialPart:
     """The profile of all members in one half plane, their keyed ends and bores, and where the ends' grooves lie.
 
     grooves  begin and end along the axis, and distance of the floor from it [m]
+    squares  half widths across flats of square members: at these radii the profile is not round [m]
     """
 
     profile: Profile
     ends: tuple[KeyedBore, ...]
     bores: tuple[KeyedBore, ...]
     grooves: tuple[tuple[float, float, float], ...] = ()
+    squares: tuple[float, ...] = ()
 
 
 def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
@@ -38,20 +40,35 @@ def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
     profiles: list[ComplexArray] = []
     ends: list[KeyedBore] = []
     bores: list[KeyedBore] = []
+    squares: list[float] = []
     grooves: list[tuple[float, float, float]] = []
     for shape, position in members:
         before = len(ends)
         upright = abs(abs(float(position.rotation[2, 2])) - 1) < 1e-12 and math.hypot(*position.origin[:2]) < SAME
-        half = _half(shape, ends, bores) if upright else None
+        half = (_square(shape, squares) or _half(shape, ends, bores)) if upright else None
         if half is None:
             return None
+        half = np.asarray(half)
         sign = float(np.sign(position.rotation[2, 2]))
         profiles.append(sign * half.real + float(position.origin[2]) + 1j * half.imag)
         z = profiles[-1].real
         grooves += [(float(z.min()), float(z.max()), end.reach) for end in ends[before:]]
     if len(profiles) < 2:
         return None
-    return CoaxialPart(Profile(polygon(_union(profiles))), tuple(ends), tuple(bores), tuple(grooves))
+    whole = Profile(polygon(_union(profiles)))
+    return CoaxialPart(whole, tuple(ends), tuple(bores), tuple(grooves), tuple(squares))
+
+
+def _square(shape: object, squares: list[float]) -> list[complex] | None:
+    """Corners in the half plane of a square bar about the axis, its half width noted; None: it is none."""
+    if not isinstance(shape, Prism) or shape.section.holes or len(shape.section.outline.points) != 4:
+        return None
+    low, high = bounds(shape.section.outline)
+    even = abs(low + high) < SAME and abs((high - low).real - (high - low).imag) < SAME
+    if not even or abs(shape.section.area - (high - low).real ** 2) > SAME**2:
+        return None
+    squares.append(high.real)
+    return [0j, shape.length + 0j, shape.length + 1j * high.real, 1j * high.real]
 
 
 def _half(shape: object, ends: list[KeyedBore], bores: list[KeyedBore]) -> ComplexArray | None:
@@ -115,7 +132,9 @@ def end_view(part: CoaxialPart, scale: float, fits: Fits) -> DrawnView:
     radii = distinct([float(radius) for radius in part.profile.outline.points.imag if radius > SAME])
     keyed_radii = [bore.radius for bore in (*part.ends, *part.bores)]
     for radius in radii:
-        if all(abs(radius - other) > SAME for other in keyed_radii):
+        if any(abs(radius - side) < SAME for side in part.squares):
+            view.contour(LineKind.VISIBLE, rectangle(2 * radius, 2 * radius))
+        elif all(abs(radius - other) > SAME for other in keyed_radii):
             view.contour(LineKind.VISIBLE, circle(0j, radius))
     for bore in (*part.ends, *part.bores):
         view.contour(LineKind.VISIBLE, keyed_contour(bore))

@@ -107,6 +107,19 @@ def keyed(contour: Contour) -> KeyedBore | None:
     return KeyedBore(centre, radius, width, float(abs(middles[floors[0]])), angles)
 
 
+def square_of(contour: Contour) -> tuple[complex, complex] | None:
+    """Centre of a square, and one of its sides as a vector [m]; None: it is another contour.
+
+    >>> square_of(Contour(np.array([0j, 2 + 0j, 2 + 2j, 2j]), np.zeros(4)))
+    ((1+1j), (2+0j))
+    """
+    sides = following(contour.points) - contour.points
+    if len(sides) != 4 or contour.bulges.any() or np.abs(sides[1:] / sides[:-1] - sides[1] / sides[0]).max() > 1e-6:
+        return None
+    quarter = abs(abs((sides[1] / sides[0]).imag) - 1) < 1e-6
+    return (complex(contour.points.mean()), complex(sides[0])) if quarter else None
+
+
 @record
 class HoleGroup:
     """Round holes of one size [m]; on a pitch circle about `centre` where `pitch` is above 0, evenly spread."""

@@ -24,6 +24,7 @@ from ilmek.viz.drawings.features import (
     hole_groups,
     keyed,
     split_holes,
+    square_of,
 )
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.paper import table
@@ -81,6 +82,7 @@ def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -
     centres = [*(hole.at for hole in holes), *(bore.centre for bore in bores), *([ring.at] if ring else [])]
     shaft = keyed(outline)
     centres += [shaft.centre] if shaft else []
+    centres += [square[0] for square in map(square_of, others) if square is not None]
     features = contour_features(outline)
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
@@ -168,10 +170,13 @@ def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
 
 
 def _corners_of(cut: Contour, flat: FlatPart) -> tuple[complex, ...]:
-    """Points of a cutout to dimension: of the hollow of a tube its lower left corner, which gives the wall."""
+    """Points of a cutout to dimension: a square's middle; of a tube's hollow its lower left corner: the wall."""
     (low, high), (first, last) = bounds(cut), bounds(flat.outline)
     even = abs((first + last) - (low + high)) < SAME and abs((low - first).real - (low - first).imag) < SAME
-    return (low,) if even else contour_features(cut).points
+    if even and flat.round_outline is None:
+        return (low,)
+    square = square_of(cut)
+    return contour_features(cut).points if square is None else (square[0],)
 
 
 def _linear(view: DrawnView, flat: FlatPart) -> None:
@@ -242,6 +247,19 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
         _radii(view, flat.features.arcs)
     for cut in flat.cutouts:
         _radii(view, contour_features(cut).arcs)
+        square = square_of(cut)
+        if square is not None and _corners_of(cut, flat) == (square[0],):
+            _square(view, *square, fits)
+
+
+def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
+    """Width across flats of a square bore, with its angle where it is turned; side  from corner to corner [m]."""
+    size, angle = abs(side), math.degrees(float(np.angle(side))) % 90
+    turned = f" at {angle:.4g}°" if 1e-6 < angle < 90 - 1e-6 else ""
+    corner = centre + side * (1 + 1j) / 2
+    ends = (corner * view.scale, (corner - side) * view.scale)
+    words = f"□{millimetres(size)}{fits.suffix(size, FeatureKind.SQUARE_BORE)}{turned}"
+    view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends)
 
 
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}

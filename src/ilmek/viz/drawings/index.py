@@ -102,8 +102,7 @@ def _page(  # noqa: PLR0917
         stated = _reasons(reasons)
         pictures.append(stated.moved(top - 1j * stated.box[3]))
         top -= 1j * (stated.box[3] - stated.box[1] + 4.0)
-    cells = [[fitting(cell, wide - 3, 2.5)[0] for cell, wide in zip(row.cells, _WIDTHS, strict=True)] for row in rows]
-    listed = table(HEADER, cells, widths=_WIDTHS)
+    listed = table(HEADER, [row.cells for row in rows], widths=_WIDTHS)
     pictures.append(listed.moved(top))
     whole = merged(pictures)
     stamp = "NOT RELEASED" if issue.unreleased else ""

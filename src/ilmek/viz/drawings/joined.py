@@ -12,10 +12,12 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import Prism, Sum, Turned
+from ilmek.part.tolerances import FeatureKind
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import along, as_hole, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
+from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import PARALLEL
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
@@ -36,7 +38,7 @@ Member = tuple[object, Placement]
 
 
 def joined_views(
-    shape: object, scale: float, project: Projector
+    shape: object, scale: float, project: Projector, fits: Fits
 ) -> tuple[dict[str, DrawnView], tuple[SheetPicture, ...]]:
     """The three views of a shape, a pictorial one, and the list of its members."""
     members = tuple(members_of(shape))
@@ -51,7 +53,7 @@ def joined_views(
         across, upwards, towards = np.array(right), np.cross(eye, right), np.array(eye)
         if name == "front":
             _dimension(view, members, across, upwards, towards)
-            _circles(view, members, across, upwards, towards)
+            _circles(view, members, (across, upwards, towards), fits)
         elif name == "right":
             _lengths(view, members, across, upwards)
         views[name] = view
@@ -162,8 +164,11 @@ def _lengths(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up
         view.ordinates(drawn, drawn[0], across=False)
 
 
-def _circles(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up: FloatArray, eye: FloatArray) -> None:
-    """Labels of the diameters whose axis points to the eye, each size once."""
+def _circles(
+    view: DrawnView, members: tuple[Member, ...], axes: tuple[FloatArray, FloatArray, FloatArray], fits: Fits
+) -> None:
+    """Labels of the diameters whose axis points to the eye, each size once; axes  right, up, and to the eye."""
+    right, up, eye = axes
     sizes: dict[float, list[complex]] = {}
     for shape, position in members:
         if abs(float(position.rotation[:, 2] @ eye)) < 1 - 1e-9:
@@ -182,8 +187,12 @@ def _circles(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up
         different = list(dict.fromkeys(complex(round(c.real, 7), round(c.imag, 7)) for c in centres))
         times = f"{len(different)}× " if len(different) > 1 else ""
         centre = max(different, key=lambda c: c.real + c.imag)
+        for each in different:
+            view.cross(each, radius)
+        suffixes = (fits.suffix(2 * radius, kind) for kind in (FeatureKind.BORE, FeatureKind.JOURNAL))
+        suffix = next(filter(None, suffixes), "")
         view.leader(
-            f"{times}⌀{millimetres(2 * radius)}", centre * view.scale, radius * view.scale,
+            f"{times}⌀{millimetres(2 * radius)}{suffix}", centre * view.scale, radius * view.scale,
             kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different),
         )  # fmt: skip
 

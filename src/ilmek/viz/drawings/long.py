@@ -78,11 +78,16 @@ def _stretch(cut: Shortening, start: complex, end: complex, gap: float) -> list[
 
 
 def turned_view(
-    profile: Profile, scale: float, fits: Fits, grooves: Sequence[tuple[float, float, float]] = ()
+    profile: Profile,
+    scale: float,
+    fits: Fits,
+    grooves: Sequence[tuple[float, float, float]] = (),
+    squares: Sequence[float] = (),
 ) -> DrawnView:
     """A turned part with its axis horizontal: in half section where it is bored.
 
     grooves  for keys: begin and end along the axis, distance of the floor from it [m]
+    squares  half widths of square lengths [m]: their flats are marked by diagonals
     """
     view, contour = DrawnView(scale), profile.outline
     features = contour_features(contour)
@@ -117,7 +122,7 @@ def turned_view(
     ends = cut.drawn(np.array([low.real, high.real]))
     view.line(LineKind.CENTRE, np.array([ends[0] - over + 0j, ends[1] + over + 0j]), body=False)
     _lengths(view, cut, levels, low, high, features)
-    _diameters(view, cut, features, contour, fits)
+    _diameters(view, cut, features, contour, fits, squares)
     return view
 
 
@@ -170,7 +175,14 @@ def _lengths(  # noqa: PLR0917
         view.ordinates(drawn, drawn[0], across=False)
 
 
-def _diameters(view: DrawnView, cut: Shortening, features: ContourFeatures, contour: Contour, fits: Fits) -> None:
+def _diameters(  # noqa: PLR0917
+    view: DrawnView,
+    cut: Shortening,
+    features: ContourFeatures,
+    contour: Contour,
+    fits: Fits,
+    squares: Sequence[float],
+) -> None:
     """Each diameter once, at its longest stretch."""
     points = contour.points if features.fully else along(contour, 1e-4)
     after = np.roll(points, -1)
@@ -184,10 +196,16 @@ def _diameters(view: DrawnView, cut: Shortening, features: ContourFeatures, cont
         start, end = next(s for s in stretches if abs(s[0].imag - radius) < 2 * SAME)
         inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
         count = len(distinct([s[0].real for s in stretches if abs(s[0].imag - radius) < 2 * SAME]))
-        words = f"⌀{millimetres(2 * radius)}"
-        kind = FeatureKind.BORE if inner else FeatureKind.JOURNAL
+        square = any(abs(radius - side) < SAME for side in squares)
+        words = f"{'□' if square else '⌀'}{millimetres(2 * radius)}"
+        kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
         suffix = fits.suffix(2 * radius, kind)
         first, last = cut.drawn(np.array([start.real, end.real]))
+        if square:
+            for sign in (-1, 1):
+                corner = sign * radius * 1j
+                for piece in _stretch(cut, start.real - corner, end.real + corner, 1.2 / view.scale):
+                    view.line(LineKind.DIMENSION, piece, body=False)
         if single:
             foot = float(cut.drawn(bounds(contour)[0].real))
             ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
@@ -201,7 +219,8 @@ def _diameters(view: DrawnView, cut: Shortening, features: ContourFeatures, cont
             pitch = float(np.median(np.diff(starts)))
             suffix += f", {millimetres(abs(end - start))} wide, pitch {millimetres(pitch)}"
         view.leader(
-            f"{times}{words}{suffix}", at, 0.0, kind=DimensionKind.DIAMETER, value=2 * radius, count=count,
+            f"{times}{words}{suffix}", at, 0.0,
+            kind=DimensionKind.ALIGNED if square else DimensionKind.DIAMETER, value=2 * radius, count=count,
             measured=(at.conjugate(), at),
         )  # fmt: skip
 

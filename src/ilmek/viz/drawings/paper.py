@@ -213,11 +213,12 @@ def table(
     lines = []
     for number, line in enumerate((header, *rows)):
         y = top - row * (number + 1)
-        texts += [
-            SheetText(complex(float(ends[k]) + 1.5, y + row / 2 - 1.25), line[k], 2.5, bold=number == 0)
-            for k in columns
-            if line[k]
-        ]
+        for k in columns:
+            if line[k]:
+                words, height = fitting(line[k], widths[k] - 2.9, 2.5, bold=number == 0)
+                texts.append(
+                    SheetText(complex(float(ends[k]) + 1.5, y + row / 2 - 1.25), words, height, bold=number == 0)
+                )
     bottom = top - row * (len(rows) + 1)
     for number in range(1, len(rows) + 1):
         y = top - row * number
