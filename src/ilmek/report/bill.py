@@ -1,7 +1,7 @@
 """What a machine consists of and what it works: lines of a parts list, and work of its acts."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 NOT_WEIGHED = math.nan
@@ -52,8 +52,8 @@ class BillLine:
     power: float = 0.0
     drives: int = 0
     part: str = ""
-    steps: tuple[ProcessStep, ...] = ()
-    joints: Joints = Joints()
+    steps: tuple[ProcessStep, ...] = field(default=(), repr=False)
+    joints: Joints = field(default=Joints(), repr=False)
 
     @property
     def mass_all(self) -> float:
