@@ -50,7 +50,7 @@ class Part:
 
     id       unique: machine and part, `tension-compensator/lever`         title   for people
     size     for people: the section or the length that it is cut to; default: the catalogue's row
-    process  how it is made or bought: the kind by which it is priced      shape   in the part's own axes
+    process  how it is made [`making`], or the kind by which it is bought      shape   in the part's own axes
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
     paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
