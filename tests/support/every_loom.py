@@ -21,7 +21,7 @@ from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.automated_loom.design import ready_loom, with_beat
 from ilmek.machines.automated_loom.knotting import KNOTTING
 from ilmek.machines.automated_loom.offers import CYCLES, value_of
-from ilmek.machines.automated_loom.params import AIMS, COST, PRICE, TIME
+from ilmek.machines.automated_loom.params import AIMS, AUTO, COST, PRICE, TIME
 from ilmek.machines.automated_loom.report import all_checks, analyse
 
 CENT = 0.01
@@ -87,7 +87,11 @@ def findings(params: AutomatedLoomParams, table: list[Tried], aim: str) -> Itera
     assert search is not None
     good = {tried.key: tried.values[aim] for tried in table if tried.weaves}
     best = min(good, key=good.__getitem__)
-    of_all = {tried.key: tried.values[aim] for tried in table}
+    of_all: dict[tuple[object, ...], float] = {tried.key: tried.values[aim] for tried in table}
+    for tried in table:  # the least of all carriers, where an offer leaves it open
+        knotting, cycle, _, *rest = tried.key
+        key = (knotting, cycle, AUTO, *rest)
+        of_all[key] = min(of_all.get(key, math.inf), tried.values[aim])
     over = [offer.value / of_all[offer.key] - 1 for offer in search.offers if offer.key in of_all]
     shown(
         f"{aim}: {len(table)} looms, {len(good)} weave; least {good[best]:.6f} by {best}; chosen {search.value:.6f} by "
