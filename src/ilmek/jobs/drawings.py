@@ -19,8 +19,6 @@ from ilmek.viz.drawings.index import index_sheets, part_rows
 from ilmek.viz.drawings.projector import Projector
 
 BOOK = "drawings.pdf"
-SUFFIX = ".sheet.dxf"
-"""End of the names of sheets; the flat pattern of a plate is another file."""
 
 
 def write_drawings(  # noqa: PLR0917
@@ -35,8 +33,8 @@ def write_drawings(  # noqa: PLR0917
 
     Parts whose sheet needs the CAD kernel are left out without it, with one note. Raises OSError, Cancelled.
     """
-    parts = [drawn_plate(plate, f"{name}.dxf", name) for name, plate in plates.items()]
-    parts += [drawn_piece(piece, name) for name, piece in pieces.items()]
+    parts = [drawn_plate(plate, report.machine, name) for name, plate in plates.items()]
+    parts += [drawn_piece(piece, report.machine, name) for name, piece in pieces.items()]
     if not parts:
         return []
     issue = Issue(unreleased=bool(report.failed))
@@ -62,7 +60,7 @@ def write_drawings(  # noqa: PLR0917
 
 
 def _sheet(sheet: DrawingSheet, part: DrawnPart, work: Path) -> JsonObject:
-    file = f"{part.name}{SUFFIX}" if sheet.page == 1 else f"{part.name}-{sheet.page}{SUFFIX}"
+    file = f"{part.name}.sheet.dxf" if sheet.page == 1 else f"{part.name}.sheet-{sheet.page}.dxf"
     write_sheet_dxf(work / file, sheet)
     return {
         "file": file,

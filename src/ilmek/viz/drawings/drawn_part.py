@@ -91,31 +91,34 @@ class DrawnPart:
         return "ISO 2768-mK" if self.stated is None else self.stated.general
 
 
-def drawn_plate(plate: Plate, file: str, name: str) -> DrawnPart:
-    """A plate, by the name of its drawing and of its flat pattern."""
-    part = plate.part if isinstance(plate.part, Part) else None
-    points = isinstance(plate.outline, Contour)
+def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
+    """A plate, by its machine and the name of its files; a plate of no tree is a machined link of its material."""
     outline = as_contour(plate.outline, 1 * um)
     cuts = [*(circle(hole.at, hole.radius) for hole in plate.holes)]
     cuts += [as_contour(cutout, 1 * um) for cutout in plate.cutouts]
     shape = Prism(Profile(outline, tuple(cuts)), plate.thickness)
     solid = plate.solid
     volume = shape.volume if solid is None else solid.volume
+    material = next((row for row in MATERIALS.values() if plate.material in {row.name, row.designation}), None)
+    part = plate.part if isinstance(plate.part, Part) else None
+    if part is None and material is not None:
+        part = Part(f"{machine}/{name}", plate.title, FLAT[1], "", shape, material)
     size = part.size if part is not None else ""
     if isinstance(solid, RoundSolid):
         size = f"⌀{format_quantity(2 * solid.outer, 'mm')}, drawn as its development"
     return DrawnPart(
-        part.id if part else name, name, plate.title, plate.material, _density(plate.material, part),
-        part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes, plate.paths, plate.marks,
-        _features(plate.features), file, not points, _stated(part),
+        part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
+        _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,
+        plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
+        _stated(part),
     )  # fmt: skip
 
 
-def drawn_piece(piece: WorkPiece, name: str) -> DrawnPart:
-    """A piece that is turned, sawn or welded, by the name of its drawing."""
+def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
+    """A piece that is turned, sawn or welded, by its machine and the name of its files."""
     part = piece.part if isinstance(piece.part, Part) else None
     return DrawnPart(
-        part.id if part else name, name, piece.title.capitalize(), piece.material, _density(piece.material, part),
+        part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
         part.notes if part else (), features=_features(piece.features), stated=_stated(part),
     )  # fmt: skip
@@ -125,10 +128,12 @@ def _features(features: tuple[object, ...]) -> tuple[ToleratedFeature, ...]:
     return tuple(feature for feature in features if isinstance(feature, ToleratedFeature))
 
 
-def _density(material: str, part: Part | None) -> float:
-    if part is not None and part.material is not None:
-        return part.material.density
-    return next((row.density for row in MATERIALS.values() if material in {row.name, row.designation}), math.nan)
+def _density(part: Part | None) -> float:
+    return math.nan if part is None or part.material is None else part.material.density
+
+
+def _designation(part: Part | None) -> str:
+    return "" if part is None or part.material is None else part.material.designation
 
 
 def _stated(part: Part | None) -> PartSpecification | None:

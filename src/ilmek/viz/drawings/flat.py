@@ -82,7 +82,8 @@ def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -
     centres = [*(hole.at for hole in holes), *(bore.centre for bore in bores), *([ring.at] if ring else [])]
     shaft = keyed(outline)
     centres += [shaft.centre] if shaft else []
-    centres += [square[0] for square in map(square_of, others) if square is not None]
+    if square_of(outline) is None:  # else it is a tube
+        centres += [square[0] for square in map(square_of, others) if square is not None]
     features = contour_features(outline)
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
@@ -258,6 +259,7 @@ def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None
     turned = f" at {angle:.4g}°" if 1e-6 < angle < 90 - 1e-6 else ""
     corner = centre + side * (1 + 1j) / 2
     ends = (corner * view.scale, (corner - side) * view.scale)
+    view.cross(centre, size / 2)
     words = f"□{millimetres(size)}{fits.suffix(size, FeatureKind.SQUARE_BORE)}{turned}"
     view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends)
 
