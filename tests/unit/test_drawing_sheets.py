@@ -26,6 +26,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, square_tube, 
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, keyed_bore, polygon, rounded_hull
 from ilmek.report import Check, Report
+from ilmek.report.sheet import Issue
 
 pdfium = pytest.importorskip("pypdfium2")
 pytest.importorskip("OCP")
@@ -248,11 +249,12 @@ def test_a_design_that_fails_is_stamped_on_every_sheet_with_its_reasons(tmp_path
     failed = replace(
         report, checks=(*report.checks, Check("stress of a thing", 2.0, 1.0, "1", False, "given", cure="thicken it"))
     )
-    write_workshop(failed, tmp_path / "out")
+    write_workshop(failed, tmp_path / "out", issue=Issue(date="2026-11-30", revision="B"))
     book = pdfium.PdfDocument(tmp_path / "out" / "drawings.pdf")
     pages = [book[number].get_textpage().get_text_range() for number in range(len(book))]
     assert all(page.count("NOT RELEASED") == 2 for page in pages[1:])
     assert "stress of a thing: thicken it" in pages[0]
+    assert all("2026-11-30" in page for page in pages)
     sheet = ezdxf.readfile(tmp_path / "out" / "crank.sheet.dxf")
     assert [text.dxf.text for text in sheet.modelspace().query("TEXT[layer=='STAMP']")] == ["NOT RELEASED"]
 

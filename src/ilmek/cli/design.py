@@ -1,6 +1,5 @@
 """`ilmek design`: design one machine from its parameters and report it."""
 
-from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from ilmek.jobs.design import (
 )
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
+from ilmek.report.sheet import Issue
 
 EXAMPLES = """\b
 Examples:
@@ -99,6 +99,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     help="Write the bodies with joints, inertia, contacts and servos for MuJoCo (MJCF).",
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
+@click.option("--issue", "issued", metavar="REVISION,DATE", help="Revision and date of issue on the drawings.")
 @force_option
 def command(  # noqa: PLR0917 - click calls it by name
     name: str,
@@ -118,6 +119,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     pose: str | None,
     model_to: Path | None,
     tolerance: str | None,
+    issued: str | None,
     force: bool,
 ) -> int:
     """Design MACHINE and report it: results, checks against limits, warnings. Ends with 3 where a check fails.
@@ -125,8 +127,10 @@ def command(  # noqa: PLR0917 - click calls it by name
     FILE.toml has the machine and settings; --set wins over the settings of the file.
     """
     _require(
-        {"--tolerance": tolerance, "--motion": motion, "--pose": pose},
-        {"--workshop DIR": parts_to, "--animation FILE": animation_to, "--step FILE": solids_to},
+        ("--tolerance", tolerance, "--workshop DIR", parts_to),
+        ("--issue", issued, "--workshop DIR", parts_to),
+        ("--motion", motion, "--animation FILE", animation_to),
+        ("--pose", pose, "--step FILE", solids_to),
     )
     given = (*settings, *more, *(() if aim is None else (f"aim={aim}",)))
     order = read_machine_order(name, {**read_rates(rates), **read_settings(given)})
@@ -140,7 +144,7 @@ def command(  # noqa: PLR0917 - click calls it by name
         made = design_machine(
             order.machine,
             order.settings,
-            WorkshopOrder(parts_to, tolerance) if parts_to else None,
+            WorkshopOrder(parts_to, tolerance, _issue(issued)) if parts_to else None,
             outputs=call.outputs,
             progress=call.progress,
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
@@ -196,8 +200,14 @@ def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, part
         note(warning)
 
 
-def _require(options: Mapping[str, str | None], files: Mapping[str, Path | None]) -> None:
-    """Raise UsageError for an option without the output, in the same order, that it belongs to."""
-    for (option, given), (needed, path) in zip(options.items(), files.items(), strict=True):
+def _issue(words: str | None) -> Issue:
+    """Revision and date of drawings, as given."""
+    revision, _, date = (words or "").partition(",")
+    return Issue(date=date.strip() or "—", revision=revision.strip() or "—")
+
+
+def _require(*options: tuple[str, str | None, str, Path | None]) -> None:
+    """Raise UsageError for an option without the output that it belongs to: option, value, that output, its path."""
+    for option, given, needed, path in options:
         if given is not None and path is None:
             raise click.UsageError(f"{option} needs {needed}")

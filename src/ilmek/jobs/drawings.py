@@ -2,6 +2,7 @@
 
 import importlib
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -11,9 +12,9 @@ from ilmek.progress import Progress
 from ilmek.records import JsonObject
 from ilmek.report import Plate, Report, WorkPiece
 from ilmek.report.left_out import made_or_left_out
-from ilmek.report.sheet import DrawingSheet
+from ilmek.report.sheet import DrawingSheet, Issue
 from ilmek.units import counted
-from ilmek.viz.drawings.compose import Issue, sheets_of
+from ilmek.viz.drawings.compose import sheets_of
 from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
 from ilmek.viz.drawings.index import index_sheets, part_rows
 from ilmek.viz.drawings.projector import Projector
@@ -27,6 +28,7 @@ def write_drawings(  # noqa: PLR0917
     pieces: Mapping[str, WorkPiece],
     work: Path,
     left_out: list[str],
+    issue: Issue,
     progress: Progress,
 ) -> list[JsonObject]:
     """Write the sheets of plates and pieces by the names of their files, and the book. Returns entries of the index.
@@ -37,7 +39,7 @@ def write_drawings(  # noqa: PLR0917
     parts += [drawn_piece(piece, report.machine, name) for name, piece in pieces.items()]
     if not parts:
         return []
-    issue = Issue(unreleased=bool(report.failed))
+    issue = replace(issue, unreleased=bool(report.failed))
     project, entries, book = _projector(), list[JsonObject](), list[DrawingSheet]()
     without = 0
     for number, part in enumerate(parts):

@@ -25,11 +25,15 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import NO_PAPERS, CamTable, Check, Json, Papers, Plate, Report, WorkPiece, at_most
 from ilmek.report.left_out import made_or_left_out
+from ilmek.report.sheet import Issue
 from ilmek.units import counted, deg, format_quantity, parse_quantity, parse_unit, si_unit, turn, um
 
 _Named = TypeVar("_Named", Plate, CamTable, WorkPiece)
 
 INDEX = "workshop.json"
+UNDATED = Issue()
+"""Drawings without owner, date and revision."""
+
 AREA_ERROR = 1e-4
 """Allowed relative difference between the area of a file and that of the design."""
 
@@ -160,6 +164,7 @@ def write_workshop(
     papers: Papers = NO_PAPERS,
     outputs: Outputs | None = None,
     force: bool = False,
+    issue: Issue = UNDATED,
     progress: Progress = SILENT,
 ) -> Workshop:
     """Write the report's plates, pieces, drawings and cam tables into a folder, with papers and an index.
@@ -167,6 +172,7 @@ def write_workshop(
     tolerance  of the cam tables; default: see `SHARE`
     outputs    of the caller, who commits them; default: committed here
     force      replace a folder that ilmek wrote; for outputs of the caller, theirs holds
+    issue      owner, date and revision on the drawings
     Raises OutputError if there is nothing to write, a plate does not enclose the area of its design, or the folder
     cannot be written; then nothing is written.
     """
@@ -185,7 +191,7 @@ def write_workshop(
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
-        files += write_drawings(report, cut, pieces, work, left_out, progress.part(0.5, 1.0, "drawings"))
+        files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
         judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
         files += write_papers(papers, judged, work)
         files += write_index(judged, papers, tuple(files), work)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 from ilmek.io.output import Outputs
 from ilmek.progress import SILENT, Progress
 from ilmek.report import NO_PAPERS, Papers, Report
+from ilmek.report.sheet import Issue
 
 if TYPE_CHECKING:
     from ilmek.jobs.workshop import Workshop
@@ -17,10 +18,12 @@ class WorkshopOrder:
     """A folder for the workshop files of a design: drawings (PDF, DXF), plates (DXF, STEP) and cam tables.
 
     tolerance  of the cam tables, like `1um` or `0.01%` of the stroke; default: see `jobs.workshop.SHARE`
+    issue      owner, date and revision on the drawings
     """
 
     folder: Path
     tolerance: str | None = None
+    issue: Issue = Issue()
 
 
 class WorkshopWriter(Protocol):
@@ -42,9 +45,9 @@ def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> WorkshopWr
     from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop
 
     tolerance = Tolerance() if order.tolerance is None else read_tolerance(order.tolerance)
-    folder = order.folder
+    folder, issue = order.folder, order.issue
 
     def write(report: Report, papers: Papers = NO_PAPERS, *, progress: Progress = SILENT) -> "Workshop":
-        return write_workshop(report, folder, tolerance, papers=papers, outputs=outputs, progress=progress)
+        return write_workshop(report, folder, tolerance, papers=papers, outputs=outputs, issue=issue, progress=progress)
 
     return write

@@ -5,6 +5,7 @@ Line kinds and widths: ISO 128-2, line group 0.5; letters: ISO 3098, their heigh
 """
 
 import math
+from dataclasses import dataclass
 from enum import StrEnum
 
 from ilmek.arrays import ComplexArray, FloatArray
@@ -124,6 +125,16 @@ class DrawingSheet:
     page: int = 1
     pages: int = 1
     stamp: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Issue:
+    """Of all sheets of a book: owner, date and revision as given, never of a clock; whether nothing is released."""
+
+    owner: str = "—"
+    date: str = "—"
+    revision: str = "—"
+    unreleased: bool = False
 
 
 ARROW = 2.5, math.radians(20.0)

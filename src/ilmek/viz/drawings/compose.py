@@ -9,7 +9,7 @@ from functools import lru_cache
 from ilmek.part.shapes import Prism, Turned
 from ilmek.plane.contours import bounds
 from ilmek.records import record
-from ilmek.report.sheet import DrawingSheet, SheetText
+from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
@@ -45,16 +45,6 @@ MOST_CROWDED = 12.0
 
 MOST_ENLARGED = 90.0
 """Greatest extent of a section that is drawn larger than it is [mm of the paper]."""
-
-
-@record
-class Issue:
-    """Of all sheets: owner, date and revision as given, and reasons why nothing is released."""
-
-    owner: str = "—"
-    date: str = "—"
-    revision: str = "—"
-    unreleased: bool = False
 
 
 @record

@@ -9,9 +9,9 @@ from itertools import pairwise
 
 from ilmek.records import record
 from ilmek.report import BillLine, Check, Report
-from ilmek.report.sheet import DrawingSheet, SheetText
+from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.units import format_quantity
-from ilmek.viz.drawings.compose import Issue, merged
+from ilmek.viz.drawings.compose import merged
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.paper import PAPERS, TitleFacts, fitting, frame, table, title_block
 from ilmek.viz.drawings.picture import SheetPicture
