@@ -20,6 +20,7 @@ from ilmek.part.shapes import Prism, Shape, Sum, Turned
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import bounds
 from ilmek.report import Table, columns
+from ilmek.sentences import Sentence
 from ilmek.units import format_number, mm
 
 CUT = ("welded frame", "steel tube", "steel bar", "carbon tube", "pin or bush", "turned part")
@@ -54,9 +55,10 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         line, bought = line_of(part, number), part.purchase
         source = ("", "make") if bought is None else (bought.row, "buy")
         drawing = part.id if bought is None else ""
-        made = position, part.id, part.title, drawing, number, source[1], line.description, line.material, part.process
+        material = part.material.designation if part.material else ""
+        made = position, part.id, part.title, drawing, number, source[1], line.description, material, part.process
         rows.append((*made, part.mass, price_of(line, prices), source[0]))
-    return Table("parts", "Parts", heads, tuple(rows))
+    return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 
 
 def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
@@ -78,7 +80,7 @@ def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         )
         for (kind, row, length), parts in sorted(ordered.items())
     )
-    return Table("purchase", "Bought parts", heads, rows)
+    return Table("purchase", Sentence("list.purchase"), heads, rows)
 
 
 def cut_list(tree: Tree) -> Table:
@@ -87,7 +89,7 @@ def cut_list(tree: Tree) -> Table:
     for part, number in tree.occurrences():
         if part.material is not None and part.process in CUT:
             section, length = section_of(part)
-            stock[section, part.material.name].append((length, number, part.id))
+            stock[section, part.material.designation].append((length, number, part.id))
     heads = columns("section | material | pieces | lengths | length of all [m] 6 | length of a bar [m] | bars")
     heads = (*heads, *columns("least number of bars | parts"))
     rows = []
@@ -100,7 +102,7 @@ def cut_list(tree: Tree) -> Table:
         rows.append(
             (section, material, len(pieces), named, math.fsum(pieces), bar, len(bars_for(pieces, bar)), least, ids)
         )
-    return Table("cut-list", "Stock to be cut", heads, tuple(rows))
+    return Table("cut-list", Sentence("list.cut"), heads, tuple(rows))
 
 
 def section_of(part: Part) -> tuple[str, float]:
@@ -170,7 +172,10 @@ def fastener_list(tree: Tree) -> Table:
     joined = joined_by(tree, frozenset(part.id for part, _ in fasteners))
     heads = columns("designation | id | quantity | joins | and | tightening torque [Nm] 3 | preload [N] 3")
     return Table(
-        "fasteners", "Fasteners", heads, tuple(_fastener(part, number, joined[part.id]) for part, number in fasteners)
+        "fasteners",
+        Sentence("list.fasteners"),
+        heads,
+        tuple(_fastener(part, number, joined[part.id]) for part, number in fasteners),
     )
 
 

@@ -13,6 +13,7 @@ PAPERS = {
     "paper.not-released": "NOT RELEASED",
     "paper.not-released-why": "Checks of this design do not hold. Make nothing of it; the index has the reasons.",
     "paper.made-by": "Made by ilmek {version}. All numbers are computed from the design, in the units beside them.",
+    "paper.language": "English",
     # Maintenance
     "maintenance.title": "Maintenance",
     "maintenance.lead": "Lives of what wears, lubrication, spare parts",
@@ -266,4 +267,9 @@ PAPERS = {
     "manual.order-how": "Each body comes after what carries it. Whether it reaches its place past what stands "
     "before is not computed: prove it before the loom is ordered.",
     "manual.stand": "frame or floor",
+    # List
+    "list.parts": "Parts",
+    "list.cut": "Stock to be cut",
+    "list.purchase": "Bought parts",
+    "list.fasteners": "Fasteners",
 }

@@ -13,6 +13,7 @@ PAPERS = {
     "paper.not-released": "ONAYLANMADI",
     "paper.not-released-why": "Bu tasarımın bazı denetimleri sağlanmıyor. Parça yapmayın; nedenler dizindedir.",
     "paper.made-by": "ilmek {version} ile yapıldı. Bütün sayılar tasarımdan hesaplanmıştır; birimleri yanlarındadır.",
+    "paper.language": "Türkçe",
     # Maintenance
     "maintenance.title": "Bakım",
     "maintenance.lead": "Aşınan parçaların ömrü, yağlama, yedek parçalar",
@@ -57,7 +58,7 @@ PAPERS = {
     # Setting
     "setting.title": "Devreye alma listesi",
     "setting.lead": "Tezgâh dokumadan önce ölçülenler ve tasarımın beklediği değerler",
-    "setting.what": "ölçülen",
+    "setting.what": "ne ölçülür",
     "setting.expected": "beklenen",
     "setting.source": "kaynak",
     "setting.assumed": "bu projenin varsayımı",
@@ -265,4 +266,9 @@ PAPERS = {
     "manual.order-how": "Her gövde kendisini taşıyandan sonra gelir. Önceden duranların yanından yerine ulaşıp "
     "ulaşmadığı hesaplanmamıştır: tezgâh sipariş edilmeden doğrulayın.",
     "manual.stand": "gövde ya da zemin",
+    # List
+    "list.parts": "Parçalar",
+    "list.cut": "Kesilecek yarı mamul",
+    "list.purchase": "Satın alınan parçalar",
+    "list.fasteners": "Bağlantı elemanları",
 }

@@ -6,7 +6,7 @@ from dataclasses import replace
 from markupsafe import Markup
 
 from ilmek.report import Check, Drawing, IndexEntry, Paper, Table
-from ilmek.sentences import DEFAULT, LANGUAGES, in_language, translated
+from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, in_language, translated
 from ilmek.viz.page import render
 from ilmek.viz.svg import svg
 
@@ -73,9 +73,14 @@ def index_page(
 
 
 def _spoken(name: str, language: str) -> dict[str, object]:
-    """What all pages of a name know of their languages."""
-    others = {other: page_file(name, other) for other in LANGUAGES if other != language}
+    """What all pages of a name know of their languages: of each other its code, its name in itself, and its file."""
+    others = [(other, _own_name(other), page_file(name, other)) for other in LANGUAGES if other != language]
     return {"language": language, "others": others}
+
+
+def _own_name(language: str) -> str:
+    with in_language(language):
+        return translated(Sentence("paper.language"))
 
 
 def _drawn(figure: Drawing) -> str:
