@@ -41,8 +41,8 @@ _TILT = 3 * deg
 def endangered(gap: float) -> str:
     """What a gap that closes to a distance [m] crushes, the smallest part of the body first; "" for none.
 
-    >>> print(endangered(0.06), "|", endangered(0.6))
-    hand |
+    >>> print(endangered(0.06), endangered(0.2), endangered(0.6) == "")
+    hand head True
     """
     limits = (
         (25, Sentence("risk.finger")),
