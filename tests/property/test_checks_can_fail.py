@@ -51,7 +51,10 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"cloth.warp_pitch": "3.2mm", "link_width": "48mm"},
         {"strength.pin_diameter": "1mm"},
         {"gear_ratio": "10000"},
-        {"gripper_mass": "2kg"},
+        {"elbow_mass": "2kg"},
+        {"grip_safety": "10"},
+        {"grasp_time": "1ms", "release_time": "1ms"},
+        {"cloth.yarns.pile_density": "20g/m"},
     ),
     "knotting-four-bar": (
         {"sides": "2", "poses": "(0,0,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)", "warp_pitch": "20mm"},

@@ -77,9 +77,9 @@ def test_a_belt_that_would_slip_fails_its_check_by_name() -> None:
 
     usual, limit, ok = pull()
     assert ok
-    # 9 N for a tooth and cm of width, 7 teeth in mesh, 6 mm wide
-    assert limit == pytest.approx(9.0 * 0.6 * 7)
-    heavy, same, holds = pull(gripper_mass="2kg")
+    # 9 N for a tooth and cm of width, 7 teeth in mesh, 4 mm wide
+    assert limit == pytest.approx(9.0 * 0.4 * 7)
+    heavy, same, holds = pull(elbow_mass="2kg")
     assert (heavy > 10 * usual, same, holds) == (True, limit, False)
 
 

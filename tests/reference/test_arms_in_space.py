@@ -26,7 +26,7 @@ from ilmek.timing.track import sample
 from ilmek.units import mm, turn
 
 DYAD = "knotting-dyad"
-SERVOS = (f"{DYAD}/first-servo", f"{DYAD}/second-servo", f"{DYAD}/centre-motor")
+SERVOS = (f"{DYAD}/first-servo", f"{DYAD}/second-servo", f"{DYAD}/centre-motor", f"{DYAD}/solenoid")
 LOOMS: tuple[dict[str, str], ...] = (
     {"knotting": "arms", "beat": "travelling"},
     {"knot": "asymmetric", "knotting": "arms", "beat": "travelling", "width": "0.6 m", "heads": "2"},
@@ -64,13 +64,13 @@ def test_they_weigh_what_the_head_carries(number: int) -> None:
 
 @every_loom
 def test_motors_drive_each_degree_of_freedom_and_none_is_in_excess(number: int) -> None:
-    """Two arms of two joints and a slide for each head; without a motor its joint is free."""
+    """Two arms of two joints, a slide and three fingers for each head; without a motor its joint is free."""
     tree = loom_tree(_loom(number))
     free = drive_balance(tree)
     assert free.number == free.axes == free.driven
     assert not free.undriven + free.excess
     heads = _loom(number).heads
-    assert [_of_the_arms(tree)[servo][1] for servo in SERVOS] == [2 * heads, 2 * heads, heads]
+    assert [_of_the_arms(tree)[servo][1] for servo in SERVOS] == [2 * heads, 2 * heads, heads, 3 * heads]
     for servo in SERVOS:
         without = tree.replaced(
             replace(body, joint=replace(body.joint, motor="" if body.joint.motor == servo else body.joint.motor))

@@ -10,10 +10,12 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
-from ilmek.machines.knotting_dyad.arms import blade_part, inertias
+from ilmek.machines.knotting_dyad.arms import inertias
 from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion
 from ilmek.machines.knotting_dyad.figures import cyclogram, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaw_parts import finger_part
+from ilmek.machines.knotting_dyad.jaws import openness
 from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, KnotCycle
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.report import Plot, Timing, results_of
@@ -179,7 +181,7 @@ def test_servos_are_strong_and_quick_enough_with_their_own_rotors() -> None:
             for side in arms
         )
         assert drive.servo_torque_max == pytest.approx(expected, rel=1e-12)
-    heavy = dataclasses.replace(params, gripper_mass=9.0, gear_ratio=None)
+    heavy = dataclasses.replace(params, elbow_mass=9.0, gear_ratio=None)
     stronger = drives_of(heavy, head, motion.cycle, motion.hole)[1][0].motor
     assert stronger is None or stronger.power > 100
 
@@ -213,19 +215,19 @@ def test_figures_cover_the_cycle() -> None:
 
 def test_parts_and_work_of_the_arms_of_a_head() -> None:
     made_ = design(KnottingDyadParams())
-    blade_part.cache_clear()  # after other heads: arms and centre gripper share one blade
     parts = {part.name: part for part in MACHINE.parts(made_)}
     assert made_.head is not None
     one, two = inertias(made_.params, made_.head, head_motion(made_.params, made_.head).hole).values()
     on_first = ("link 1 of an arm", "pin of an arm", "sleeve of a first link, with its pulley", "belt of an elbow")
-    on_second = ("link 2 of an arm", "pulley of an elbow", "blade of a needle", "gripper of an arm")
+    on_second = {"link 2 of an arm": 1, "hub of an elbow": 1, "pulley of an elbow": 1, "blade of a needle": 1}
+    on_second |= {f"{name} of a finger": 1 for name in ("pin", "spring", "solenoid")} | {"neck of a solenoid": 1}
+    on_second |= {"lug of a finger's pin": 2, "finger of an arm": 1, "rod of the finger of an arm": 1}
     assert sum(parts[name].mass for name in on_first) == pytest.approx(one.mass)
-    assert sum(parts[name].mass for name in on_second) == pytest.approx(two.mass)
-    assert parts["gripper of an arm"].mass == made_.params.gripper_mass
-    assert (
-        sum(part.number for part in parts.values() if part.drives) == 5
-    )  # two servos an arm, and the motor of the centre gripper
-    (work,) = MACHINE.work(made_)
+    assert sum(number * parts[name].mass for name, number in on_second.items()) == pytest.approx(two.mass)
+    driven = [part.number for part in parts.values() if part.drives]
+    assert sum(driven) == 8  # two servos an arm, the motor of the centre gripper, a solenoid for each finger
+    work, jaws = MACHINE.work(made_)
+    assert (jaws.name, jaws.per) == ("jaws", "knot")
     motion, energy = head_motion(made_.params, made_.head), 0.0
     for name, arm in motion.cycle.arms.items():
         power = motion.arms[name].torque * arm.speed
@@ -241,3 +243,25 @@ def test_the_machine_itself_reports_its_cycle() -> None:
     assert 0.1 < said["results"]["cycle_time"] < 1.0
     assert said["results"]["torque_max"] > 0
     assert all(check["ok"] for check in said["checks"])
+
+
+def test_jaws_hold_the_yarn_open_within_their_time_and_stay_in_the_needles_strip() -> None:
+    """Judged by the finger's lever, and by the corners of its mesh: across the gap nothing is wider than the needle."""
+    params, head, motion = made()
+    jaws = motion.jaws
+    pressed = jaws.preload + jaws.rate * jaws.strokes["left"] * params.pressed / jaws.opening
+    pull = pressed * jaws.arm / jaws.tip * 2 * params.cloth.yarns.friction
+    assert pull >= params.grip_safety * params.yarn_pull * (1 - 1e-9)
+    assert jaws.opening > params.yarn
+    assert jaws.opens_in < params.release_time
+    assert jaws.closes_in < params.grasp_time
+    shape = finger_part(params, head, jaws, False).shape
+    assert shape is not None
+    points = shape.mesh(1e-6).points
+    beyond = points[points[:, 0] > jaws.tip - head.section.needle_length + 0.2e-3]
+    assert np.ptp(beyond[:, 1]) <= params.needle_diameter * (1 + 1e-9)
+    assert np.abs(points[:, 1]).max() < params.link_width / 2
+    for part in motion.cycle.parts:
+        for gripper in part.grippers:
+            open_ = openness(motion.cycle, gripper, np.array([part.start, part.end]))
+            assert open_.tolist() == ([1.0, 0.0] if part.name == "grasp" else [0.0, 1.0])

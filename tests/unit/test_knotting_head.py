@@ -215,6 +215,7 @@ def test_a_thin_needle_bends_into_the_warps_and_is_reported() -> None:
     assert [check.name for check in found.failed] == [
         "needle bent aside by the yarn",
         "needle against buckling under the yarn's pull",
+        "stress of a finger",
     ]
     assert "the yarn bends the needle" in found.warnings[0]
 

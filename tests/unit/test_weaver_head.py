@@ -52,7 +52,7 @@ def test_the_crowd_ends_at_the_first_warp_that_does_not_move() -> None:
 def test_grip_and_press() -> None:
     """Jaws with friction on both sides hold n ends; their force begins where they touch the loose yarn."""
     params = WeaverParams()
-    force = grip_force(params, 2, params.forces.tightening)
+    force = grip_force(params.forces.grip_safety, params.friction, 2, params.forces.tightening)
     assert 2 * params.friction * force == pytest.approx(1.5 * 2 * params.forces.tightening)
     touch = params.jaw - 2 * (params.yarn - params.pressed)
     share = pressed(params, np.array([0.0, touch, (touch + params.jaw) / 2, params.jaw]), 2)

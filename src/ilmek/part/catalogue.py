@@ -10,6 +10,7 @@ from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.motors import Motor
 from ilmek.elements.parallel_keys import KeyedEnd
+from ilmek.elements.springs import CompressionSpring
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
@@ -114,6 +115,15 @@ def screw(name: str, title: str, row: HexagonScrew, length: float) -> Part:
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
     placed = Sum((Placed(shape, (placement(z=-row.head),)),))
     return bought_part(name, title, "fastener", placed, bought)
+
+
+def spring_part(name: str, title: str, row: CompressionSpring, length: float) -> Part:
+    """A compression spring about z from z = 0, drawn at a length [m]; its mass is that of all coils."""
+    wire, coil = row.wire_diameter, row.diameter
+    made = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, row.free_length))
+    bought = Bought(made, row.mass * (row.coils + 2) / row.coils)
+    size = f"{row.wire}, wire x coil x length in mm"
+    return bought_part(name, title, "spring", tube(coil + wire, wire, length), bought, size=size)
 
 
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:

@@ -174,12 +174,20 @@ def mesh_check(tree: Tree) -> Check:
 
 
 def _too_near(whole: LoomAssembly, titles: Mapping[str, str]) -> tuple[Check, ...]:
-    """The least clearance of the parts of each two machines that move against each other, and do not touch."""
+    """The least clearance of the parts of each two machines that move against each other, and do not touch.
+
+    What a body carries in its bore has that body's wall between it and the guide of this one: it is left out there.
+    """
     machines, limit = machines_of_bodies(whole.loom), whole.loom.params.clearance
+    parents = {body.id: body.parent for body in loom_tree(whole.loom).bodies}
     least: dict[frozenset[str], NearParts] = {}
+    guided: set[tuple[str, str]] = set()
     for near in whole.nearest:
-        both = frozenset(machines[body] for body in near.approach.bodies)
-        if len(both) == 2 and near.approach.distance > _ROUNDING:
+        (first, other), bodies = near.approach.parts, near.approach.bodies
+        both = frozenset(machines[body] for body in bodies)
+        if near.approach.distance <= _ROUNDING:
+            guided |= {(first, bodies[1]), (other, bodies[0])}
+        elif len(both) == 2 and guided.isdisjoint({(first, parents[bodies[1]]), (other, parents[bodies[0]])}):
             least.setdefault(both, near)
     return tuple(
         at_least(

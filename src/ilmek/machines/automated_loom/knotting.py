@@ -39,9 +39,9 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     servo_face,
     standing_servos,
 )
-from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.drives import head_motion
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaws import gripper_half
 from ilmek.machines.knotting_dyad.motion import CyclePart
 from ilmek.machines.knotting_dyad.params import ArmRoom
 from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
@@ -126,7 +126,7 @@ def knotting_head(task: LoomTask) -> KnottingHead:
         return _on_cams(params)
     arms = _arms(task)
     weaver = _weaver(_sized(task, replace(params, arms=_in_head(task, arms))))
-    placed = replace(arms, params=task.parameters(DYAD, replace(arms.params, room=_room(weaver, arms))))
+    placed = replace(arms, params=task.parameters(DYAD, replace(arms.params, room=_room(task, weaver, arms))))
     return _by_arms(_sized(task, replace(params, arms=_in_head(task, placed))), placed)
 
 
@@ -159,7 +159,7 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
         grip=gripper_half(params) + task.params.clearance,
         aside=inside.middle - float(rest.real),
         bar_width=params.link_width,
-        bar_height=params.link_thickness,
+        bar_height=2 * motion.jaws.bar,
         servo_aside=inside.middle - first.real,
         servo_depth=first.imag,
         servo_pitch=last.imag - first.imag,
@@ -169,14 +169,17 @@ def _in_head(task: LoomTask, arms: KnottingDyad) -> ArmsInHead:
     )
 
 
-def _room(weaver: Weaver, arms: KnottingDyad) -> ArmRoom:
-    """Where a head has room for its arms' drives: under the plate over its case, behind the followers of its cams."""
+def _room(task: LoomTask, weaver: Weaver, arms: KnottingDyad) -> ArmRoom:
+    """Where a head has room for its arms' drives: under the plate over its case, behind the followers of its cams; and
+    below the opener.
+    """
     assert arms.head is not None
     shape, opener = weaver.shape, weaver.params.opener
     top, face = (shape.body + shape.size).imag - sheet(weaver), servo_face(head_motion(arms.params, arms.head))
     return ArmRoom(
         level=top - opener.front_span - opener.height / 2,
         face=shape.body.real,
+        below=opener.height / 2 + opener.plate + task.params.clearance,
         depth=shape.axis.real + 2 * HALF + face / 2,
         aside=(stack_width(weaver.params) - face) / 2 - ROOM / 2,
     )

@@ -12,6 +12,7 @@ The servos hang at the level of the plate, their shafts upright. All pulleys are
     F = M / r          pull of a belt by the torque M of its joint
 """
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
@@ -35,7 +36,7 @@ from ilmek.units import in_mm, mm, round_size, turn
 if TYPE_CHECKING:
     from ilmek.machines.knotting_dyad.drives import HeadMotion
 
-PROFILE, TEETH, BELT = BELTS["T2.5"], 15, 6 * mm
+PROFILE, TEETH, BELT = BELTS["T2.5"], 15, 4 * mm
 """Belts of the arms, teeth of their pulleys, their width [m]."""
 
 RADIUS = PROFILE.pitch * TEETH / turn
@@ -48,15 +49,19 @@ WALL, SERVO_SHAFT, PLATE, ROOM = 1.5 * mm, 5 * mm, 8 * mm, 0.5 * mm
 """Wall of a sleeve, diameter of the servos' shafts, thickness of the plate, room between what turns [m]; assumed
 by this project."""
 
+HUB = 1.7 * mm
+"""Height under the second link of its hub, in which the tail of its finger moves [m]; assumed by this project."""
+
 EDGE = 3 * mm
 """Of the plate about a sleeve [m]; assumed by this project."""
 
 STEEL, ALUMINIUM = MATERIALS["heat-treatable steel"], MATERIALS["aluminium alloy"]
 
 NAME = "knotting-dyad"
-SLEEVE, SHAFT, ELBOW_PULLEY, ARM_PLATE = (
+SLEEVE, SHAFT, ELBOW_HUB, ELBOW_PULLEY, ARM_PLATE = (
     f"{NAME}/sleeve",
     f"{NAME}/elbow-shaft",
+    f"{NAME}/elbow-hub",
     f"{NAME}/elbow-pulley",
     f"{NAME}/frame",
 )
@@ -113,7 +118,7 @@ def drive_levels(params: KnottingDyadParams, bottoms: Mapping[str, float]) -> Dr
     """The heights of the drives; bottoms: of the links by name, as `link_tree.Levels` has them [m]."""
     thick = params.link_thickness
     needle = bottoms["link 2"] + thick / 2
-    return DriveLevels(bottoms["link 1"], bottoms["link 2"] + thick + ROOM, needle - params.room.level)
+    return DriveLevels(bottoms["link 1"], bottoms["link 2"] + thick + HUB + ROOM, needle - params.room.level)
 
 
 def sleeve(levels: DriveLevels, hole: float) -> Occurrence:
@@ -132,11 +137,20 @@ def shaft(levels: DriveLevels, hole: float) -> Occurrence:
     return _made(SHAFT, "shaft of a second link, with its pulleys", Sum(tuple(members)), hole)
 
 
-def elbow_pulley(levels: DriveLevels, hole: float) -> Occurrence:
-    """The pulley of a second link, about its elbow, on a hub on the link."""
-    hub = Placed(tube(hole + 2 * WALL, WALL, ROOM), (placement(z=levels.elbow - ROOM),))
-    ring = Placed(_pulley(hole), (placement(z=levels.elbow),))
-    return _made(ELBOW_PULLEY, "pulley of an elbow", Sum((hub, ring)), 2 * RADIUS)
+def elbow_hub(levels: DriveLevels, hole: float, around: float, belted: bool) -> Iterator[Occurrence]:
+    """The hub of a second link, open to the front for its finger's tail; the pulley on what goes on behind, of a
+    diameter around [m].
+    """
+    outer, inner = hole / 2 + WALL, hole / 2
+    open_ = math.asin(inner / outer)
+    arc = outer * np.exp(1j * np.linspace(open_, turn - open_, 33))
+    bore = inner * np.exp(1j * np.linspace(3, 1, 17) * turn / 4)
+    hub = Prism(Profile(polygon(np.concatenate([arc, bore]))), HUB)
+    made = _made(ELBOW_HUB, "hub of an elbow", hub, 2 * outer)
+    yield Occurrence(made.part, (placement(z=levels.elbow - ROOM - HUB),))
+    if belted:
+        ring = _made(ELBOW_PULLEY, "pulley of an elbow", _pulley(around), 2 * RADIUS)
+        yield Occurrence(ring.part, (placement(z=levels.elbow),))
 
 
 def elbow_belt(levels: DriveLevels, length: float) -> Occurrence:

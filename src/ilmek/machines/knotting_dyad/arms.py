@@ -1,24 +1,32 @@
-"""The arms of a head as they are made: links, blades of the needles, grippers, pins; and their inertia.
+"""The arms of a head as they are made: links, needles with their jaws, pins; and their inertia.
 
-The first link is a flat bar with round ends, the second one ends square where the blade of its needle is clamped. The
-gripper at the tip, and what the elbow carries, are bought; their masses are parameters.
+The first link is a flat bar with round ends, the second one ends square where the blade of its needle is clamped. What
+the elbow carries is bought; its mass is a parameter.
 """
 
-import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.elements.materials import MATERIALS
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
-from ilmek.machines.knotting_dyad.arm_drives import NAME, drive_levels, elbow_belt, elbow_pulley, sleeve
+from ilmek.machines.knotting_dyad.arm_drives import (
+    NAME,
+    ROOM,
+    STEEL,
+    drive_levels,
+    elbow_belt,
+    elbow_hub,
+    sleeve,
+)
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaw_parts import drive_of, moving_parts, on_link
+from ilmek.machines.knotting_dyad.jaws import jaws_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.link_tree import Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
 from ilmek.part.flat_link import stepped_link
 from ilmek.part.part import Bought, Part, Seat
-from ilmek.part.placement import Placement, placement
+from ilmek.part.placement import placement
 from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Occurrence
@@ -33,9 +41,6 @@ SERVOS = (f"{NAME}/first-servo", f"{NAME}/second-servo")
 
 OF = "of an arm"
 """What links and pins belong to."""
-
-BLADE, FLAT = MATERIALS["heat-treatable steel"], 1.2
-"""Material of the blades; height of a gripper along the warps over a cube's of its mass, assumed by this project."""
 
 
 @record
@@ -63,7 +68,10 @@ def arm_mechanism(head: Head) -> Mechanism:
 
 def inertias(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, Inertia]:
     """The links with all that is fixed in them; hole: diameter of their holes [m]."""
-    return link_inertias(arm_parts(params, head, hole), arm_mechanism(head), carried(params, head, hole))
+    loads, jaws = carried(params, head, hole), jaws_of(params, head, hole)
+    bottom = levels_of(params, hole).bottoms["link 2"] + params.link_thickness / 2
+    all_of_second = (*loads["link 2"], *moved_to(bottom, moving_parts(params, head, jaws)))
+    return link_inertias(arm_parts(params, head, hole), arm_mechanism(head), {**loads, "link 2": all_of_second})
 
 
 @lru_cache(maxsize=8)
@@ -99,58 +107,38 @@ def _second_link(head: Head, size: LinkSize) -> Part:
 
 @lru_cache(maxsize=8)
 def carried(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, tuple[Occurrence, ...]]:
-    """What the links carry beside their pins: blade and gripper of the second, the load of the elbow on the first."""
-    tip = head.arm.second
+    """What the links carry beside their pins: the second one needle, hub and drive of its finger, the first the load of
+    the elbow.
+    """
     bottoms, length = levels_of(params, hole).bottoms, abs(head.arm.first)
     levels, middle = drive_levels(params, bottoms), bottoms["link 2"] + params.link_thickness / 2
-    belted = params.elbow_drive == "belt"
-    belt = (elbow_belt(levels, length),) if belted else ()
-    pulley = (elbow_pulley(levels, hole),) if belted else ()
-    blade = Occurrence(blade_part(params, head), (edgewise(params, tip - head.section.needle_length / 2, middle),))
+    belted, jaws = params.elbow_drive == "belt", jaws_of(params, head, hole)
     return {
         "link 1": (
             sleeve(levels, hole),
-            *belt,
-            *_loads("elbow-load", "load of an elbow", params.elbow_mass, length, middle),
+            *((elbow_belt(levels, length),) if belted else ()),
+            *_elbow_load(params.elbow_mass, length, middle),
         ),
-        "link 2": (blade, *pulley, *_loads("gripper", "gripper of an arm", params.gripper_mass, tip, middle, FLAT)),
+        "link 2": (
+            *elbow_hub(levels, hole, jaws.around, belted),
+            *moved_to(middle, on_link(params, head, jaws)),
+            *drive_of(jaws, placement(z=levels.elbow - ROOM)),
+        ),
     }
 
 
-@lru_cache(maxsize=8)
-def blade_part(params: KnottingDyadParams, head: Head) -> Part:
-    """The blade of a needle, cut from sheet: along x, its middle in the origin."""
-    thick, broad, length = params.needle_diameter, params.needle_breadth, head.section.needle_length
-    size = f"sheet {format_quantity(thick, 'mm')}, {format_quantity(broad, 'mm')} x {format_quantity(length, 'mm')}"
-    return Part(f"{NAME}/needle", "blade of a needle", "laser-cut part", size, box(length, broad, thick), BLADE)
+def moved_to(z: float, occurrences: Iterable[Occurrence]) -> tuple[Occurrence, ...]:
+    """Occurrences in a gripper's axes, whose needle's middle is at a height z [m]."""
+    up = placement(z=z)
+    return tuple(replace(one, positions=tuple(up.after(own) for own in one.positions)) for one in occurrences)
 
 
-def edgewise(params: KnottingDyadParams, x: float, z: float) -> Placement:
-    """A blade with its middle at x [m] on the line of its link, its breadth across the plane of motion about z [m]."""
-    return placement(x, params.needle_diameter / 2, z, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
-
-
-def gripper_half(params: KnottingDyadParams) -> float:
-    """Half the room of a gripper in any direction, however its needle is tilted [m]."""
-    return _cube(params.gripper_mass) * max(math.hypot(1.0, 1 / FLAT), FLAT) / 2
-
-
-def _cube(mass: float) -> float:
-    """Side of a cube of steel of a mass [kg]."""
-    return float((mass / BLADE.density) ** (1 / 3))
-
-
-def _loads(  # noqa: PLR0917
-    name: str, title: str, mass: float, x: float, z: float, flat: float = 1.0
-) -> Iterator[Occurrence]:
-    """A bought part of a given mass [kg] on the line of its link: room of steel as long as a cube; none without mass.
-
-    flat  its height over the cube's, and the cube's width over its own; of a flat part x [m] is its end
-    """
+def _elbow_load(mass: float, x: float, z: float) -> Iterator[Occurrence]:
+    """A bought part of a given mass [kg] on the line of its link: room of steel as a cube; none without mass."""
     if mass > 0:
-        side = _cube(mass)
-        purchase = Bought(format_quantity(mass, "g"), mass)
-        room = box(side, side / flat, flat * side)
-        part = Part(f"{NAME}/{name}", title, "tool", shape=room, purchase=purchase, envelope=True)
-        middle = x if flat == 1.0 else x - side / 2
-        yield Occurrence(part, (placement(middle, z=z - flat * side / 2),))
+        side = float((mass / STEEL.density) ** (1 / 3))
+        purchase, room = Bought(format_quantity(mass, "g"), mass), box(side, side, side)
+        part = Part(
+            f"{NAME}/elbow-load", "load of an elbow", "tool", shape=room, purchase=purchase, envelope=True
+        )
+        yield Occurrence(part, (placement(x, z=z - side / 2),))

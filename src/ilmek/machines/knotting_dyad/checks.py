@@ -12,6 +12,7 @@ from ilmek.machines.knotting_dyad.arms import SERVOS, arm_parts
 from ilmek.machines.knotting_dyad.design import KnottingDyad, longest_link
 from ilmek.machines.knotting_dyad.drives import HeadMotion
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaws import jaw_checks
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.section import GREATEST_DEPTH, WarpSection
 from ilmek.machines.knotting_dyad.strength import arm_strength_checks
@@ -139,6 +140,7 @@ def _motion_checks(params: KnottingDyadParams, head: Head, motion: HeadMotion) -
             "N",
             f"{PROFILE.name}, {TEETH // 2} teeth in mesh, margin {MARGIN:g}",
         ).with_cure("set a lower joint_acceleration", *SERVO_BELTS),
+        *jaw_checks(params, head, motion.jaws, motion.cycle),
         *arm_strength_checks(motion.strength, {**arm_parts(params, head, motion.hole).ids, "O": SLEEVE}),
     )
 

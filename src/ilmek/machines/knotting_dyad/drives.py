@@ -23,6 +23,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_dyad.arms import Arm, arm_mechanism, inertias
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaws import Jaws, jaws_of
 from ilmek.machines.knotting_dyad.motion import ArmMotion, KnotCycle, cycle_of, drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.strength import LoadedArm, arm_strength
@@ -68,7 +69,7 @@ class JointDrive:
 class HeadMotion:
     """The cycle of a head in time, torques of both arms, by name, the drive of each joint, and the links' strength.
 
-    hole  diameter of the links' holes [m]
+    hole  diameter of the links' holes [m]      jaws  of its grippers
     """
 
     cycle: KnotCycle
@@ -76,6 +77,7 @@ class HeadMotion:
     joints: tuple[JointDrive, JointDrive]
     hole: float
     strength: LinkageStrength = group()
+    jaws: Jaws = group()
 
     cycle_time = computed(
         "ms",
@@ -124,7 +126,7 @@ def head_motion(params: KnottingDyadParams, head: Head) -> HeadMotion:
     if needed < hole:
         limits = replace(params.strength, pin_diameter=hole)
         strength = arm_strength(loaded, cycle.time, limits, section, rate)
-    return HeadMotion(cycle, arms, joints, hole, strength)
+    return HeadMotion(cycle, arms, joints, hole, strength, jaws_of(params, head, hole))
 
 
 def drives_of(

@@ -10,11 +10,12 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.machines.arrangement.spans import SPARE
-from ilmek.machines.knotting_dyad.arms import gripper_half
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import head_motion
+from ilmek.machines.knotting_dyad.jaws import gripper_half
 from ilmek.machines.knotting_dyad.motion import drive_angles
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.report import Work
@@ -33,7 +34,9 @@ def params_for(task: LoomTask) -> KnottingDyadParams:
 
 
 def work(dyad: KnottingDyad) -> tuple[Work, ...]:
-    """Work of the joints' torques over the cycle of a knot, without recovery: the integral of max(M w, 0)."""
+    """Work of the joints' torques over the cycle of a knot, without recovery, the integral of max(M w, 0), and the
+    energy of the solenoids of the jaws.
+    """
     if dyad.head is None:
         return ()
     motion, turned = head_motion(dyad.params, dyad.head), drive_angles(dyad.params).T
@@ -41,4 +44,8 @@ def work(dyad: KnottingDyad) -> tuple[Work, ...]:
         np.maximum(motion.arms[name].torque * (arm.speed @ turned), 0.0).sum(axis=1)
         for name, arm in motion.cycle.arms.items()
     ]
-    return (Work("knotting", float(np.trapezoid(np.sum(power, axis=0), motion.cycle.time)), "knot"),)
+    held = sum(motion.jaws.energy(motion.cycle, gripper) for gripper in (LEFT, RIGHT, CENTRE))
+    return (
+        Work("knotting", float(np.trapezoid(np.sum(power, axis=0), motion.cycle.time)), "knot"),
+        Work("jaws", held, "knot"),
+    )

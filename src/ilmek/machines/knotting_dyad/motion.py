@@ -21,6 +21,9 @@ from ilmek.records import record
 from ilmek.timing.path_speed.solve import AxesLimits, JointPath, PathMotion, Trajectory, quickest_motion
 from ilmek.timing.s_curve import AxisLimits, SCurve, s_curve
 
+GRASP, RELEASE = "grasp", "release"
+"""Names of grips."""
+
 SAMPLES, PAUSED, INTERVALS = 161, 21, 200
 """Times of a phase and of a grip that are tabulated, and intervals of a phase's spline."""
 
@@ -150,7 +153,7 @@ def _grips(params: KnottingDyadParams, last: Phase, phase: Phase, now: float) ->
     changes = [(old, new) for old, new in zip(last.carries, phase.carries, strict=True) if old != new]
     leavers = tuple(dict.fromkeys(old for old, _ in changes if old))
     takers = tuple(dict.fromkeys(new for _, new in changes if new))
-    for name, grippers, takes in (("grasp", takers, params.grasp_time), ("release", leavers, params.release_time)):
+    for name, grippers, takes in ((GRASP, takers, params.grasp_time), (RELEASE, leavers, params.release_time)):
         if grippers and takes:
             yield CyclePart(name, now, now + takes, grippers)
             now += takes

@@ -8,7 +8,7 @@ from ilmek.machines.knotting_dyad.strength import ArmStrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.params.text_lists import read_angles, read_points
 from ilmek.synthesis.burmester.constant_distance import require_task
-from ilmek.units import deg, format_quantity, g, mm, ms
+from ilmek.units import deg, format_quantity, mm, ms
 from ilmek.weaving.cloth import Cloth
 
 
@@ -27,6 +27,9 @@ class ArmRoom(Params):
         None, "from the warps' axes to the face that carries this plate; default: behind the links", at_most=0.5
     )
     depth: float = _size(160 * mm, "from the warps' axes to the servos of the first links", at_most=1.0)
+    below: float = _size(
+        16 * mm, "from the needles' middle to the solenoids of the arms' jaws, along the warps", at_most=0.5
+    )
     aside: float = _size(23 * mm, "from the middle of the pair to the servos", at_most=0.5)
 
 
@@ -92,7 +95,7 @@ class KnottingDyadParams(Params):
     link_thickness: float = _size(3 * mm, "thickness of the links, across their plane")
     strength: ArmStrengthParams = nested(ArmStrengthParams, doc="what the links and joints of the arms bear")
     density: float = kind.density(2700.0, above=0.0, at_most=1e5, doc="density of the links; aluminium")
-    gripper_mass: float = kind.mass(2 * g, unit="g", at_least=0.0, at_most=10.0, doc="mass of an arm's gripper")
+    grip_safety: float = kind.ratio(1.5, at_least=1.0, at_most=10.0, doc="grip of the jaws over the yarn's pull")
     tail: float = kind.length(2 * mm, at_least=0.0, at_most=0.05, doc="yarn held in a gripper, each end")
     buckling_safety: float = kind.ratio(
         3.0, at_least=1.0, at_most=100.0, doc="load under which a needle buckles, over the yarn's pull, at least"

@@ -23,6 +23,7 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     ELBOW_BELT,
     NAME,
     SHAFT,
+    behind,
     both,
     drive_levels,
     servo_axis,
@@ -30,15 +31,29 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     standing_drives,
     standing_servos,
 )
-from ilmek.machines.knotting_dyad.arms import SERVOS, arm_mechanism, arm_parts, carried, edgewise, levels_of
+from ilmek.machines.knotting_dyad.arms import SERVOS, arm_mechanism, arm_parts, carried, levels_of
 from ilmek.machines.knotting_dyad.design import KnottingDyad
 from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_motion
 from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaw_parts import (
+    FOOT,
+    RISE,
+    SOLENOID,
+    bar_end,
+    centre_parts,
+    finger_at,
+    finger_part,
+    on_link,
+    rod_at,
+    rod_part,
+)
+from ilmek.machines.knotting_dyad.jaws import Jaws, openness
+from ilmek.machines.knotting_dyad.sequence import CENTRE as CENTRE_TIP
 from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
 from ilmek.machines.link_tree import TURN, Levels, LinkageParts, body_id, linkage_tree
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
@@ -57,7 +72,6 @@ CENTRE_MOTOR = f"{NAME}/centre-motor"
 
 UP = 90 * deg
 _TURNED = dict(zip(("link 1", "link 2"), SERVOS, strict=True))
-_ALONG = placement(about=(0.0, 0.0, 1.0), angle=UP)
 
 
 @lru_cache(maxsize=4)
@@ -71,7 +85,7 @@ def tree(dyad: KnottingDyad) -> Tree:
     loads = carried(params, head, motion.hole)
     bottom = needle_level(dyad)
     levels = drive_levels(params, arm.levels.bottoms)
-    centre = _centre(dyad, head, bottom, loads["link 2"][0].part)
+    centre = _centre(dyad, head, motion.jaws)
     others = {
         **loads,
         **{other(body): occurrences for body, occurrences in loads.items()},
@@ -79,14 +93,16 @@ def tree(dyad: KnottingDyad) -> Tree:
         GROUND: (
             *standing_drives(params, head, levels, motion),
             *_servos(dyad, head, motion, levels.plate),
-            *_axis(dyad, head, centre, bottom, levels.plate),
+            *_axis(dyad, head, centre, bottom + motion.jaws.bar + FOOT, levels.plate),
         ),
     }
     if params.elbow_drive == "direct":
-        servo = (_elbow_servo(motion.joints[1], loads["link 1"], abs(head.arm.first)),)
-        others |= {name: (*others[name], *servo) for name in ("link 1", other("link 1"))}
+        bare, *load = loads["link 1"]
+        servo = bare, _elbow_servo(motion.joints[1], tuple(load), abs(head.arm.first))
+        others |= dict.fromkeys(("link 1", other("link 1")), servo)
     moving = _moving(head, motion)
     linkage = _with_motors(linkage_tree(_both(arm), moving, others), params.elbow_drive == "direct")
+    linkage = _with_jaws(linkage, dyad, head, motion)
     return linkage if params.elbow_drive == "direct" else _with_shafts(linkage, shaft(levels, motion.hole), moving)
 
 
@@ -171,33 +187,60 @@ def _both(arm: LinkageParts) -> LinkageParts:
     return LinkageParts(arm.machine, Levels(bodies, sizes), plates, pins)
 
 
-def _centre(dyad: KnottingDyad, head: Head, middle: float, blade: Part) -> tuple[Occurrence, ...]:
-    """Bar and blade, one of an arm's, of the centre gripper, from its tip back onto its axis, about a height of the
-    planes [m].
-    """
-    params, section = dyad.params, head.section
-    begin = section.front + section.needle_length
-    size, length = params.strength.of_links, params.room.depth + head.centre_stroke - begin
-    text = f"{format_quantity(params.link_width, 'mm')} x {format_quantity(params.link_thickness, 'mm')}"
-    bar = Part(
-        f"{NAME}/centre-bar",
-        "bar of the centre gripper",
-        "machined link",
-        f"{text}, {format_quantity(length, 'mm')}",
-        box(length, params.link_width, params.link_thickness),
-        replace(size, density=params.density),
-    )
-    upright = placement(y=section.needle_length + length / 2, z=middle - params.link_thickness / 2)
-    along = _ALONG.after(edgewise(params, section.needle_length / 2, middle))
-    return Occurrence(bar, (upright.after(_ALONG),)), Occurrence(blade, (along,))
+def _of_centre(dyad: KnottingDyad, head: Head) -> Placement:
+    """A gripper's axes in the body of the centre gripper, whose origin is its tip."""
+    return placement(0.0, head.arm.second, needle_level(dyad), about=(0.0, 0.0, 1.0), angle=-UP)
+
+
+def _centre(dyad: KnottingDyad, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
+    """Bar, blade and jaws of the centre gripper, from its tip back onto its axis."""
+    params, at, tip = dyad.params, _of_centre(dyad, head), head.arm.second
+    nose = tip + head.section.front - behind(head)
+    rear = tip + head.section.front - params.room.depth - head.centre_stroke
+    made = (*on_link(params, head, jaws), *centre_parts(params, head, jaws, (nose, rear)))
+    return tuple(replace(one, positions=tuple(at.after(own) for own in one.positions)) for one in made)
+
+
+def _with_jaws(linkage: Tree, dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Tree:
+    """The linkage with the fingers of its grippers and the rods that open them, moved as the cycle's grips say."""
+    params, cycle = dyad.params, motion.cycle
+    jaws, level = motion.jaws, placement(z=needle_level(dyad))
+    rear = bar_end(jaws, head.arm.second + head.section.front - params.room.depth - head.centre_stroke)
+    grips = [edge for part in cycle.parts if part.grippers for edge in (part.start, part.end)]
+    time = np.unique([0.0, *grips, cycle.period])
+    bodies, closures = [], []
+    for gripper, link, frame in (
+        (LEFT, "link 2", level),
+        (RIGHT, other("link 2"), level),
+        (CENTRE_TIP, CENTRE, _of_centre(dyad, head)),
+    ):
+        centre, parent, open_ = gripper == CENTRE_TIP, body_id(NAME, link), openness(cycle, gripper, time)
+        finger, rod = (f"{NAME}/{gripper}-{name}" for name in ("finger", "rod"))
+        opened = np.stack([0 * time, 0 * time, -jaws.strokes[gripper] * open_], axis=1)
+        for name, part, own, turned, shift, joint in (
+            (
+                *(rod, rod_part(jaws, jaws.arm - rear if centre else RISE, centre), rod_at(jaws, centre)),
+                *(0 * time, opened, Joint(JointKind.SLIDE, motor=SOLENOID)),
+            ),
+            (
+                *(finger, finger_part(params, head, jaws, centre), finger_at(jaws)),
+                *(-jaws.angle * open_, 0 * opened, Joint(JointKind.PIN, (0.0, 1.0, 0.0))),
+            ),
+        ):
+            begin = placement(*shift[0], about=joint.axis, angle=float(turned[0]))
+            moved = SceneMotion(TURN, turn * time / cycle.period, shift - shift[0], turned - turned[0])
+            where = frame.after(own).after(begin)
+            bodies.append(RigidBody(name, (Occurrence(part),), parent, replace(joint, motion=moved), (where,)))
+        closures.append(Closure(JointKind.TRANSMISSION, (rod, finger)))
+    return Tree((*linkage.bodies, *bodies), (*linkage.closures, *closures))
 
 
 def _axis(
-    dyad: KnottingDyad, head: Head, centre: tuple[Occurrence, ...], middle: float, level: float
+    dyad: KnottingDyad, head: Head, centre: tuple[Occurrence, ...], under: float, level: float
 ) -> Iterator[Occurrence]:
-    """The axis of the centre gripper under its bar, its motor under that, and what holds it under a level [m]."""
+    """The axis of the centre gripper under its foot [m], its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
-    under, long = middle + params.link_thickness / 2, 2 * head.centre_stroke
+    long = 2 * head.centre_stroke
     title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
     axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
     begin = params.room.depth - stroke

@@ -41,9 +41,9 @@ class HeadForces:
     radius: float
 
 
-def grip_force(params: WeaverParams, ends: int, pull: float) -> float:
-    """Force of jaws that hold a number of ends, each pulled with a force [N]."""
-    return params.forces.grip_safety * ends * pull / (2 * params.friction)
+def grip_force(safety: float, friction: float, ends: int, pull: float) -> float:
+    """Force of jaws that hold a number of ends with a safety, each pulled with a force [N]."""
+    return safety * ends * pull / (2 * friction)
 
 
 def tool_force(head: HeadForces, name: str, angle: FloatArray) -> FloatArray:
@@ -60,7 +60,7 @@ def tool_force(head: HeadForces, name: str, angle: FloatArray) -> FloatArray:
     if name in (SIDE_GRASP, CENTRE_GRASP):
         side = name == SIDE_GRASP
         ends, pull = (1, forces.yarn_pull) if side else (2, forces.tightening)
-        return grip_force(params, ends, pull) * pressed(params, position, ends)
+        return grip_force(forces.grip_safety, params.friction, ends, pull) * pressed(params, position, ends)
     if name in (SIDE_MOTION, OPENER):
         led = 2 * forces.yarn_pull * ((position > opener.travel) & (sense > 0)) if name == SIDE_MOTION else 0.0
         return opener.force(np.maximum(position, 0.0), sense) + led

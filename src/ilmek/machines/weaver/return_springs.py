@@ -13,10 +13,10 @@ from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import SPRING
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.tool_parts import part_id
-from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.shapes import tube
+from ilmek.part import catalogue
+from ilmek.part.part import Part
 from ilmek.records import record
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 _LED = 1e-3
 """Factor of the length that counts for buckling: a spring on a rod does not buckle."""
@@ -99,12 +99,7 @@ def spring_part(weaver: Weaver, track: str) -> Part | None:
     spring = spring_of(weaver, track)
     if spring is None:
         return None
-    wire, coil = spring.wire_diameter, spring.diameter
-    row = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, spring.free_length))
-    mass = spring.mass * (spring.coils + 2) / spring.coils
-    room = tube(coil + wire, wire, shortest(weaver, track))
-    title, size = f"return spring of the {track}", f"{spring.wire}, wire x coil x length in mm"
-    return bought_part(spring_id(track), title, "spring", room, Bought(row, mass), size=size)
+    return catalogue.spring_part(spring_id(track), f"return spring of the {track}", spring, shortest(weaver, track))
 
 
 def stress_of(weaver: Weaver, track: str) -> tuple[float, float] | None:

@@ -15,6 +15,7 @@ from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
 from ilmek.machines.beat_up.travel import MOTOR as SLIDE_MOTOR
 from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
 from ilmek.machines.knotting_dyad.arms import SERVOS
+from ilmek.machines.knotting_dyad.jaw_parts import SOLENOID
 from ilmek.machines.knotting_dyad.tree import CENTRE_MOTOR
 from ilmek.machines.shedding.stack import part_id as shedding_part
 from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
@@ -40,7 +41,7 @@ WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-se
 SHEDDING_MOTOR, CYLINDER_MOTOR = shedding_part("motor"), cylinder_part("motor")
 """Ids of motors."""
 
-_KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR)
+_KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR, SOLENOID)
 _TUBE = (COLOUR_MOTOR, TIER_MOTOR, INDEX_SENSOR)
 _ROW = (SHEDDING_MOTOR, RETREAT_MOTOR, WEFT_MOTOR, BOX_MOTOR, EDGE_MOTOR)
 _BEAT = (CRANK_MOTOR, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)

@@ -1,0 +1,224 @@
+"""The jaws of the grippers as parts and bodies: blade and finger, pin and lugs, rod, spring, neck and solenoid.
+
+Axes of a gripper: x along its needle from the elbow to the tip, y across, z to the fell with 0 amid the needles; the
+centre gripper's as if it had an elbow as far from its tip as an arm's. Axes of a rod: z to its solenoid, 0 amid the
+finger's tail that lies in its groove.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.machines.knotting_dyad.arm_drives import HUB, NAME
+from ilmek.machines.knotting_dyad.head import Head
+from ilmek.machines.knotting_dyad.jaws import (
+    CHEEK,
+    COLLAR,
+    CUP,
+    EYE,
+    IN_BORE,
+    LUG,
+    PIN,
+    STEEL,
+    TAIL,
+    TINE,
+    UNDER,
+    WALL,
+    Jaws,
+)
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.part.catalogue import spring_part
+from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.placement import Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, rectangle, stepped, tube
+from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle, polygon
+from ilmek.report import Contour
+from ilmek.units import deg, format_quantity, in_mm, mm
+
+FINGER, ROD, SOLENOID = f"{NAME}/finger", f"{NAME}/rod", f"{NAME}/solenoid"
+"""Ids of parts; of the centre gripper's own with a suffix."""
+
+OF_CENTRE = "-of-the-centre"
+
+PLAY, IN_GROOVE = 0.03 * mm, 0.25 * mm
+"""Play between wedges that meet, and of a finger's tines in the groove of their rod, above and below together [m]."""
+
+HEAD = 0.25 * mm
+"""Thickness of a rod's head over the tines [m]."""
+
+FOOT, FOOT_WIDTH = 2.5 * mm, 10 * mm
+"""Thickness and width of the foot under the centre gripper's solenoid, on its axis [m]; assumed by this project."""
+
+_ASIDE = placement(about=(1.0, 0.0, 0.0), angle=90 * deg)
+"""A section in x and z of a gripper: its length goes to -y."""
+
+ALONG = placement(about=(0.0, 1.0, 0.0), angle=-90 * deg)
+"""A section in z and y of a gripper, or a rod along it: its length goes to -x, back from the tip."""
+
+
+def _blade(params: KnottingDyadParams, head: Head) -> Part:
+    """The blade of a needle, with the fixed jaw at its end: from its clamp along x."""
+    thick, broad, length = params.needle_diameter, params.needle_breadth, head.section.needle_length
+    size = f"sheet {format_quantity(thick, 'mm')}, {format_quantity(broad, 'mm')} x {format_quantity(length, 'mm')}"
+    shape = Prism(_wedge(head, 0.0, length - PLAY), broad)
+    return _made("needle", "blade of a needle", "laser-cut part", size, shape)
+
+
+def _wedge(head: Head, begin: float, end: float) -> Profile:
+    """A needle in plan from begin to end [m], which narrows to half the tilt of the hand-over on both sides."""
+    half = head.section.needle / 2
+    edge = np.array([begin, end - half / math.tan(head.section.tilt / 2)]) + 1j * half
+    return Profile(polygon(np.array([*np.conj(edge), end, *edge[::-1]])))
+
+
+@lru_cache(maxsize=8)
+def on_link(params: KnottingDyadParams, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
+    """Blade, and the lugs with the pin of the finger, in a gripper's axes: arms and centre gripper share the parts."""
+    blade = Occurrence(
+        _blade(params, head), (placement(head.arm.second - head.section.needle_length, z=-params.needle_breadth / 2),)
+    )
+    side, near = jaws.rod / 2 + IN_BORE / 4, LUG / 2
+    corners = np.array(
+        [-near - 1j * TAIL, near - 1j * TAIL, near + 1j * (PIN / 2 + WALL / 2), -near + 1j * (PIN / 2 + WALL / 2)]
+    )
+    lug = Prism(Profile(polygon(corners), (circle(0j, PIN / 2),)), CHEEK)
+    lug_part = _made("lug", "lug of a finger's pin", "machined link", in_mm(CHEEK), lug)
+    pin = _made("finger-pin", "pin of a finger", "pin or bush", in_mm(PIN), bar(PIN, 2 * (side + CHEEK)))
+    at = placement(jaws.arm, z=jaws.deep)
+    return (
+        blade,
+        Occurrence(lug_part, tuple(at.after(placement(y=y)).after(_ASIDE) for y in (side + CHEEK, -side))),
+        Occurrence(pin, (at.after(placement(y=side + CHEEK)).after(_ASIDE),)),
+    )
+
+
+@lru_cache(maxsize=8)
+def finger_part(params: KnottingDyadParams, head: Head, jaws: Jaws, centre: bool) -> Part:
+    """A finger with its pin's axis in the origin, closed: under the blade, and its fork about the rod's neck."""
+    clamp = jaws.tip - head.section.needle_length + IN_BORE / 2
+    half, near, top, low = jaws.rod / 2, min(LUG / 2, clamp), UNDER - TAIL, TINE / 2
+    jaw = params.needle_breadth / 2 - jaws.deep + PLAY
+    needle = Placed(Prism(_wedge(head, clamp, jaws.tip - IN_BORE), EYE - jaw), (placement(z=jaw),))
+    front = [-near + 1j * top, clamp + 1j * top, clamp + 1j * EYE, -near + 1j * EYE]
+    if centre:
+        outline, middle, tine = front, 0.5j * (top - jaws.crank - low), (TINE, jaws.crank + top + low)
+    else:
+        begin = min(half + 3 * IN_GROOVE - jaws.arm, -near - IN_GROOVE)
+        outline = [begin - 1j * low, -near - 1j * low, *front, -near + 1j * low, begin + 1j * low]
+        length = max(begin + jaws.arm + half / 2, IN_GROOVE)
+        middle, tine = complex(begin - length / 2), (length, TINE)
+    body = Prism(Profile(polygon(np.array(outline)), (circle(0j, PIN / 2),)), 2 * half)
+    thick = half - _groove(jaws) / 2 - 0.05 * mm
+    members = (
+        needle,
+        Placed(body, (placement(y=half).after(_ASIDE),)),
+        Placed(
+            Prism(Profile(polygon(rectangle(*tine).points + middle)), thick),
+            tuple(placement(y=y).after(_ASIDE) for y in (half, thick - half)),
+        ),
+    )
+    name, of = ("finger", "an arm") if not centre else (f"finger{OF_CENTRE}", "the centre gripper")
+    return _made(name, f"finger of {of}", "machined link", in_mm(2 * half), Sum(members))
+
+
+def _groove(jaws: Jaws) -> float:
+    """Diameter of a rod's neck [m]."""
+    return 0.4 * jaws.rod
+
+
+@lru_cache(maxsize=8)
+def rod_part(jaws: Jaws, length: float, centre: bool) -> Part:
+    """A rod about its axis while the jaws are closed; length: from the finger's tail to what bears its neck [m]."""
+    low = (TINE + IN_GROOVE) / 2
+    before = (jaws.rod, HEAD), (_groove(jaws), 2 * low), (jaws.rod, length - low + COLLAR + jaws.on_rod)
+    steps = *before, (jaws.coil, COLLAR), (jaws.rod, jaws.neck - jaws.on_rod - 2 * COLLAR - IN_BORE)
+    shape = Sum((Placed(stepped(*steps), (placement(z=-low - HEAD),)),))
+    name, of = ("rod", "an arm") if not centre else (f"rod{OF_CENTRE}", "the centre gripper")
+    return _made(name, f"rod of the finger of {of}", "turned part", in_mm(jaws.rod), shape)
+
+
+def drive_of(jaws: Jaws, on: Placement) -> Iterator[Occurrence]:
+    """Neck, spring and solenoid of a finger, from where they begin on a rod's axis."""
+    neck, solenoid, *spring = _drive_parts(jaws)
+    yield Occurrence(neck, (on,))
+    yield from (Occurrence(part, (on.after(placement(z=COLLAR)),)) for part in spring)
+    yield Occurrence(solenoid, (on.after(placement(z=jaws.neck)),))
+
+
+@lru_cache(maxsize=8)
+def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
+    """Neck, solenoid, and the spring where one fits."""
+    bore, row, spring = jaws.rod + IN_BORE, jaws.solenoid, jaws.spring
+    end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR), (placement(), placement(z=jaws.cup - COLLAR)))
+    about = Placed(tube(jaws.around, CUP, jaws.cup - 2 * COLLAR), (placement(z=COLLAR),))
+    stem = Placed(tube(bore + 2 * CUP, CUP, jaws.neck - jaws.cup), (placement(z=jaws.cup),))
+    neck = _made("neck", "neck of a solenoid", "turned part", in_mm(jaws.around), Sum((end, about, stem)))
+    bought = Bought(row.designation, row.mass, power=row.power, drives=1)
+    solenoid = bought_part(SOLENOID, "solenoid of a finger", "solenoid", bar(row.diameter, row.length), bought)
+    if spring is None:
+        return neck, solenoid
+    return neck, solenoid, spring_part(f"{NAME}/finger-spring", "spring of a finger", spring, jaws.on_rod - jaws.stroke)
+
+
+def finger_at(jaws: Jaws) -> Placement:
+    """The axes of a closed finger in its gripper's."""
+    return placement(jaws.arm, z=jaws.deep)
+
+
+def rod_at(jaws: Jaws, centre: bool) -> Placement:
+    """The axes of a rod in its gripper's."""
+    return placement(jaws.arm, z=-jaws.over).after(ALONG) if centre else placement(z=jaws.deep)
+
+
+RISE = HUB - TAIL
+"""From the tail of an arm's finger to the end of its hub, which bears the neck [m]."""
+
+
+def moving_parts(params: KnottingDyadParams, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
+    """An arm's closed finger and its rod in the gripper's axes, for the inertia of its link."""
+    return (
+        Occurrence(finger_part(params, head, jaws, False), (finger_at(jaws),)),
+        Occurrence(rod_part(jaws, RISE, False), (rod_at(jaws, False),)),
+    )
+
+
+def centre_parts(params: KnottingDyadParams, head: Head, jaws: Jaws, ends: tuple[float, float]) -> Iterator[Occurrence]:
+    """Bar, foot and solenoid of the centre gripper in its axes; ends: x of its nose's end and of the rear [m]."""
+    clamp, (nose, rear) = head.arm.second - head.section.needle_length, ends
+    width, thick, back = params.link_width, params.link_thickness, bar_end(jaws, rear)
+    slot = _rectangle(jaws.arm - LUG / 2, jaws.arm + LUG / 2, jaws.rod + IN_BORE)
+    front = Prism(Profile(_rectangle(nose, clamp, width), (slot,)), thick)
+    section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), (jaws.rod + IN_BORE) / 2),))
+    members = (
+        Placed(front, (placement(z=-thick / 2),)),
+        Placed(Prism(section, nose - back), (placement(nose).after(ALONG),)),
+    )
+    text = f"{format_quantity(width, 'mm')} x {format_quantity(2 * jaws.bar, 'mm')}"
+    foot = Prism(Profile(_rectangle(rear, back + FOOT_WIDTH, FOOT_WIDTH)), FOOT)
+    material = replace(params.strength.of_links, density=params.density)
+    for name, title, size, shape, z in (
+        ("centre-bar", "bar", text, Sum(members), 0.0),
+        ("centre-foot", "foot", in_mm(FOOT), foot, jaws.bar),
+    ):
+        part = Part(f"{NAME}/{name}", f"{title} of the centre gripper", "machined link", size, shape, material)
+        yield Occurrence(part, (placement(z=z),))
+    yield from drive_of(jaws, placement(back, z=-jaws.over).after(ALONG))
+
+
+def bar_end(jaws: Jaws, rear: float) -> float:
+    """X of the end of the centre gripper's bar, before its solenoid, from that of the rear [m]."""
+    return rear + jaws.neck + jaws.solenoid.length
+
+
+def _rectangle(begin: float, end: float, width: float) -> Contour:
+    half = 0.5j * width
+    return polygon(np.array([begin - half, end - half, end + half, begin + half]))
+
+
+def _made(name: str, title: str, process: str, size: str, shape: Shape) -> Part:
+    return Part(f"{NAME}/{name}", title, process, size, shape, STEEL)
