@@ -139,11 +139,9 @@ def command(  # noqa: PLR0917 - click calls it by name
     in_space = {"--glb": space_to, "--step": solids_to, "--mjcf": model_to}
     require_space(order.machine, in_space)
     files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to, **in_space}
-    inputs = {"FILE": order.file, "--rates": rates, **setting_files(given)}
-    with call_outputs(files, force=force, inputs=inputs) as call:
+    with call_outputs(files, force=force, inputs={"FILE": order.file, "--rates": rates, **setting_files(given)}) as call:
         made = design_machine(
-            order.machine,
-            order.settings,
+            *(order.machine, order.settings),
             WorkshopOrder(parts_to, tolerance, _issue(issued)) if parts_to else None,
             outputs=call.outputs,
             progress=call.progress,
@@ -152,10 +150,9 @@ def command(  # noqa: PLR0917 - click calls it by name
         )
         shown = () if table is None else tables_named(made.report, table)
         _give(made, call, motion, mechanism_to, pose)
-    if shown and not call.quiet:
-        for one in shown:
-            show_report_table(one)
-    else:
+    for one in () if call.quiet else shown:
+        show_report_table(one)
+    if call.quiet or not shown:
         _show(made, call, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
 

@@ -138,7 +138,5 @@ def _elbow_load(mass: float, x: float, z: float) -> Iterator[Occurrence]:
     if mass > 0:
         side = float((mass / STEEL.density) ** (1 / 3))
         purchase, room = Bought(format_quantity(mass, "g"), mass), box(side, side, side)
-        part = Part(
-            f"{NAME}/elbow-load", "load of an elbow", "tool", shape=room, purchase=purchase, envelope=True
-        )
+        part = Part(f"{NAME}/elbow-load", "load of an elbow", "tool", shape=room, purchase=purchase, envelope=True)
         yield Occurrence(part, (placement(x, z=z - side / 2),))
