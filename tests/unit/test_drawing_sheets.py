@@ -74,10 +74,8 @@ def labelled(document: Drawing, kind: int) -> list[tuple[float, int]]:
 
 
 def plate_volume(document: Drawing) -> float:
-    """A rectangle with round holes: two sides, the thickness, diameters."""
+    """A rectangle 10 thick with round holes: two sides, the thickness in the view of the edge, diameters."""
     across, upwards = lengths(document, upright=False), lengths(document, upright=True)
-    wide = (text for kind, up, _, text in dimensions(document) if kind == LINEAR)
-    assert list(wide)
     thick = 10.0
     sides = (across, upwards) if thick in upwards else (upwards, across)
     sides[1].remove(thick)
@@ -194,6 +192,13 @@ def test_no_text_lies_on_another_or_leaves_the_frame(beat_up: Path) -> None:
 def printed(value: float) -> str:
     """A length [mm] as a sheet has it."""
     return f"{value:.3f}".rstrip("0").rstrip(".")
+
+
+@pytest.mark.matrix(light=1)
+@pytest.mark.parametrize("name", ["tension-compensator", "tufting", "hand-loom", "weaver", "automated-loom"])
+def test_the_sheets_of_every_machine_are_clear(name: str, tmp_path: Path) -> None:
+    design_machine(name, {}, WorkshopOrder(tmp_path / "parts"), illustrated=False)
+    assert_clear(tmp_path / "parts" / "drawings.pdf")
 
 
 def points_of(document: Drawing, page: str) -> dict[str, bool]:

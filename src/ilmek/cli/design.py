@@ -139,7 +139,8 @@ def command(  # noqa: PLR0917 - click calls it by name
     in_space = {"--glb": space_to, "--step": solids_to, "--mjcf": model_to}
     require_space(order.machine, in_space)
     files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to, **in_space}
-    with call_outputs(files, force=force, inputs={"FILE": order.file, "--rates": rates, **setting_files(given)}) as call:
+    read = {"FILE": order.file, "--rates": rates}
+    with call_outputs(files, force=force, inputs=read | setting_files(given)) as call:
         made = design_machine(
             *(order.machine, order.settings),
             WorkshopOrder(parts_to, tolerance, _issue(issued)) if parts_to else None,
