@@ -129,8 +129,9 @@ def outline_view(
     for hole in flat.holes:
         view.contour(LineKind.VISIBLE, _circle(hole))
         view.cross(hole.at, hole.radius)
-    for bore in flat.bores:
-        view.cross(bore.centre, bore.reach)
+    shaft = keyed(flat.outline)
+    for bore in (*flat.bores, *([shaft] if shaft else [])):
+        view.cross(bore.centre, max(bore.reach, bore.radius))
     if flat.round_outline is not None:
         view.cross(flat.round_outline.at, flat.round_outline.radius)
     for line in (paths or {}).values():

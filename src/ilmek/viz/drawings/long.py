@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
-from ilmek.plane.contours import along, bounds
+from ilmek.plane.contours import along, bounds, counter_clockwise
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind
@@ -89,7 +89,7 @@ def turned_view(
     grooves  for keys: begin and end along the axis, distance of the floor from it [m]
     squares  half widths of square lengths [m]: their flats are marked by diagonals
     """
-    view, contour = DrawnView(scale), profile.outline
+    view, contour = DrawnView(scale), counter_clockwise(profile.outline)
     features = contour_features(contour)
     corners = features.corners
     low, high = bounds(contour)

@@ -103,7 +103,7 @@ def _moved(line: SheetLine, by: complex) -> SheetLine:
 def millimetres(value: float) -> str:
     """A length in mm with at most three decimals.
 
-    >>> millimetres(0.0597375), millimetres(0.02), millimetres(-1e-9)
+    >>> millimetres(0.0597378), millimetres(0.02), millimetres(-1e-9)
     ('59.738', '20', '0')
     """
     text = f"{value * 1e3:.3f}".rstrip("0").rstrip(".")
