@@ -35,17 +35,18 @@ class Fits:
     features: tuple[ToleratedFeature, ...] = ()
 
     def suffix(self, size: float, kind: FeatureKind, centre: complex | None = None) -> str:
-        """Class, deviations and datum letter behind a size [m]: ` H7 (+0.021/0) [A]`; "": it has no fit.
+        """Classes, deviations and datum letters behind a size [m]: ` H7 (+0.021/0) [A]`; "": it has no fit.
 
         centre  of a bore in the section of a plate; None: anywhere
         """
+        classes: dict[str, str] = {}
         for feature in self.features:
             at = complex(*feature.position.origin[:2])
             there = centre is None or abs(at - centre) < 2 * SAME
             if feature.kind is kind and there and abs(feature.nominal - size) < 2 * SAME:
-                datum = f" [{feature.datum}]" if feature.datum else ""
-                return f" {feature.tolerance}{limits(feature.lower, feature.upper)}{datum}"
-        return ""
+                words = f" {feature.tolerance}{limits(feature.lower, feature.upper)}"
+                classes[words] = classes.get(words, "") + (f" [{feature.datum}]" if feature.datum else "")
+        return ",".join(f"{words}{datums}" for words, datums in classes.items())
 
     def depth(self, size: float) -> str:
         """Deviations behind the depth of a keyway by its width [m]; "": it has no fit."""
