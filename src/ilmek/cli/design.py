@@ -22,6 +22,7 @@ from ilmek.jobs.design import (
 )
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
+from ilmek.report import Table
 from ilmek.report.sheet import Issue
 
 EXAMPLES = """\b
@@ -151,10 +152,7 @@ def command(  # noqa: PLR0917 - click calls it by name
         )
         shown = () if table is None else tables_named(made.report, table)
         _give(made, call, motion, mechanism_to, pose)
-    for one in () if call.quiet else shown:
-        show_report_table(one)
-    if call.quiet or not shown:
-        _show(made, call, mechanism_to, parts_to)
+    _show(made, call, shown, mechanism_to, parts_to)
     return exit_code(made.report.all_checks)
 
 
@@ -171,8 +169,18 @@ def _give(
     call.give_json(made.as_json)
 
 
-def _show(made: DesignResult, call: CallOutputs, mechanism_to: Path | None, parts_to: Path | None) -> None:
-    """The report and the files on the terminal; what was required and not written is noted."""
+def _show(
+    made: DesignResult,
+    call: CallOutputs,
+    tables: tuple[Table, ...],
+    mechanism_to: Path | None,
+    parts_to: Path | None,
+) -> None:
+    """The report and the files on the terminal, or some tables alone; what was required and not written is noted."""
+    for table in () if call.quiet else tables:
+        show_report_table(table)
+    if tables and not call.quiet:
+        return
     if not call.quiet:
         show_report(made.report)
         call.show_files(
