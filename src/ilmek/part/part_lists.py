@@ -14,9 +14,8 @@ from ilmek.elements.hexagon_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.bill import line_of
 from ilmek.part.contacts import joined_by
-from ilmek.part.extents import shape_box
 from ilmek.part.part import Part
-from ilmek.part.shapes import Prism, Shape, Sum, Turned
+from ilmek.part.shapes import Prism, Shape, Sum, Turned, shape_box
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import bounds
 from ilmek.report import Table, columns
