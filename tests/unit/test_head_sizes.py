@@ -38,7 +38,7 @@ def test_cams_tie_coarse_knots_within_all_limits(knots: float) -> None:
 
 
 def test_a_heavy_head_steps_more_slowly_so_that_its_motor_has_room_behind_the_drum() -> None:
-    wide = {"width": "2.7m", "beat": "guide-cams", "weft.room": "7m", "tension": "20N"}
+    wide = {"width": "2.7m", "beat": "guide-cams", "weft.room": "7m", "tension": "25N"}
     made = loom(18, colours="23", heads="3", **wide).weaver
     usual, drive = WeaverParams().carriage_acceleration, drive_of(made)
     assert made.params.carriage_acceleration < usual

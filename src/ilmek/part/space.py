@@ -12,7 +12,6 @@ from ilmek.arrays import Float
 from ilmek.errors import ParameterError
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
-from ilmek.part.plates import is_flat, plate_name
 from ilmek.part.shapes import CHORD
 from ilmek.part.tree import GROUND, Occurrence, RigidBody, Tree
 from ilmek.report import Check
@@ -126,7 +125,6 @@ def parts_of(
                     mass=part.mass,
                     number=numbers[part.id],
                     checks=tuple(check for check in checks if part.id in check.parts),
-                    plate=f"{machine}-{plate_name(part)}" if is_flat(part) else "",
                     envelope=part.envelope,
                     copies=len(positions),
                     ids=(part.id, body.id),

@@ -24,6 +24,7 @@ from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import warp_positions, warp_shafts
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
 from ilmek.part.tree import GROUND, Closure, JointKind, RigidBody, Tree
@@ -95,11 +96,11 @@ def scene_of(
     frames = (
         frame for branch in branches for frame in frames_of(branch.tree, branch.parent or STANDS, branch.position)
     )
-    drawn = {plate.name for plate in report.all_plates}
+    plates = {plate.part.id: plate.name for plate in report.all_plates if isinstance(plate.part, Part)}
     return Scene(
         title=report.title,
         frames=(SceneFrame(STANDS, np.zeros((1, 3))), *frames),
-        parts=(*(part if part.plate in drawn else replace(part, plate="") for part in parts), roll),
+        parts=(*(replace(part, plate=plates.get(part.ids[0], "")) for part in parts), roll),
         warps=warps,
         carpet=carpet,
         periods=periods,
