@@ -55,6 +55,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"grip_safety": "10"},
         {"grasp_time": "1ms", "release_time": "1ms"},
         {"cloth.yarns.pile_density": "20g/m"},
+        {"depth": "30mm"},
     ),
     "knotting-four-bar": (
         {"sides": "2", "poses": "(0,0,10deg) (25mm,15mm,3deg) (30mm,1mm,-25deg)", "warp_pitch": "20mm"},

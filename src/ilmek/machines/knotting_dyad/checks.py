@@ -39,20 +39,24 @@ def dyad_checks(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check,
 
 
 def dyad_self_tests(design: KnottingDyad, motion: HeadMotion | None) -> tuple[Check, ...]:
-    """Every arm closes at its points, and the torques keep the power balance."""
+    """Every arm closes at its points and meets the centre gripper, and the torques keep the power balance."""
     missed = max(design.residual(dyad) / design.size(dyad) for dyad in design.dyads)
     closes = at_most(
         "closure of every arm at the points, of its size", missed, CLOSURE, "1", "loop equation"
     ).with_cure(MOVE)
-    if motion is None:
+    if design.head is None or motion is None:
         return (closes,)
+    apart = float(abs(design.head.arm.tip(np.array([1.0]))[0] - design.head.section.handover))
+    meets = at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips").with_cure(
+        "leave the arm to the design"
+    )
     masses = "set masses and speeds within their usual sizes"
     balance = at_most("power balance of the torques", motion.power_error, BALANCE, "1", "virtual power").with_cure(
         masses
     )
     limits = "limits of joints and centre gripper: the motion is as quick as they allow"
     used = at_most("greatest use of a drive's limit", motion.cycle.usage, 1 + TOLERANCE, "1", limits)
-    return closes, balance, used, equilibrium_test(motion.strength)
+    return closes, meets, balance, used, equilibrium_test(motion.strength)
 
 
 def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
@@ -76,9 +80,8 @@ def _arm_checks(design: KnottingDyad) -> tuple[Check, ...]:
 
 
 def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
-    """The knot is tied, everything stays clear, the hand-over meets, the motors have room."""
+    """The knot is tied, everything stays clear, the motors have room."""
     section = head.section
-    apart = float(abs(head.arm.tip(np.array([1.0]))[0] - section.handover))
     pivots, tied = 2 * (section.middle - head.arm.pivot.real), 1.0 if head.knot_tied else 0.0
     return (
         at_least("the required knot is tied", tied, 1.0, "", "word of the yarn's path").with_cure(
@@ -87,9 +90,6 @@ def _knot_checks(params: KnottingDyadParams, head: Head) -> tuple[Check, ...]:
         at_least(
             "clearance over the whole cycle", head.clearance_min, section.required - ROUNDING, "mm", "clearance"
         ).with_cure(remedy(params, section)),
-        at_most("arm and centre gripper apart at the hand-over", apart, MISSED, "um", "grip of the tips").with_cure(
-            "leave the arm to the design"
-        ),
         at_least(
             "room of the motors between the pivots", pivots, params.pivot_room, "mm", "parameter pivot_room"
         ).with_cure("set a larger link_limit, or a smaller pivot_room"),

@@ -18,16 +18,17 @@ from ilmek.machines.knotting_dyad.jaws import (
     CHEEK,
     COLLAR,
     CUP,
-    EYE,
     IN_BORE,
     LUG,
     PIN,
+    PLAY,
     STEEL,
     TAIL,
     TINE,
     UNDER,
     WALL,
     Jaws,
+    depth_of,
 )
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.part.catalogue import spring_part
@@ -45,8 +46,8 @@ FINGER, ROD, SOLENOID = f"{NAME}/finger", f"{NAME}/rod", f"{NAME}/solenoid"
 
 OF_CENTRE = "-of-the-centre"
 
-PLAY, IN_GROOVE = 0.03 * mm, 0.25 * mm
-"""Play between wedges that meet, and of a finger's tines in the groove of their rod, above and below together [m]."""
+IN_GROOVE = 0.25 * mm
+"""Play of a finger's tines in the groove of their rod, above and below together [m]."""
 
 HEAD = 0.25 * mm
 """Thickness of a rod's head over the tines [m]."""
@@ -102,9 +103,9 @@ def finger_part(params: KnottingDyadParams, head: Head, jaws: Jaws, centre: bool
     """A finger with its pin's axis in the origin, closed: under the blade, and its fork about the rod's neck."""
     clamp = jaws.tip - head.section.needle_length + IN_BORE / 2
     half, near, top, low = jaws.rod / 2, min(LUG / 2, clamp), UNDER - TAIL, TINE / 2
-    jaw = params.needle_breadth / 2 - jaws.deep + PLAY
-    needle = Placed(Prism(_wedge(head, clamp, jaws.tip - IN_BORE), EYE - jaw), (placement(z=jaw),))
-    front = [-near + 1j * top, clamp + 1j * top, clamp + 1j * EYE, -near + 1j * EYE]
+    jaw, edge = params.needle_breadth / 2 - jaws.deep + PLAY, depth_of(params) - jaws.deep
+    needle = Placed(Prism(_wedge(head, clamp, jaws.tip - IN_BORE), edge - jaw), (placement(z=jaw),))
+    front = [-near + 1j * top, clamp + 1j * top, clamp + 1j * edge, -near + 1j * edge]
     if centre:
         outline, middle, tine = front, 0.5j * (top - jaws.crank - low), (TINE, jaws.crank + top + low)
     else:

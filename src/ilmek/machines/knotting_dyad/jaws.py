@@ -40,7 +40,11 @@ STROKE, TAIL = 0.5 * mm, 1.15 * mm
 this project, as all sizes here."""
 
 TINE, UNDER, EYE = 0.5 * mm, 0.15 * mm, 0.55 * mm
-"""Depth of a finger's tines, room between its body and the link over it, and its depth under its pin [m]."""
+"""Depth of a finger's tines and, at least, of its needle; room between its body and the link over it; its depth under
+its pin, more under a broad blade [m]."""
+
+PLAY = 0.03 * mm
+"""Play between wedges that meet [m]."""
 
 PIN, LUG, CHEEK = 0.6 * mm, 2 * mm, 0.55 * mm
 """Diameter of a finger's pin, side and thickness of the lugs that hold it [m]."""
@@ -199,7 +203,12 @@ def openness(cycle: KnotCycle, gripper: str, time: FloatArray) -> FloatArray:
 
 def gripper_half(params: KnottingDyadParams) -> float:
     """From a needle's middle to the end of its open finger, the farthest along the warps [m]."""
-    return params.link_thickness / 2 + TAIL + EYE + _opening(params)
+    return depth_of(params) + _opening(params)
+
+
+def depth_of(params: KnottingDyadParams) -> float:
+    """From the needles' middle to the lower edge of a closed finger, under its pin and its blade [m]."""
+    return max(params.link_thickness / 2 + TAIL + EYE, params.needle_breadth / 2 + TINE)
 
 
 def _opening(params: KnottingDyadParams) -> float:
@@ -226,7 +235,7 @@ def jaw_checks(params: KnottingDyadParams, head: Head, jaws: Jaws, cycle: KnotCy
     yield at_most(
         "heat of a solenoid of the jaws", heat, jaws.solenoid.power, "W", "its row, mounted on metal"
     ).with_cure(softer, *parts)
-    body = TAIL - UNDER + EYE
+    body = depth_of(params) - max(params.link_thickness / 2 + UNDER, params.needle_breadth / 2 + PLAY)
     bent = 6 * jaws.grip * head.section.needle_length / (params.needle_diameter * body**2)
     yield at_most(
         "stress of a finger", bent, STEEL.strength / 1.5, "MPa", "bending where it leaves the link"

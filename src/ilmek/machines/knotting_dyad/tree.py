@@ -37,6 +37,7 @@ from ilmek.machines.knotting_dyad.drives import HeadMotion, JointDrive, head_mot
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.jaw_parts import (
     FOOT,
+    FOOT_WIDTH,
     RISE,
     SOLENOID,
     bar_end,
@@ -48,6 +49,7 @@ from ilmek.machines.knotting_dyad.jaw_parts import (
     rod_part,
 )
 from ilmek.machines.knotting_dyad.jaws import Jaws, openness
+from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.knotting_dyad.sequence import CENTRE as CENTRE_TIP
 from ilmek.machines.knotting_dyad.sequence import LEFT, RIGHT
 from ilmek.machines.link_tree import TURN, Levels, LinkageParts, body_id, linkage_tree
@@ -83,7 +85,6 @@ def tree(dyad: KnottingDyad) -> Tree:
     motion = head_motion(params, head)
     arm = arm_parts(params, head, motion.hole)
     loads = carried(params, head, motion.hole)
-    bottom = needle_level(dyad)
     levels = drive_levels(params, arm.levels.bottoms)
     centre = _centre(dyad, head, motion.jaws)
     others = {
@@ -93,7 +94,7 @@ def tree(dyad: KnottingDyad) -> Tree:
         GROUND: (
             *standing_drives(params, head, levels, motion),
             *_servos(dyad, head, motion, levels.plate),
-            *_axis(dyad, head, centre, bottom + motion.jaws.bar + FOOT, levels.plate),
+            *_axis(dyad, head, motion.jaws, centre, levels.plate),
         ),
     }
     if params.elbow_drive == "direct":
@@ -192,11 +193,17 @@ def _of_centre(dyad: KnottingDyad, head: Head) -> Placement:
     return placement(0.0, head.arm.second, needle_level(dyad), about=(0.0, 0.0, 1.0), angle=-UP)
 
 
+def _depth(params: KnottingDyadParams, head: Head, jaws: Jaws) -> float:
+    """From the warps' axes to the middle of the centre gripper's axis: at the servos, or as its bar needs [m]."""
+    bar = behind(head) + FOOT_WIDTH + jaws.neck + jaws.solenoid.length
+    return max(params.room.depth, float(bar - head.centre_stroke))
+
+
 def _centre(dyad: KnottingDyad, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
     """Bar, blade and jaws of the centre gripper, from its tip back onto its axis."""
     params, at, tip = dyad.params, _of_centre(dyad, head), head.arm.second
     nose = tip + head.section.front - behind(head)
-    rear = tip + head.section.front - params.room.depth - head.centre_stroke
+    rear = tip + head.section.front - _depth(params, head, jaws) - head.centre_stroke
     made = (*on_link(params, head, jaws), *centre_parts(params, head, jaws, (nose, rear)))
     return tuple(replace(one, positions=tuple(at.after(own) for own in one.positions)) for one in made)
 
@@ -205,7 +212,7 @@ def _with_jaws(linkage: Tree, dyad: KnottingDyad, head: Head, motion: HeadMotion
     """The linkage with the fingers of its grippers and the rods that open them, moved as the cycle's grips say."""
     params, cycle = dyad.params, motion.cycle
     jaws, level = motion.jaws, placement(z=needle_level(dyad))
-    rear = bar_end(jaws, head.arm.second + head.section.front - params.room.depth - head.centre_stroke)
+    rear = bar_end(jaws, head.arm.second + head.section.front - _depth(params, head, jaws) - head.centre_stroke)
     grips = [edge for part in cycle.parts if part.grippers for edge in (part.start, part.end)]
     time = np.unique([0.0, *grips, cycle.period])
     bodies, closures = [], []
@@ -236,14 +243,14 @@ def _with_jaws(linkage: Tree, dyad: KnottingDyad, head: Head, motion: HeadMotion
 
 
 def _axis(
-    dyad: KnottingDyad, head: Head, centre: tuple[Occurrence, ...], under: float, level: float
+    dyad: KnottingDyad, head: Head, jaws: Jaws, centre: tuple[Occurrence, ...], level: float
 ) -> Iterator[Occurrence]:
-    """The axis of the centre gripper under its foot [m], its motor under that, and what holds it under a level [m]."""
+    """The axis of the centre gripper under its foot, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
-    long = 2 * head.centre_stroke
+    long, under = 2 * stroke, needle_level(dyad) + jaws.bar + FOOT
     title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
     axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
-    begin = params.room.depth - stroke
+    begin = _depth(params, head, jaws) - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))
     moved = RigidBody(CENTRE, centre).moments.zeroth
     torque, turning = moved * (params.centre_acceleration + GRAVITY) * PULLEY, params.centre_speed / PULLEY
