@@ -38,7 +38,7 @@ _MACHINES = {
     ("tufting", "bars=2"): 1,
     ("beat-up",): 2,  # crank, and the slide along the row
     ("hammer", "drive=linkage"): 1,  # two crank-rockers on one shaft, and the comb on both
-    ("knotting-dyad",): 5,  # two servos an arm, and the centre gripper
+    ("knotting-dyad",): 8,  # two servos an arm, the centre gripper's motor, and the solenoid of each of three jaws
     ("cam",): 2,  # the follower has a servo of its own
     ("tension-compensator",): 2,
 }

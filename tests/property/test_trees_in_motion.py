@@ -102,14 +102,16 @@ def test_a_roller_runs_in_its_groove() -> None:
 
 
 def test_both_needles_come_to_the_hand_over_and_back() -> None:
-    """Tips at the ends of the blades: the arms' paths, mirrored in the middle of the pair."""
+    """Tips as the meshes of the blades end: the arms' paths, mirrored in the middle of the pair."""
     design, tree = made("knotting-dyad")
     section, tips = design.head.section, []
     for side in ("", "-*"):
         body = tree.body(f"knotting-dyad/link-2{side}")
         blade = next(one for one in body.occurrences if one.part.id == "knotting-dyad/needle")
         origin, direction = moved(tree, body.id)
-        tips.append(origin + direction * (blade.positions[0].origin[0] + section.needle_length / 2))
+        assert blade.part.shape is not None
+        (position,) = blade.positions
+        tips.append(origin + direction * position.points(blade.part.shape.mesh(1e-5).points)[:, 0].max())
     for tip in tips:
         assert np.abs(tip - section.handover).min() < 2e-4
         assert abs(tip[0] - tip[-1]) < 1e-9

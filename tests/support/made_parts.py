@@ -30,7 +30,8 @@ from ilmek.machines.weft.shuttle import Shuttle
 from ilmek.machines.weft.tree import DRAGGING, STRAIGHT
 from ilmek.params import declared
 from ilmek.part.part import Part
-from ilmek.part.tree import Tree
+from ilmek.part.placement import Placement, placement
+from ilmek.part.tree import RigidBody, Tree
 from ilmek.report.scene import Solid
 
 SETTLED: Mapping[str, Mapping[str, Any]] = {
@@ -119,17 +120,27 @@ def counted(machine: str, design: Any) -> dict[str, Inertia]:
 
 
 def mass_error(machine: str, design: Any, tree: Tree) -> float:
-    """Greatest relative difference of mass, first and second moment of a body in the forces from those of its parts."""
+    """Greatest relative difference of mass, first and second moment of a body in the forces from those of its parts.
+
+    Forces of an arm count closed jaws in its second link.
+    """
     worst = _of_follower(design, tree) if machine == "cam" else 0.0
     for name, inertia in counted(machine, design).items():
-        body = tree.body(name)
-        mass = math.fsum(len(own.positions) * _weight(own.part) for own in body.occurrences)
-        moments = body.moments
+        jaws = [body for body in tree.bodies if body.parent == name and body.id.endswith(("-finger", "-rod"))]
+        bodies = [tree.body(name), *jaws]
+        mass = math.fsum(len(own.positions) * _weight(own.part) for body in bodies for own in body.occurrences)
+        moments = sum((body.moments.placed(_closed(body)) for body in jaws), bodies[0].moments)
         worst = max(worst, abs(inertia.mass - mass) / (mass or 1.0))
         if mass:
             away = abs(complex(*moments.centre[:2]) - inertia.centre)
             worst = max(worst, away / (abs(inertia.centre) or 1.0), abs(moments.inertia[2, 2] / inertia.moment - 1))
     return worst
+
+
+def _closed(jaw: RigidBody) -> Placement:
+    """Where a body of a jaw is in its gripper while this is closed: a finger opens below its angle then."""
+    assert jaw.joint.motion is not None
+    return jaw.positions[0].after(placement(about=jaw.joint.axis, angle=float(jaw.joint.motion.rotation.max())))
 
 
 def moving_error(loom: Any) -> float:
