@@ -292,7 +292,7 @@ def test_a_design_whose_checks_fail_is_not_released(tmp_path: Path) -> None:
     for name, word in (("index.html", "NOT RELEASED"), ("maintenance.tr.html", "ONAYLANMADI")):
         assert word in (tmp_path / "parts" / name).read_text(encoding="utf-8")
     index = (tmp_path / "parts" / "index.html").read_text(encoding="utf-8")
-    assert ">made<" in index
+    assert all(text in index for text in (">made<", "A4, 1:1"))
     linked = set(re.findall(r'href="([^"#]+)"', index))
     there = {path.name for path in (tmp_path / "parts").iterdir()} - {"workshop.json", ".ilmek", "index.html"}
     assert {name for name in there if not name.endswith(".tr.html") or name == "index.tr.html"} == linked

@@ -12,6 +12,7 @@ from ilmek.records import JsonObject
 from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
 from ilmek.sentences import LANGUAGES, Sentence
 from ilmek.viz.document_page import INDEX_PAGE, document_page, index_page, page_file
+from ilmek.viz.drawings.paper import scale_words
 
 PAPER_KINDS = ("page", "list")
 """Kinds of entries of papers: a page for people in a language, a list as CSV."""
@@ -50,7 +51,9 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
                 IndexEntry(table.title, f"{table.name}.csv", Sentence("paper.rows", count=len(table.rows)))
                 for table in papers.lists
             ],
-            Sentence("paper.drawings"): [_drawing(entry) for entry in files if entry["kind"] in ("drawings", "sheet")],
+            Sentence("paper.drawings"): [
+                _drawing(entry) for kind in ("drawings", "sheet") for entry in files if entry["kind"] == kind
+            ],
             Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
             Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
         }
@@ -66,7 +69,7 @@ def _file(entry: JsonObject) -> IndexEntry:
 
 
 def _drawing(entry: JsonObject) -> IndexEntry:
-    what = f"PDF, {entry['sheets']}×" if "sheets" in entry else f"{entry['paper']}, {entry['scale']}"
+    what = f"PDF, {entry['sheets']}×" if "sheets" in entry else f"{entry['paper']}, {scale_words(entry['scale'])}"
     return IndexEntry(entry["title"], entry["file"], what)
 
 
