@@ -10,14 +10,16 @@ import pytest
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.knotting_dyad import MACHINE, design
-from ilmek.machines.knotting_dyad.arms import inertias
+from ilmek.machines.knotting_dyad.arm_drives import behind
+from ilmek.machines.knotting_dyad.arms import carried, inertias
 from ilmek.machines.knotting_dyad.drives import HeadMotion, drives_of, head_motion
 from ilmek.machines.knotting_dyad.figures import cyclogram, motion_figures
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.jaw_parts import finger_part
+from ilmek.machines.knotting_dyad.jaw_parts import FOOT_WIDTH, finger_part, on_link
 from ilmek.machines.knotting_dyad.jaws import openness
 from ilmek.machines.knotting_dyad.motion import LEFT, RIGHT, KnotCycle
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
+from ilmek.machines.knotting_dyad.tree import tree
 from ilmek.report import Plot, Timing, results_of
 from ilmek.timing.s_curve import AxisLimits, move_time
 from ilmek.units import turn
@@ -265,3 +267,20 @@ def test_jaws_hold_the_yarn_open_within_their_time_and_stay_in_the_needles_strip
         for gripper in part.grippers:
             open_ = openness(motion.cycle, gripper, np.array([part.start, part.end]))
             assert open_.tolist() == ([1.0, 0.0] if part.name == "grasp" else [0.0, 1.0])
+
+
+def test_arms_with_broad_blades_or_a_deep_hand_over_have_their_parts_whatever_is_kept_of_them() -> None:
+    """What was designed between arms and tree drops the parts that are kept: a loom's choice found that."""
+    made_ = design(KnottingDyadParams.read({"needle_breadth": "14mm", "depth": "100mm"}))
+    assert made_.head is not None
+    motion = head_motion(made_.params, made_.head)
+    carried(made_.params, made_.head, motion.hole)
+    on_link.cache_clear()
+    parts = {part.id: part for part, _ in tree(made_).occurrences()}
+    shapes = {name: parts[f"knotting-dyad/{name}"].shape for name in ("finger", "centre-bar")}
+    finger, bar = (shape.mesh(1e-5).points for shape in shapes.values() if shape is not None)
+    clear = finger[finger[:, 0] > motion.jaws.tip - made_.head.section.needle_length + 0.2e-3, 2]
+    assert clear.min() > made_.params.needle_breadth / 2 - motion.jaws.deep
+    assert clear.max() == pytest.approx(finger[:, 2].max())
+    nose = made_.head.arm.second + made_.head.section.front - behind(made_.head)
+    assert nose - bar[:, 0].min() >= FOOT_WIDTH - 1e-9

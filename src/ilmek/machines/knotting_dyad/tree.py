@@ -86,7 +86,7 @@ def tree(dyad: KnottingDyad) -> Tree:
     arm = arm_parts(params, head, motion.hole)
     loads = carried(params, head, motion.hole)
     levels = drive_levels(params, arm.levels.bottoms)
-    centre = _centre(dyad, head, motion.jaws)
+    centre = _centre(dyad, head, motion.jaws, loads["link 2"])
     others = {
         **loads,
         **{other(body): occurrences for body, occurrences in loads.items()},
@@ -199,13 +199,18 @@ def _depth(params: KnottingDyadParams, head: Head, jaws: Jaws) -> float:
     return max(params.room.depth, float(bar - head.centre_stroke))
 
 
-def _centre(dyad: KnottingDyad, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
-    """Bar, blade and jaws of the centre gripper, from its tip back onto its axis."""
+def _centre(dyad: KnottingDyad, head: Head, jaws: Jaws, of_arm: tuple[Occurrence, ...]) -> tuple[Occurrence, ...]:
+    """Bar, blade and jaws of the centre gripper, from its tip back onto its axis; parts that an arm has are the arm's:
+    caches may have dropped them since.
+    """
     params, at, tip = dyad.params, _of_centre(dyad, head), head.arm.second
     nose = tip + head.section.front - behind(head)
     rear = tip + head.section.front - _depth(params, head, jaws) - head.centre_stroke
     made = (*on_link(params, head, jaws), *centre_parts(params, head, jaws, (nose, rear)))
-    return tuple(replace(one, positions=tuple(at.after(own) for own in one.positions)) for one in made)
+    shared = {one.part.id: one.part for one in of_arm}
+    return tuple(
+        Occurrence(shared.get(one.part.id, one.part), tuple(at.after(own) for own in one.positions)) for one in made
+    )
 
 
 def _with_jaws(linkage: Tree, dyad: KnottingDyad, head: Head, motion: HeadMotion) -> Tree:
