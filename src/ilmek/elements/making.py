@@ -24,8 +24,6 @@ class Rate(NamedTuple):
 LASER, BENDING, SAWING, TURNING, MILLING = "laser cutting", "bending", "sawing", "turning", "milling"
 GRINDING, WELDING, HARDENING, COATING = "grinding", "welding", "hardening", "coating"
 
-PROCESSES = (LASER, BENDING, SAWING, TURNING, MILLING, GRINDING, WELDING, HARDENING, COATING)
-
 RATES = (
     Rate("structural steel", "per kg", 1.3, (0.8, 2.0)),
     Rate("heat-treatable steel", "per kg", 1.6, (1.0, 2.5)),

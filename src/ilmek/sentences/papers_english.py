@@ -63,7 +63,6 @@ PAPERS = {
     "setting.expected": "expected",
     "setting.source": "from",
     "setting.assumed": "assumed by this project",
-    "setting.of-check": "check: {name}",
     "setting.stand": "Stand of the loom",
     "setting.level": "level of the floor beams, along and across",
     "setting.foot": "load of each levelling foot",

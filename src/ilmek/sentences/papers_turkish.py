@@ -62,7 +62,6 @@ PAPERS = {
     "setting.expected": "beklenen",
     "setting.source": "kaynak",
     "setting.assumed": "bu projenin varsayımı",
-    "setting.of-check": "denetim: {name}",
     "setting.stand": "Tezgâhın duruşu",
     "setting.level": "taban kirişlerinin terazisi, boyuna ve enine",
     "setting.foot": "her ayarlı ayağın yükü",

@@ -41,7 +41,7 @@ from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
 from ilmek.units import deg, format_quantity, in_mm, mm
 
-FINGER, ROD, SOLENOID = f"{NAME}/finger", f"{NAME}/rod", f"{NAME}/solenoid"
+ROD, SOLENOID = f"{NAME}/rod", f"{NAME}/solenoid"
 """Ids of parts; of the centre gripper's own with a suffix."""
 
 OF_CENTRE = "-of-the-centre"

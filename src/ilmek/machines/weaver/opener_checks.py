@@ -16,16 +16,20 @@ from ilmek.report import Check, at_least, at_most
 FINER = "set a coarser quality, or thinner warps"
 
 
+def points_room(weaver: Weaver) -> float:
+    """Gap between two warps, into which the opener's points go [m]."""
+    return weaver.opener.pitch - weaver.params.warp
+
+
 def opener_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The opener enters between two warps, does not overload them, pushes no warp of a neighbour's, and holds."""
     params, own, opener = weaver.params, weaver.params.opener, weaver.opener
-    pitch, warp = opener.pitch, params.warp
     strength = params.cloth.carpet_yarns.warp.breaking_force
     return (
         at_most(
             "opener: points between two warps",
             own.tip + 2 * own.placing,
-            pitch - warp,
+            points_room(weaver),
             "mm",
             "gap of the warps; assumed by this project: parameters opener.tip, opener.placing",
         ).with_cure(FINER, OPENER_PLATE),

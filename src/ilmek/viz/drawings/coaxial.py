@@ -9,11 +9,11 @@ from ilmek.arrays import ComplexArray
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, Turned, rectangle
 from ilmek.part.tolerances import FeatureKind
-from ilmek.plane.contours import along, as_hole, bounds, circle, polygon
+from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, circle, polygon
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import LineKind
-from ilmek.viz.drawings.features import SAME, KeyedBore, distinct, keyed
+from ilmek.viz.drawings.features import SAME, distinct
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import keyed_contour, keyway
 from ilmek.viz.drawings.joined import Member
@@ -29,8 +29,8 @@ class CoaxialPart:
     """
 
     profile: Profile
-    ends: tuple[KeyedBore, ...]
-    bores: tuple[KeyedBore, ...]
+    ends: tuple[KeyedCircle, ...]
+    bores: tuple[KeyedCircle, ...]
     grooves: tuple[tuple[float, float, float], ...] = ()
     squares: tuple[float, ...] = ()
 
@@ -38,8 +38,8 @@ class CoaxialPart:
 def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
     """The members as one turned part; None where they have not one axis, or are not round."""
     profiles: list[ComplexArray] = []
-    ends: list[KeyedBore] = []
-    bores: list[KeyedBore] = []
+    ends: list[KeyedCircle] = []
+    bores: list[KeyedCircle] = []
     squares: list[float] = []
     grooves: list[tuple[float, float, float]] = []
     for shape, position in members:
@@ -52,7 +52,7 @@ def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
         sign = float(np.sign(position.rotation[2, 2]))
         profiles.append(sign * half.real + float(position.origin[2]) + 1j * half.imag)
         z = profiles[-1].real
-        grooves += [(float(z.min()), float(z.max()), end.reach) for end in ends[before:]]
+        grooves += [(float(z.min()), float(z.max()), end.floor) for end in ends[before:]]
     if len(profiles) < 2:
         return None
     whole = Profile(polygon(_union(profiles)))
@@ -71,7 +71,7 @@ def _square(shape: object, squares: list[float]) -> list[complex] | None:
     return [0j, shape.length + 0j, shape.length + 1j * high.real, 1j * high.real]
 
 
-def _half(shape: object, ends: list[KeyedBore], bores: list[KeyedBore]) -> ComplexArray | None:
+def _half(shape: object, ends: list[KeyedCircle], bores: list[KeyedCircle]) -> ComplexArray | None:
     """Corners of a member in the half plane; None: it is not round. Keyed ends and bores are noted."""
     if isinstance(shape, Turned):
         return None if shape.profile.holes else along(shape.profile.outline, 1e-6)
@@ -84,9 +84,9 @@ def _half(shape: object, ends: list[KeyedBore], bores: list[KeyedBore]) -> Compl
     return np.array([1j * inner, shape.length + 1j * inner, shape.length + 1j * outer, 1j * outer])
 
 
-def _radius(contour: Contour, noted: list[KeyedBore]) -> float | None:
+def _radius(contour: Contour, noted: list[KeyedCircle]) -> float | None:
     """Radius of a circle about the axis, or of one with keyways; None: of another contour."""
-    ring, bore = as_hole(contour), keyed(contour)
+    ring, bore = as_hole(contour), as_keyed(contour)
     if ring is not None and abs(ring.at) < SAME:
         return ring.radius
     if bore is not None and abs(bore.centre) < SAME:

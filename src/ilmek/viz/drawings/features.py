@@ -1,4 +1,4 @@
-"""Features of a contour that a drawing dimensions: corners, arcs, bores with keyways, patterns of holes."""
+"""Features of a contour that a drawing dimensions: corners, arcs, patterns of holes."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -68,43 +68,6 @@ def contour_features(contour: Contour) -> ContourFeatures:
             centre = arc_centre(start, end, bulge)
             arcs.append(ArcFeature(centre, abs(start - centre), (start, end) if bulge > 0 else (end, start)))
     return ContourFeatures(corners, tuple(arcs))
-
-
-@record
-class KeyedBore:
-    """A bore with keyways: reach of their floor from the centre, and their directions [m, rad]."""
-
-    centre: complex
-    radius: float
-    width: float
-    reach: float
-    angles: tuple[float, ...]
-
-
-def keyed(contour: Contour) -> KeyedBore | None:
-    """The bore with keyways that a cutout is, or the shaft with its grooves; None: it is another.
-
-    >>> from ilmek.plane.contours import keyed_bore
-    >>> bore = keyed(keyed_bore(0.010, 0.006, 0.0028))
-    >>> round(bore.radius, 9), round(bore.width, 9), round(bore.reach, 9), bore.angles
-    (0.01, 0.006, 0.0128, (0.0,))
-    """
-    arcs = contour_features(contour).arcs
-    if not arcs or len(contour.points) != 4 * len(arcs):
-        return None
-    centre, radius = arcs[0].centre, arcs[0].radius
-    if any(abs(arc.centre - centre) > SAME or abs(arc.radius - radius) > SAME for arc in arcs):
-        return None
-    ends = following(contour.points)
-    straight = np.abs(contour.bulges) < STRAIGHT
-    middles = (contour.points + ends) / 2 - centre
-    across = np.abs(((ends - contour.points) * np.conj(middles)).real) < SAME * np.abs(middles)  # floors of keyways
-    floors = np.flatnonzero(straight & across)
-    if len(floors) != len(arcs):
-        return None
-    width = float(abs(ends - contour.points)[floors[0]])
-    angles = tuple(round(float(np.angle(middles[floor])), 9) + 0.0 for floor in floors)
-    return KeyedBore(centre, radius, width, float(abs(middles[floors[0]])), angles)
 
 
 def square_of(contour: Contour) -> tuple[complex, complex] | None:

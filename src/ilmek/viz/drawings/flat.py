@@ -1,5 +1,6 @@
 """Views of a part cut from flat stock: its outline with all holes, and its edge."""
 
+import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -9,7 +10,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
 from ilmek.plane.biarcs import as_contour
-from ilmek.plane.contours import along, as_hole, bounds, keyed_bore, polygon
+from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, keyed_bore, polygon
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
@@ -18,11 +19,9 @@ from ilmek.viz.drawings.features import (
     ArcFeature,
     ContourFeatures,
     HoleGroup,
-    KeyedBore,
     contour_features,
     distinct,
     hole_groups,
-    keyed,
     split_holes,
     square_of,
 )
@@ -48,7 +47,7 @@ class FlatPart:
     features: ContourFeatures
     round_outline: Hole | None
     groups: tuple[HoleGroup, ...]
-    bores: tuple[KeyedBore, ...]
+    bores: tuple[KeyedCircle, ...]
     cutouts: tuple[Contour, ...]
     datum: complex
     smooth: bool
@@ -72,15 +71,15 @@ class FlatPart:
 def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -> FlatPart:
     """The features of a section; a smooth outline is a curve, with no corners to dimension."""
     holes, cuts = split_holes(section.holes)
-    bores = tuple(bore for bore in map(keyed, cuts) if bore is not None)
-    others = tuple(cut for cut in cuts if keyed(cut) is None)
+    bores = tuple(bore for bore in map(as_keyed, cuts) if bore is not None)
+    others = tuple(cut for cut in cuts if as_keyed(cut) is None)
     outline = section.outline
     if section.smooth:
         low, high = bounds(outline)
         outline = as_contour(outline.points, _ARCS * abs(high - low))
     ring = as_hole(outline)
     centres = [*(hole.at for hole in holes), *(bore.centre for bore in bores), *([ring.at] if ring else [])]
-    shaft = keyed(outline)
+    shaft = as_keyed(outline)
     centres += [shaft.centre] if shaft else []
     if square_of(outline) is None:  # else it is a tube
         centres += [square[0] for square in map(square_of, others) if square is not None]
@@ -129,9 +128,9 @@ def outline_view(
     for hole in flat.holes:
         view.contour(LineKind.VISIBLE, _circle(hole))
         view.cross(hole.at, hole.radius)
-    shaft = keyed(flat.outline)
+    shaft = as_keyed(flat.outline)
     for bore in (*flat.bores, *([shaft] if shaft else [])):
-        view.cross(bore.centre, max(bore.reach, bore.radius))
+        view.cross(bore.centre, max(bore.floor, bore.radius))
     if flat.round_outline is not None:
         view.cross(flat.round_outline.at, flat.round_outline.radius)
     for line in (paths or {}).values():
@@ -150,10 +149,10 @@ def outline_view(
     return view, tables
 
 
-def keyed_contour(bore: KeyedBore) -> Contour:
+def keyed_contour(bore: KeyedCircle) -> Contour:
     """The contour of a bore with keyways, or of a shaft with its grooves."""
-    own = keyed_bore(bore.radius, bore.width, bore.reach - bore.radius, len(bore.angles))
-    turned = own.points * np.exp(1j * bore.angles[0]) + bore.centre
+    own = keyed_bore(bore.radius, bore.width, bore.floor - bore.radius, len(bore.directions))
+    turned = own.points * bore.directions[0] + bore.centre
     return Contour(turned, own.bulges)
 
 
@@ -163,7 +162,7 @@ def _circle(hole: Hole) -> Contour:
 
 def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
     """Points whose coordinates a drawing needs: corners, centres of arcs and of holes that no table has."""
-    by_circle = flat.round_outline is not None or keyed(flat.outline) is not None
+    by_circle = flat.round_outline is not None or as_keyed(flat.outline) is not None
     own = flat.features.points if flat.dimensioned and not by_circle else ()
     holes = () if flat.tabled else tuple(h.at for group in flat.groups if not group.pitch for h in group.holes)
     centres = tuple(group.centre for group in flat.groups if group.pitch)
@@ -231,7 +230,7 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
     if flat.round_outline is not None:
         ring = flat.round_outline
         _diameter(view, f"⌀{millimetres(2 * ring.radius)}", ring.at, ring.radius)
-    shaft = keyed(flat.outline)
+    shaft = as_keyed(flat.outline)
     for bore in (*flat.bores, *([shaft] if shaft else [])):
         kind = FeatureKind.JOURNAL if bore is shaft else FeatureKind.BORE
         suffix = fits.suffix(2 * bore.radius, kind)
@@ -268,22 +267,22 @@ def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
 
 
-def keyway(view: DrawnView, bore: KeyedBore, fits: Fits, kind: FeatureKind) -> None:
+def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) -> None:
     """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side."""
-    turn = complex(math.cos(bore.angles[0]), math.sin(bore.angles[0]))
-    corners = [bore.centre + turn * complex(bore.reach, side * bore.width / 2) for side in (-1, 1)]
-    count = len(bore.angles)
+    turn = bore.directions[0]
+    corners = [bore.centre + turn * complex(bore.floor, side * bore.width / 2) for side in (-1, 1)]
+    count = len(bore.directions)
     times = f"{count}× " if count > 1 else ""
-    at = ", ".join(f"{math.degrees(angle):.4g}°" for angle in bore.angles)
+    at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
     ends = (corners[0] * view.scale, corners[1] * view.scale)
     width = f"{times}keyway {millimetres(bore.width)}{fits.suffix(bore.width, _KEYWAYS[kind])} at {at}"
     view.leader(
         width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends
     )  # fmt: skip
-    across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.reach) * view.scale)
-    floor = f"{millimetres(bore.radius + bore.reach)}{fits.depth(bore.width)} to its floor"
+    across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.floor) * view.scale)
+    floor = f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)} to its floor"
     view.leader(
-        floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.reach, measured=across
+        floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
     )  # fmt: skip
 
 

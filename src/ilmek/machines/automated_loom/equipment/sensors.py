@@ -157,11 +157,15 @@ def _weft_sensor(loom: LoomDesign, near: Surroundings) -> MountedSensor:
     return _first_free(near, part, GROUND, ((placement(x, y, z),) for y in heights for x in xs), column.part)
 
 
+def beam_strain(loom: LoomDesign) -> float:
+    """Greatest strain of the back rest's beam under the warps' tension at rest."""
+    beam, long = brackets_of(loom).beam, loom.task.width
+    moment = uniform.moment_max(loom.task.cloth.pull / long, long)
+    return float(uniform.bending_stress(moment, beam.side / 2, beam.inertia)) / STEEL.modulus
+
+
 def sensor_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """Room of the sensors; whether the warps' tension at rest bends the back rest's beam enough to be told."""
-    made, long = brackets_of(loom), loom.task.width
-    moment = uniform.moment_max(loom.task.cloth.pull / long, long)
-    strain = float(uniform.bending_stress(moment, made.beam.side / 2, made.beam.inertia)) / STEEL.modulus
     tight = tuple(place.part for place in mounted_sensors(loom) if not place.free)
     return (
         at_most(
@@ -173,7 +177,7 @@ def sensor_checks(loom: LoomDesign) -> tuple[Check, ...]:
         ).with_cure("set a larger clearance", *tuple(part.id for part in tight)),
         at_least(
             "warp tension: strain of the back rest's beam",
-            strain,
+            beam_strain(loom),
             LEAST_STRAIN,
             "1",
             "what the transducer tells well, assumed by this project",

@@ -5,7 +5,7 @@ from typing import Any
 from ilmek.machines.automated_loom.cost import rates_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.records import record
-from ilmek.report import Check, Report
+from ilmek.report import Report
 from ilmek.report.document import UnknownResult
 
 
@@ -20,11 +20,6 @@ def known(report: Report, name: str) -> Any:
         return report[name]
     except UnknownResult:
         return None
-
-
-def check_of(report: Report, beginning: str) -> Check | None:
-    """The first check of the whole loom whose name begins so; None where this loom has none."""
-    return next((check for check in report.all_checks if check.name.startswith(beginning)), None)
 
 
 @record
