@@ -18,9 +18,10 @@ from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.warp_tension.cylinders import cylinders as cylinders_of
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
+from ilmek.part.catalogue import BEFORE_KEY
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
-from ilmek.plane.contours import along
+from ilmek.plane.contours import along, rounded_hull
 
 LOOMS: tuple[dict[str, str], ...] = (
     {},
@@ -59,17 +60,21 @@ def test_every_bearing_touches_its_bracket_and_every_shaft_ends_at_its_outer_fac
     for name, own in (("upper", "upper"), ("lower", "lower"), ("spacer", "spacer")):
         bracket = named[f"{own}-bracket"]
         assert extent(cylinders, f"warp-tension/{name}-bearing")[1] == pytest.approx(bracket.inner, abs=1e-9)
-        assert extent(cylinders, f"warp-tension/{name}-end")[1] == pytest.approx(bracket.outer, abs=1e-9)
+        assert extent(cylinders, f"warp-tension/{name}-end")[1] == pytest.approx(bracket.outer + BEFORE_KEY, abs=1e-9)
         keyed = next(one for one in found if one.name == name).driven_end.length  # goes on into the reducer
-        assert extent(cylinders, f"warp-tension/{name}-driven-end")[1] == pytest.approx(bracket.outer + keyed, abs=1e-9)
+        end = bracket.outer + BEFORE_KEY + keyed
+        assert extent(cylinders, f"warp-tension/{name}-driven-end")[1] == pytest.approx(end, abs=1e-9)
     assert extent(cams, "shedding/bearing")[1] == pytest.approx(named["cam-bracket"].inner, abs=1e-9)
     keyed = design.shedding.first.driven_end.length
-    assert extent(cams, "shedding/cam-shaft")[1] == pytest.approx(named["cam-bracket"].outer + keyed, abs=1e-9)
+    assert extent(cams, "shedding/cam-shaft")[1] == pytest.approx(
+        named["cam-bracket"].outer + BEFORE_KEY + keyed, abs=1e-9
+    )
     assert made.face >= max(one.outer for one in made.plates)
 
 
 def outline(one: Bracket) -> np.ndarray:
-    return along(one.plate.section.outline, 1e-4)
+    """The plate without the slot of its shaft."""
+    return along(rounded_hull(one.nodes, one.radius), 1e-4)
 
 
 def inside(points: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -16,12 +16,13 @@ from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE as SHEDDING
-from ilmek.machines.shedding.tree import NUT, bearing_inner
+from ilmek.machines.shedding.tree import NUT, bearing_inner, cut_square
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.tension_compensator.tree import tree as compensator_tree
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
-from ilmek.part.catalogue import keyed_journal
+from ilmek.part.catalogue import BEFORE_KEY, keyed_journal
 from ilmek.part.tree import Tree
+from ilmek.plane.contours import area
 from ilmek.plane.solids import volume
 
 _LOOMS = st.fixed_dictionaries(
@@ -87,7 +88,8 @@ def _spare_volume(design: Any, index: int) -> float:
     shaft = design.shafts[index]
     bar, seat = shaft.shaft.bar, shaft.seat
     square = bar**2 * (2 * bearing_inner(design, index) - sum(shaft.numbers) * shaft.stack.shares.pitch)
-    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET)
+    square -= 2 * seat.screw_room * (bar**2 - area(cut_square(shaft)))
+    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET + BEFORE_KEY)
     end = shaft.driven_end
     journals += keyed_journal(end).volume + end.number * end.keyway.width * end.keyway.height * end.length
     return float(square + journals + 2 * NUT * (math.pi * bar**2 - bar**2))

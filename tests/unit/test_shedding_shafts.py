@@ -17,11 +17,13 @@ from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams, she
 from ilmek.machines.shedding.positions import dealt
 from ilmek.machines.shedding.reed import dent
 from ilmek.machines.shedding.stack import shared
-from ilmek.machines.shedding.tree import NUT, bearing_inner, reed, tree
+from ilmek.machines.shedding.tree import NUT, bearing_inner, cut_square, reed, tree
 from ilmek.machines.shedding.warp import shed_warp
 from ilmek.part import catalogue
+from ilmek.part.catalogue import BEFORE_KEY
 from ilmek.part.contacts import contacts
 from ilmek.part.placement import placement
+from ilmek.plane.contours import area
 from ilmek.report import Report
 from ilmek.units import mm
 
@@ -154,8 +156,10 @@ def beyond_the_stack(design: SheddingDesign, index: int) -> float:
     shaft = design.shafts[index]
     bar, seat = shaft.shaft.bar, shaft.seat.bearing
     square = bar**2 * (2 * bearing_inner(design, index) - shaft.shaft.length)
+    square -= 2 * shaft.seat.screw_room * (bar**2 - area(cut_square(shaft)))
     driven = catalogue.keyed_journal(shaft.driven_end).volume
-    return square + driven + 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET) + 2 * NUT * (math.pi - 1) * bar**2
+    journals = 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET + BEFORE_KEY)
+    return square + driven + journals + 2 * NUT * (math.pi - 1) * bar**2
 
 
 @pytest.mark.parametrize(("shafts", "guides"), [(1, "cams"), (1, "reed"), (3, "cams"), (2, "reed")])

@@ -9,10 +9,11 @@ from cloths import cloth
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.shedding.tree import bearing_inner
+from ilmek.machines.shedding.tree import bearing_inner, cut_square
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.design import USUAL_TUBES, keeps_limits, worst_load
 from ilmek.part.catalogue import keyed_journal
+from ilmek.plane.contours import area
 from ilmek.units import mm
 
 
@@ -44,7 +45,8 @@ def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
     (shaft,) = made.shafts
     bar, seat = shaft.shaft.bar, shaft.seat
     beyond = bar**2 * (2 * bearing_inner(made, 0) - made.params.cloth.width)
-    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * seat.through + keyed_journal(shaft.driven_end).volume
+    beyond -= 2 * seat.screw_room * (bar**2 - area(cut_square(shaft)))
+    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * seat.journal + keyed_journal(shaft.driven_end).volume
     within = parts["cam shaft"].mass - made.params.density * (beyond + journals)
     assert cams + within == pytest.approx(made.stack.mass, rel=1e-9)
     assert [part.name for part in parts.values() if part.drives] == ["motor of the cam shaft"]

@@ -72,12 +72,13 @@ class Workshop:
     """The files that were written.
 
     entries   of the index, one per file: part, error, number of points
-    left_out  warnings of parts whose files cannot be made
+    left_out  warnings of parts whose files cannot be made      found  checks made for the papers
     """
 
     folder: Path
     entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
+    found: tuple[Check, ...] = ()
 
     @property
     def files(self) -> list[str]:
@@ -114,7 +115,7 @@ class Workshop:
             reverse=True,
         )
         missed = sum(not entry["kept"] for entry in tables)
-        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
+        return (complete, *self.found, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
 
     def judged(self, report: Report) -> Report:
         """A report with the checks of the files that were written for it."""
@@ -192,11 +193,11 @@ def write_workshop(
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
         files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
-        judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
+        judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
         files += write_papers(papers, judged, work)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
-    return Workshop(folder, tuple(files), tuple(left_out))
+    return Workshop(folder, tuple(files), tuple(left_out), papers.checks)
 
 
 def _files(

@@ -1,6 +1,6 @@
 """Bearings of shafts on the frame's brackets: each in a housing on the inner face of its bracket.
 
-A shaft reaches through bearing and bracket, and ends at the outer face, where its reducer is flanged on. An insert
+A shaft reaches through bearing and bracket, and ends there, where its reducer is flanged on. An insert
 bearing comes in its flanged housing (UCF), any other sits in a square plate as wide as itself. Four screws hold it on
 the bracket, which has their threads; they bear the shaft's force by friction [`elements.hexagon_screws`].
 
@@ -36,6 +36,9 @@ CLEAR = 2 * mm
 _THREADS = (25 * mm, 10 * mm), (50 * mm, 12 * mm), (math.inf, 16 * mm)
 """Greatest bores of bearings, and threads for the holes of their housings, 12, 14 to 16 and 19 mm [ISO 3228]."""
 
+_PLAY = 3 * mm
+"""Room of a screw that comes out beyond its length [m]; assumed by this project."""
+
 _HOUSING = 1.5
 """Side of a housing over the outer diameter of its bearing; assumed by this project."""
 
@@ -68,8 +71,28 @@ class BearingSeat:
 
     @property
     def through(self) -> float:
-        """Length of the shaft through bearing and bracket [m]."""
+        """From the inner side of the bearing to the outer face of the bracket [m]."""
         return self.bearing.width + BRACKET
+
+    @property
+    def journal(self) -> float:
+        """Length of the shaft through both, and beyond, so that a key in its end keeps off the bracket [m]."""
+        return self.through + catalogue.BEFORE_KEY
+
+    @property
+    def screw_length(self) -> float:
+        """Length of its screws [m]."""
+        return self.screws.screw.length_for(self._thick + BRACKET)
+
+    @property
+    def screw_room(self) -> float:
+        """Room inside of the bearing that a screw needs to come out of flange and bracket [m]."""
+        return max(0.0, self.screw_length + self.screws.screw.head + self._thick - self.bearing.width) + _PLAY
+
+    @property
+    def _thick(self) -> float:
+        """Thickness of what the screws hold [m]."""
+        return catalogue.FLANGE if self.bearing.flange else self.bearing.width
 
     @property
     def screws(self) -> FourScrews:
@@ -97,9 +120,8 @@ class BearingSeat:
         holes = tuple(circle(complex(corner), chosen.diameter / 2) for corner in self.corners())
         own = catalogue.bearing(ids[0], title, row, holes)
         flipped = placement(z=row.width, about=(1.0, 0.0, 0.0), angle=math.pi)
-        thick = catalogue.FLANGE if row.flange else row.width
-        screw = catalogue.screw(f"{ids[0]}-screw", f"screw of the {title}", chosen, chosen.length_for(thick + BRACKET))
-        under = [placement(float(z.real), float(z.imag), row.width - thick) for z in self.corners()]
+        screw = catalogue.screw(f"{ids[0]}-screw", f"screw of the {title}", chosen, self.screw_length)
+        under = [placement(float(z.real), float(z.imag), row.width - self._thick) for z in self.corners()]
         screws = Occurrence(screw, tuple(seat.after(one) for seat in at for one in under))
         if row.flange:
             return Occurrence(own, tuple(seat.after(flipped) for seat in at)), screws

@@ -29,6 +29,9 @@ REDUCER_LENGTH = 1.2
 HOLLOW, WALL = 0.5 * mm, 10 * mm
 """Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
 
+BEFORE_KEY = 5 * mm
+"""From the face that a reducer sits on to the key in its hollow shaft [m]; assumed by this project."""
+
 FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
 
@@ -64,7 +67,9 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
         hollow = abs(corner) + HOLLOW
         face = max(face, 2 * hollow + 2 * WALL)
-        room = Prism(Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, end.length))
+        room = Prism(
+            Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, BEFORE_KEY + end.length)
+        )
     return bought_part(name, title, "reducer", room, bought)
 
 

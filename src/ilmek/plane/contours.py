@@ -5,6 +5,7 @@ where b < 0 and right of it where b > 0; b = 1 is a half turn to the left. Point
 [bulge: the convention of DXF polylines; the formulas are derived from the circle's chord and sweep]
 """
 
+import cmath
 import math
 from functools import lru_cache
 from typing import NamedTuple
@@ -72,6 +73,51 @@ def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Con
     turns = np.angle(outward / before) % (2 * math.pi)
     bulges = np.stack([np.tan(turns / 4), np.zeros(len(around))], axis=1).ravel()
     return Contour(points, bulges)
+
+
+def slotted(outline: Contour, end: complex, outwards: complex, half: float) -> Contour:
+    """A convex counter-clockwise contour with a slot from a point in it to its edge, round at its end [m].
+
+    end  centre of the slot's round end      outwards  direction to the edge, of any length      half  of its width
+
+    Raises ParameterError where the slot does not leave the contour by two points of its edge.
+    >>> plate = slotted(polygon(np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])), 0j, 1 + 0j, 0.5)
+    >>> round(area(plate), 12) == round(4 - 1 - math.pi * 0.25 / 2, 12)
+    True
+    """
+    turned = outwards / abs(outwards)
+    points = (outline.points - end) / turned
+    sides = [crossing for side in (-half, half) if (crossing := _crossing(points, outline.bulges, side)) is not None]
+    if len(sides) < 2:
+        raise ParameterError(f"a slot {format_quantity(2 * half, 'mm')} wide beside its plate", do="set a wider plate")
+    (last, low, before), (first, high, after) = (own[:3] for own in sides)
+    kept = (first + 1 + np.arange((last - first - 1) % len(points) + 1)) % len(points)
+    corners = np.concatenate([[high], points[kept], [low, -1j * half, 1j * half]])
+    bulges = np.concatenate([[after[1]], outline.bulges[kept[:-1]], [before[0], 0.0, -1.0, 0.0]])
+    return Contour(end + turned * corners, bulges)
+
+
+def _crossing(points: ComplexArray, bulges: FloatArray, side: float) -> tuple[int, complex, tuple[float, float]] | None:
+    """Where a convex contour crosses y = side at x > 0: number of its piece, point, bulges of the piece's two parts."""
+    for piece, (start, stop, bulge) in enumerate(
+        zip(points.tolist(), following(points).tolist(), bulges.tolist(), strict=True)
+    ):
+        if abs(bulge) < STRAIGHT:
+            share = (side - start.imag) / (stop.imag - start.imag) if stop.imag > start.imag else math.inf
+            crossed = start + share * (stop - start) if 0 <= share < 1 else complex(math.nan)
+            parts = (0.0, 0.0)
+        else:
+            centre = arc_centre(start, stop, bulge)
+            radius, up = abs(start - centre), side - centre.imag
+            crossed = centre + complex(math.sqrt(radius**2 - up**2), up) if abs(up) < radius else complex(math.nan)
+            sweep = 4 * math.atan(bulge)
+            passed = cmath.phase((crossed - centre) / (start - centre)) % (2 * math.pi)
+            if not 0 <= passed < sweep:
+                continue
+            parts = (math.tan(passed / 4), math.tan((sweep - passed) / 4))
+        if crossed.real > 0:
+            return piece, crossed, parts
+    return None
 
 
 def keyed_bore(radius: float, width: float, depth: float, number: int = 1) -> Contour:

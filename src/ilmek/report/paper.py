@@ -4,6 +4,7 @@ Titles, headings and paragraphs are sentences of the catalogue, so that a paper 
 """
 
 from ilmek.records import record
+from ilmek.report.check import Check
 from ilmek.report.figure import Drawing
 from ilmek.report.table import Table
 
@@ -34,10 +35,11 @@ class Paper:
 
 @record
 class Papers:
-    """The papers of a machine: pages for people, in each language, and lists for other programs."""
+    """The papers of a machine: pages for people, in each language, lists for other programs, checks made for them."""
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
+    checks: tuple[Check, ...] = ()
 
 
 NO_PAPERS = Papers()

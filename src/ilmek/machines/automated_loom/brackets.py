@@ -8,6 +8,11 @@ middle, out of it; its height h is that of its outline at the column:
     s h² - 6 sum(R o) / t² h - 6 sum(R d) / t = 0            s: yield over the safety of the columns      [beam theory]
 
 It is never lower than its housings are wide, nor does it reach to the reducer of a cam shaft.
+
+A shaft comes with its bearings on it, from the side away from the column: there its bore is a slot to the plate's edge.
+Each of the two arms beside the slot bears half of the bearing's force, at the farther screw, and is bent as above, d
+from that screw to the shaft's axis. The bore of a bearing that slides with the cams is closed: its screws' slots would
+be cut.
 Side view: complex, x to the front, y up from the fell [m].
 The back rest lies on a beam from bracket to bracket, which bears the warps' pull P down and to the back, sqrt(2) P.
 """
@@ -30,7 +35,7 @@ from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.part import catalogue
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
-from ilmek.plane.contours import circle, rounded_hull
+from ilmek.plane.contours import circle, rounded_hull, slotted
 from ilmek.plane.curves import hull
 from ilmek.records import record
 from ilmek.report import Check, Contour, at_least, at_most
@@ -56,8 +61,9 @@ class Bracket:
     name, title   of the part                         inner   face from the middle of the width [m]
     nodes         that its outline surrounds [m]          ends    of their hull at the column's axis, its heights [m]
     radius        of the outline about them [m]
-    bores         through it [m]                      seats   that stand on it
-    seat          of the bearing on it
+    bores         through it beside the shaft's [m]
+    seat, axis    of the bearing on it, of its shaft in the side view [m]
+    opening       direction in which the shaft's bore is open; None: it is closed
     load, moment  sum of the forces [N], and of their moments about the column's axis in its plane, out of it [N m]
     """
 
@@ -69,6 +75,8 @@ class Bracket:
     radius: float
     bores: tuple[Contour, ...]
     seat: BearingSeat
+    axis: complex
+    opening: complex | None
     load: float
     moment: tuple[float, float]
 
@@ -80,17 +88,28 @@ class Bracket:
     @property
     def plate(self) -> Prism:
         """The plate in the side view, from z = 0."""
-        return Prism(Profile(rounded_hull(self.nodes, self.radius), self.bores), BRACKET)
+        outline = rounded_hull(self.nodes, self.radius)
+        if self.opening is not None:
+            outline = slotted(outline, self.axis, self.opening, self.seat.bore / 2)
+        return Prism(Profile(outline, self.bores), BRACKET)
 
     @property
     def stress(self) -> float:
-        """Greatest stress at the column [Pa]."""
-        return 6 * self.moment[0] / (BRACKET * self.depth**2) + 6 * self.moment[1] / (self.depth * BRACKET**2)
+        """Greatest stress at the column, or beside the slot [Pa]."""
+        at_column = 6 * self.moment[0] / (BRACKET * self.depth**2) + 6 * self.moment[1] / (self.depth * BRACKET**2)
+        return at_column if self.opening is None else max(at_column, arm_stress(self.seat, self.radius))
 
     @property
     def depth(self) -> float:
         """Height of the outline at the column [m], more where its edges slope there."""
         return self.ends[1] - self.ends[0] + 2 * self.radius
+
+
+def arm_stress(seat: BearingSeat, edge: float) -> float:
+    """Greatest stress beside the slot of a seat's shaft [Pa]; edge  of the plate, from the shaft's axis [m]."""
+    height = edge - seat.bore / 2
+    lever, aside = float(seat.corners().real.max()), (seat.bearing.width + BRACKET) / 2
+    return 3 * seat.force * (lever / (BRACKET * height**2) + aside / (height * BRACKET**2))
 
 
 def least_height(moment: tuple[float, float], stress: float) -> float:
@@ -194,8 +213,10 @@ def _upper(
         nodes,
         ends,
         _radius(loom, moment, ends, max(seat.radius, sides), _over_reducers(loom, nodes)),
-        bores_of(seat, np.array([at])),
+        screw_bores(seat, np.array([at])),
         seat,
+        at,
+        complex(at.real - column),
         sum(load for load, *_ in loads),
         moment,
     )
@@ -248,19 +269,21 @@ def _of_seat(  # noqa: PLR0917
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
     outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
     nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
-    bores = bores_of(seat, moved)
-    return Bracket(name, title, far + seat.bearing.width, nodes, ends, radius, bores, seat, force, moment)
+    bores = (
+        screw_bores(seat, moved) if shift is None else (rounded_hull(moved, seat.bore / 2), *screw_bores(seat, moved))
+    )
+    opening = complex(at.real - loom.side.column) if shift is None else None
+    inner = far + seat.bearing.width
+    return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, force, moment)
 
 
-def bores_of(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
-    """The bores of a seat for its shaft and its screws, at its positions [m]: slots where it moves."""
+def screw_bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:
+    """The bores for the screws of a seat, at its positions [m]: slots where it moves."""
     screw, corners = seat.screws.screw.diameter / 2, seat.corners()
     if len(moved) == 1:
-        screws = tuple(circle(complex(moved[0] + corner), screw) for corner in corners)
-        return (circle(complex(moved[0]), seat.bore / 2), *screws)
+        return tuple(circle(complex(moved[0] + corner), screw) for corner in corners)
     sides = (corners[corners.real > 0], corners[corners.real < 0])
-    slots = tuple(rounded_hull(np.add.outer(moved, side).ravel(), screw) for side in sides)
-    return (rounded_hull(moved, seat.bore / 2), *slots)
+    return tuple(rounded_hull(np.add.outer(moved, side).ravel(), screw) for side in sides)
 
 
 def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:

@@ -13,7 +13,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.fillet_welds import TwoSeams, throat_for
 from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR, RoundPart, rolled, under_the_fell
-from ilmek.machines.automated_loom.brackets import bores_of, least_height
+from ilmek.machines.automated_loom.brackets import arm_stress, least_height, screw_bores
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, column_checks
 from ilmek.machines.automated_loom.joints import Seam
@@ -27,7 +27,7 @@ from ilmek.machines.warp_tension.tree import HANDLE_SIZE, winding_reducer
 from ilmek.part import catalogue
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
-from ilmek.plane.contours import polygon
+from ilmek.plane.contours import polygon, slotted
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -57,8 +57,9 @@ class CylinderBracket:
 
     @property
     def stress(self) -> float:
-        """Greatest stress at the column [Pa]."""
-        return 6 * self.moment[0] / (BRACKET * self.height**2) + 6 * self.moment[1] / (self.height * BRACKET**2)
+        """Greatest stress at the column, or beside the slot [Pa]."""
+        at_column = 6 * self.moment[0] / (BRACKET * self.height**2) + 6 * self.moment[1] / (self.height * BRACKET**2)
+        return max(at_column, arm_stress(self.seat, self.height / 2))
 
     def seam(self, column: HollowSquare) -> Seam:
         """Its weld to a column, or to the spacer between."""
@@ -166,6 +167,7 @@ def _bracket(  # noqa: PLR0917
     back, front = depth - column.side / 2, at.real + seat.side / 2 + EDGE
     level = at.imag + high / 2 * np.array([-1, -1, 1, 1])
     outline: ComplexArray = np.array([back, front, front, back]) + 1j * level
-    plate = Prism(Profile(polygon(outline), bores_of(seat, np.array([at]))), BRACKET)
+    opened = slotted(polygon(outline), at, 1 + 0j, seat.bore / 2)  # the cylinder comes from the front
+    plate = Prism(Profile(opened, screw_bores(seat, np.array([at]))), BRACKET)
     inner = params.span / 2 + params.stub + seat.bearing.width
     return CylinderBracket(own, at, inner, plate, high, moment)

@@ -98,7 +98,7 @@ def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     stack, bar = shaft.stack, shaft.shaft.bar
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
     end, title = shaft.driven_end, _numbered(design, index, "key of the cam shaft")
-    far = bearing_inner(design, index) + shaft.seat.through + end.length
+    far = bearing_inner(design, index) + shaft.seat.journal + end.length
     yield catalogue.keys(part_id("key", index), title, end, placement(z=-far))
     x, odd = _of(design, index)
     group, lag = _groups(shaft, odd)
@@ -155,29 +155,41 @@ def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
 
 def bearing_inner(design: SheddingDesign, index: int) -> float:
     """Inner side of a shaft's bearing from the middle of the width [m]: it stands at the shaft's support, or beyond the
-    nut that clamps the cams.
+    nut that clamps the cams, with room for its screws.
     """
     shaft = design.shafts[index]
     ends = max(abs(end) for end in _stack_ends(design, index))
-    return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + NUT)
+    return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + NUT + shaft.seat.screw_room)
 
 
 def _bar(design: SheddingDesign, index: int) -> Part:
     """The square bar between its bearings, with a journal at both ends through bearing and bracket, from z = 0.
 
+    Beside the bearings its corners are cut, so that the screws of these come past them.
     The driven one reaches into its reducer, where a key holds it.
     """
     shaft = design.shafts[index]
     bar, long = shaft.shaft.bar, 2 * bearing_inner(design, index)
-    journal, end = round_bar(shaft.seat.bearing.bore, shaft.seat.through), shaft.driven_end
+    beyond, end, room = shaft.seat.journal, shaft.driven_end, shaft.seat.screw_room
+    journal = round_bar(shaft.seat.bearing.bore, beyond)
     shape = Sum(
         (
-            Placed(Prism(Profile(_square(bar)), long)),
-            Placed(journal, (placement(z=long), placement(z=-shaft.seat.through))),
-            Placed(catalogue.keyed_journal(end), (placement(z=-shaft.seat.through - end.length),)),
+            Placed(Prism(Profile(_square(bar)), long - 2 * room), (placement(z=room),)),
+            Placed(Prism(Profile(cut_square(shaft)), room), (placement(), placement(z=long - room))),
+            Placed(journal, (placement(z=long), placement(z=-beyond))),
+            Placed(catalogue.keyed_journal(end), (placement(z=-beyond - end.length),)),
         )
     )
     return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {in_mm(bar)}")
+
+
+def cut_square(shaft: CamShaft) -> Contour:
+    """The square of the bar, its corners cut where they would be in the way of the bearings' screws."""
+    half, seat = shaft.shaft.bar / 2, shaft.seat
+    edge = abs(seat.corners()[0]) - seat.screws.screw.across / 2 - mm
+    side = min(max(math.sqrt(2) * edge - half, mm), half)  # half of what remains of a side
+    ends = np.array([half + 1j * side, side + 1j * half]) if side < half else np.array([half + 1j * half])
+    return polygon(np.concatenate([ends * 1j**k for k in range(4)]))
 
 
 def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:

@@ -114,7 +114,7 @@ def _end_shape(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
     """Plug, flange and journal of a shaft end, about z from z = 0."""
     rim, journal = min(RIM, params.stub / 2), cylinder.seat.bearing.bore
     steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
-    length = params.stub - rim + cylinder.seat.through
+    length = params.stub - rim + cylinder.seat.journal
     return stepped(*(one for one in steps if min(one) > 0), (journal, length))
 
 

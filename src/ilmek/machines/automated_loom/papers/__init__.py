@@ -3,7 +3,7 @@
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
+from ilmek.machines.automated_loom.papers.assembly_manual import assembly_check, assembly_manual
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
@@ -21,4 +21,4 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
     )
-    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))
+    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices), (assembly_check(loom),))
