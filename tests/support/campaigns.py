@@ -77,7 +77,7 @@ def lawful(tests: Path) -> tuple[Path, ...]:
 
 def _shapes(seed: int, share: bool) -> Run:
     paths = rotated(list(engine_paths()), seed, share)
-    return Run((*PYTEST, CHECKED, *paths))
+    return Run((*PYTEST, *CHECKED, *paths))
 
 
 def _browser(seed: int, share: bool) -> Run:

@@ -109,7 +109,7 @@ def _gradient(rgb: Rgb) -> Energy:
     return made.astype(np.float32)
 
 
-def _reduced(energy: Energy, factor: int) -> Energy:
+def _reduced(energy: Energy, factor: int) -> Float32[np.ndarray, "coarse_height coarse_width"]:
     """The means of blocks of factor × factor."""
     if factor == 1:
         return energy
