@@ -193,7 +193,7 @@ def write_workshop(
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
         files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
         judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
-        files += write_papers(papers, judged, work)
+        files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files), tuple(left_out))

@@ -14,6 +14,7 @@ PAPERS = {
     "paper.not-released-why": "Checks of this design do not hold. Make nothing of it; the index has the reasons.",
     "paper.made-by": "Made by ilmek {version}. All numbers are computed from the design, in the units beside them.",
     "paper.language": "English",
+    "paper.issue": "Revision {revision}, {date}",
     # Maintenance
     "maintenance.title": "Maintenance",
     "maintenance.lead": "Lives of what wears, lubrication, spare parts",

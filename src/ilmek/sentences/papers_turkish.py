@@ -14,6 +14,7 @@ PAPERS = {
     "paper.not-released-why": "Bu tasarımın bazı denetimleri sağlanmıyor. Parça yapmayın; nedenler dizindedir.",
     "paper.made-by": "ilmek {version} ile yapıldı. Bütün sayılar tasarımdan hesaplanmıştır; birimleri yanlarındadır.",
     "paper.language": "Türkçe",
+    "paper.issue": "Revizyon {revision}, {date}",
     # Maintenance
     "maintenance.title": "Bakım",
     "maintenance.lead": "Aşınan parçaların ömrü, yağlama, yedek parçalar",
