@@ -4,7 +4,9 @@ Titles, headings and paragraphs are sentences of the catalogue, so that a paper 
 """
 
 from ilmek.records import record
+from ilmek.report.check import Check
 from ilmek.report.figure import Drawing
+from ilmek.report.sheet import Schematic
 from ilmek.report.table import Cell, Table
 
 
@@ -19,7 +21,7 @@ class PaperSection:
     paragraphs: tuple[str, ...] = ()
     table: Table | None = None
     boxes: bool = False
-    figure: Drawing | None = None
+    figure: Drawing | Schematic | None = None
 
 
 @record
@@ -75,10 +77,14 @@ class PrintedPaper:
 
 @record
 class Papers:
-    """The papers of a machine: pages for people, in each language, and lists for other programs."""
+    """The papers of a machine: pages for people, in each language, and lists for other programs.
+
+    checks  what was judged for them, beside the checks of the report
+    """
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
+    checks: tuple[Check, ...] = ()
 
 
 NO_PAPERS = Papers()

@@ -6,11 +6,12 @@ from dataclasses import replace
 import ilmek
 from ilmek.report import Check, Drawing, IndexEntry, Paper, PaperSection, Table
 from ilmek.report.paper import BOX, PrintedPaper, PrintedSection
-from ilmek.report.sheet import Issue
+from ilmek.report.sheet import Issue, Schematic
 from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, in_language, translated
 from ilmek.viz.number_format import cells
 from ilmek.viz.page import render, sentence
-from ilmek.viz.style import with_unit
+from ilmek.viz.schematic import draw_schematic
+from ilmek.viz.style import FONTS, with_unit
 from ilmek.viz.svg import svg
 
 INDEX_PAGE = "index"
@@ -100,8 +101,12 @@ def _own_name(language: str) -> str:
         return translated(Sentence("paper.language"))
 
 
-def _drawn(figure: Drawing) -> str:
-    return svg(replace(figure, title=translated(figure.title)))
+def _drawn(figure: Drawing | Schematic) -> str:
+    title = translated(figure.title)
+    if isinstance(figure, Drawing):
+        return svg(replace(figure, title=title))
+    texts = tuple(replace(text, words=translated(text.words)) for text in figure.texts)
+    return draw_schematic(replace(figure, texts=texts)).svg(title, FONTS)
 
 
 def _translated(table: Table) -> Table:

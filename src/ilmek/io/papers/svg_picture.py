@@ -22,6 +22,7 @@ class SvgPicture(Flowable):  # type: ignore[misc]
 
     def __init__(self, text: str, highest: float) -> None:
         super().__init__()
+        self.spaceAfter = 8.0
         self.root = ET.fromstring(text)
         self.size = tuple(float(side) for side in self.root.attrib["viewBox"].split()[2:])
         self.highest, self.scale = highest, 1.0
