@@ -73,11 +73,13 @@ class Workshop:
 
     entries   of the index, one per file: part, error, number of points
     left_out  warnings of parts whose files cannot be made
+    judged_for_papers  checks of the papers
     """
 
     folder: Path
     entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
+    judged_for_papers: tuple[Check, ...] = ()
 
     @property
     def files(self) -> list[str]:
@@ -105,7 +107,9 @@ class Workshop:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss."""
+        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss;
+        the checks of the papers.
+        """
         cure = "see the notes: change the part, or order it otherwise"
         complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions").with_cure(cure)
         tables = sorted(
@@ -114,7 +118,7 @@ class Workshop:
             reverse=True,
         )
         missed = sum(not entry["kept"] for entry in tables)
-        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
+        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]), *self.judged_for_papers)
 
     def judged(self, report: Report) -> Report:
         """A report with the checks of the files that were written for it."""
@@ -192,11 +196,11 @@ def write_workshop(
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
         files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
-        judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
-        files += write_papers(papers, judged, work)
+        judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
+        files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
-    return Workshop(folder, tuple(files), tuple(left_out))
+    return Workshop(folder, tuple(files), tuple(left_out), papers.checks)
 
 
 def _files(

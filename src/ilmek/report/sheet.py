@@ -72,6 +72,16 @@ class SheetText:
     light: bool = False
 
 
+@record
+class Schematic:
+    """A diagram of a circuit: lines and texts, not to scale."""
+
+    name: str
+    title: str
+    lines: tuple[SheetLine, ...]
+    texts: tuple[SheetText, ...]
+
+
 class DimensionKind(StrEnum):
     """How a dimension is measured."""
 
