@@ -13,6 +13,7 @@ from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import edge_view, flat_part, outline_view
 from ilmek.viz.drawings.joined import joined_views, members_of
@@ -57,12 +58,13 @@ class Arrangement:
 
 def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrangement | None:
     """The views of a part at a scale [mm of the paper per m]; None: the kernel is needed, and missing."""
-    fits, shape = Fits(part.features), part.shape
+    fits, shape = Fits(part.features, part.stated.roughness if part.stated else None), part.shape
     fit_table = fits.table()
     tables = () if fit_table is None else (fit_table,)
     if isinstance(shape, Prism) and is_long(shape.section, shape.length):
         flat = flat_part(shape.section, fits)
         section, more = outline_view(flat, scale, fits)
+        face_notes(section, fits, *FRONT)
         return Arrangement({"front": bar_view(flat, shape.length, scale), "right": section}, (*tables, *more))
     if isinstance(shape, Prism):
         flat = flat_part(shape.section, fits, smooth=part.smooth)
@@ -73,6 +75,8 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
         low, high = bounds(flat.outline)
         below = (high - low).real > (high - low).imag * 1.2
         edge = edge_view(flat, shape.length, scale, below=below)
+        face_notes(front, fits, *FRONT)
+        face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
         return Arrangement({"front": front, "below" if below else "right": edge}, (*tables, *more))
     if isinstance(shape, Turned):
         return Arrangement({"front": turned_view(shape.profile, scale, fits)}, tables)

@@ -78,12 +78,12 @@ class DrawnPart:
         return "as delivered" if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
 
     @property
-    def edges(self) -> str:
-        """States of outer and inner edges, ISO 13715."""
+    def edges(self) -> tuple[str, str]:
+        """States of outer and inner edges [mm], ISO 13715; "": not known."""
         if self.stated is None:
-            return "—"
+            return "", ""
         outer, inner = self.stated.outer_edge / mm, self.stated.inner_edge / mm
-        return f"outer {outer:+g}  inner {inner:+g}".replace("-", "−")
+        return f"{outer:+g}".replace("-", "−"), f"{inner:+g}".replace("-", "−")
 
     @property
     def general(self) -> str:
