@@ -10,7 +10,7 @@ from ilmek.part.shapes import Prism, Turned
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
-from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
+from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
@@ -31,7 +31,7 @@ from ilmek.viz.drawings.paper import (
     table,
     title_block,
 )
-from ilmek.viz.drawings.picture import SheetPicture, joined_box
+from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
 
@@ -71,7 +71,7 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
         circles = cam_circles(part) if is_cam(part) else None
         front, more = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
         if is_cam(part):
-            mark_zero(front, part)
+            mark_cam(front, part)
         low, high = bounds(flat.outline)
         below = (high - low).real > (high - low).imag * 1.2
         edge = edge_view(flat, shape.length, scale, below=below)
@@ -103,13 +103,15 @@ def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple
 
 def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     """The second sheet of a cam: its radii at each degree."""
-    _, height = PAPERS["A3"]
     listed = merged(radius_tables(part))
-    words = "Radii in mm about the bore, θ counter-clockwise from the zero mark, seen as on sheet 1"
+    wide = listed.box[2] + LEFT + EDGE + _PAD
+    paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
+    within = f", ±{millimetres(part.cam.tolerance)}" if part.cam else ""
+    words = f"Radii in mm about the bore{within}, θ counter-clockwise from the zero mark, seen as on sheet 1"
     caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
     corner = complex(LEFT + _PAD, height - EDGE - 11.0)
     laid = merged([_top_left(listed, corner), SheetPicture((), (caption,), ())])
-    return _sheet(part, issue, "A3", 1.0, laid, 2)
+    return _sheet(part, issue, paper, 1.0, laid, 2)
 
 
 def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> DrawingSheet | None:
@@ -220,7 +222,7 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
 
 def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
-    lines = [*part.notes]
+    lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
     if part.file:
         lines.append(f"Contour: {part.file}, scale 1:1")
     if not lines:

@@ -6,7 +6,7 @@ from dataclasses import field
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
-from ilmek.part.part import Part
+from ilmek.part.part import CamMaking, Part
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
@@ -26,7 +26,7 @@ class DrawnPart:
     number   of the drawing: the part's id        name  of its files
     shape    of the package `part`                flat  it is cut from flat stock       pieces  to be made
     file     of its flat pattern, for the laser   smooth  its outline is a curve
-    stated   what holds for the part as a whole; None: not known
+    stated   what holds for the part as a whole; None: not known        cam  how a disc cam is cut; None: it is none
     """
 
     number: str
@@ -46,6 +46,7 @@ class DrawnPart:
     file: str = ""
     smooth: bool = False
     stated: PartSpecification | None = None
+    cam: CamMaking | None = None
 
     @property
     def mass(self) -> float:
@@ -110,7 +111,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
-        _stated(part),
+        _stated(part), part.cam if part else None,
     )  # fmt: skip
 
 
