@@ -8,6 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
+from ilmek.part.welds import Weld
 from ilmek.plane.contours import along, bounds, counter_clockwise
 from ilmek.records import record
 from ilmek.report import Contour
@@ -18,6 +19,7 @@ from ilmek.viz.drawings.fits import Fits, Span, span_of
 from ilmek.viz.drawings.flat import PARALLEL, FlatPart, edge_levels
 from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength
+from ilmek.viz.drawings.weld_symbols import weld_symbols
 
 MOST_DIAMETERS = 10
 """Diameters of a turned part that are labelled; of more, the largest and smallest."""
@@ -245,8 +247,8 @@ def _diameter(  # noqa: PLR0917
     )  # fmt: skip
 
 
-def bar_view(flat: FlatPart, length: float, scale: float) -> DrawnView:
-    """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines."""
+def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] = ()) -> DrawnView:
+    """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines; welds at its ends."""
     view = DrawnView(scale)
     low, high = bounds(flat.outline)
     cut = shortening([0.0, length], (high - low).imag)
@@ -274,6 +276,7 @@ def bar_view(flat: FlatPart, length: float, scale: float) -> DrawnView:
             view.line(LineKind.BREAK, line.points / scale + 1j * middle, body=False)
     feet = (complex(0.0, low.imag) * scale, complex(float(ends[1]), low.imag) * scale)
     view.rows([MeasuredLength(*feet, length)], across=False)
+    weld_symbols(view, welds, lambda weld: complex(float(cut.drawn(weld.middle[2])), high.imag) * scale)
     return view
 
 

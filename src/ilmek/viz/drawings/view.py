@@ -227,14 +227,41 @@ class DrawnView:
         sector: tuple[complex, complex] | None = None,
         measured: tuple[complex, complex] | None = None,
         note: FeatureNote = NO_NOTE,
-    ) -> None:
+        lead: str = "",
+    ) -> complex:
         """A text beside a circle or arc, or beside a point (radius 0), with a line to it.
 
         sector    the ends of an arc, counter-clockwise, within which the line ends; None: anywhere
         measured  both ends of what is dimensioned, where they are not those of the circle or arc
         note      what hangs below the text
+        lead      first words of it, below which alone the line goes on, to the right; "": below all
+        Returns the elbow of the line.
         """
         hung = None if note.is_bare else note.hanging().box
+        tip, elbow, text = self._spot(words, centre, radius, sector, hung)
+        box = text_box(text)
+        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
+        shelf = elbow + 1.5 + text_width(lead, LETTER / CAPITAL) if lead else shelf
+        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
+        inward = tip - elbow
+        self._boxes.append(box)
+        if hung is not None:
+            self._hang(note, _box_below(box, hung, text.anchor))
+        if kind is None:
+            self._texts.append(text)
+            self._add(line, body=False)
+            if hung is not None or lead:
+                self._add(SheetLine(LineKind.DIMENSION, np.array(arrowhead(tip, inward)), closed=True), body=False)
+            return elbow
+        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
+        ends = measured or (far, tip)
+        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        return elbow
+
+    def _spot(  # noqa: PLR0917
+        self, words: str, centre: complex, radius: float, sector: tuple[complex, complex] | None, hung: Box | None
+    ) -> tuple[complex, complex, SheetText]:
+        """Tip and elbow of a leader, and its text, at the nearest free spot; hung  room of what hangs below it."""
         samples = np.concatenate([np.zeros(0, complex), *self._samples])
         best: tuple[float, complex, complex, SheetText] | None = None
         for distance in (6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0, 90.0):
@@ -253,23 +280,13 @@ class DrawnView:
             if best is not None and best[0] < 3:
                 break
         assert best is not None
-        _, tip, elbow, text = best
-        box = text_box(text)
-        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
-        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
-        inward = tip - elbow
-        self._boxes.append(box)
-        if hung is not None:
-            self._hang(note, _box_below(box, hung, text.anchor))
-        if kind is None:
-            self._texts.append(text)
+        return best[1:]
+
+    def draw(self, lines: Sequence[SheetLine]) -> None:
+        """Lines at positions of the paper, on which no text may lie."""
+        for line in lines:
             self._add(line, body=False)
-            if hung is not None:
-                self._add(SheetLine(LineKind.DIMENSION, np.array(arrowhead(tip, inward)), closed=True), body=False)
-            return
-        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
-        ends = measured or (far, tip)
-        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        self._boxes.append(joined_box([box_around(line_points(line)) for line in lines]))
 
     def _hang(self, note: FeatureNote, room: Box) -> None:
         """Draw what hangs below a text in its room."""
@@ -277,8 +294,7 @@ class DrawnView:
         below = hanging.moved(complex(room[0] - hanging.box[0], room[3] - hanging.box[3]))
         self._boxes.append(room)
         self._texts += below.texts
-        for line in below.lines:
-            self._add(line, body=False)
+        self.draw(below.lines)
 
     def tag(self, words: str, centre: complex, radius: float) -> None:
         """A short name beside a hole."""
