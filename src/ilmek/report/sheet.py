@@ -23,6 +23,9 @@ class LineKind(StrEnum):
     PATH = "path"
     FRAME = "frame"
     BREAK = "break"
+    TOLERANCE = "tolerance"
+    TEXTURE = "texture"
+    WELD = "weld"
 
 
 LINE_WIDTHS = {
@@ -34,6 +37,9 @@ LINE_WIDTHS = {
     LineKind.PATH: 0.25,
     LineKind.FRAME: 0.7,
     LineKind.BREAK: 0.25,
+    LineKind.TOLERANCE: 0.25,
+    LineKind.TEXTURE: 0.25,
+    LineKind.WELD: 0.35,
 }
 """Width of each kind of line [mm]; ISO 128-2, group 0.5; of the frame ISO 5457."""
 

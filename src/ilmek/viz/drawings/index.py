@@ -94,7 +94,7 @@ def _page(  # noqa: PLR0917
     top = complex(26.0, height - 16.0)
     pictures = [frame(paper)]
     facts = TitleFacts(
-        f"{report.machine}/parts", report.title, "Parts list", "—", "—", "—", str(1), "—", "", "—", "—",
+        f"{report.machine}/parts", report.title, "Parts list", "—", "—", "—", str(1), "—", "", "—", ("", ""),
         "NOT RELEASED" if issue.unreleased else "For production", issue.owner, issue.date, issue.revision,
     )  # fmt: skip
     pictures.append(title_block(facts, paper, 1.0, page, pages))

@@ -22,7 +22,7 @@ from ilmek.viz.drawings.flat import PARALLEL
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Axis, Projector
-from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength, coordinate
 
 VIEWS: dict[str, tuple[Axis, Axis]] = {
     "front": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
@@ -189,11 +189,11 @@ def _circles(
         centre = max(different, key=lambda c: c.real + c.imag)
         for each in different:
             view.cross(each, radius)
-        suffixes = (fits.suffix(2 * radius, kind) for kind in (FeatureKind.BORE, FeatureKind.JOURNAL))
-        suffix = next(filter(None, suffixes), "")
+        notes = (fits.note(2 * radius, kind) for kind in (FeatureKind.BORE, FeatureKind.JOURNAL))
+        note = next((one for one in notes if one.words), NO_NOTE)
         view.leader(
-            f"{times}⌀{millimetres(2 * radius)}{suffix}", centre * view.scale, radius * view.scale,
-            kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different),
+            f"{times}⌀{millimetres(2 * radius)}{note.words}", centre * view.scale, radius * view.scale,
+            kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different), note=note,
         )  # fmt: skip
 
 

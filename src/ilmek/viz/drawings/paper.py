@@ -1,6 +1,5 @@
 """The paper of a drawing: sizes and frame with zones (ISO 5457), title block (ISO 7200), scales (ISO 5455)."""
 
-import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -8,6 +7,7 @@ import numpy as np
 
 from ilmek.records import record
 from ilmek.report.sheet import LineKind, SheetLine, SheetText
+from ilmek.viz.drawings.feature_note import edge_mark, surface_mark
 from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
 from ilmek.viz.font import text_width
 
@@ -33,7 +33,7 @@ class TitleFacts:
 
     number   of the drawing            mass      of a piece, in words     pieces  to be made
     surface  roughness of all surfaces that state no other                treatment  of the material; "": none
-    general, edges   general tolerances, and states of edges by ISO 13715
+    general, edges   general tolerances, and states of outer and inner edges by ISO 13715
     status   of the document           date, revision  of its issue: as given, never of a clock
     """
 
@@ -47,11 +47,15 @@ class TitleFacts:
     surface: str
     treatment: str
     general: str
-    edges: str
+    edges: tuple[str, str]
     status: str
     owner: str = "—"
     date: str = "—"
     revision: str = "—"
+
+
+_INDENTS = {"Surface texture ISO 21920": 6.5, "Edges ISO 13715, outer": 9.5, "Edges, inner": 8.5}
+"""Room of the symbols before a value [mm]."""
 
 
 def scale_words(scale: float) -> str:
@@ -143,8 +147,9 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
             ("Size", paper, 14), ("Pieces", facts.pieces, 16), ("Projection", "", 24),
         )),
         (29.0, 9.0, (
-            ("General tolerances", facts.general, 42), ("Edges ISO 13715", facts.edges, 50),
-            ("Surface texture ISO 21920", facts.surface, 58), ("Dimensions", "mm", 30),
+            ("General tolerances", facts.general, 36), ("Edges ISO 13715, outer", facts.edges[0], 36),
+            ("Edges, inner", facts.edges[1], 30), ("Surface texture ISO 21920", facts.surface, 52),
+            ("Dimensions", "mm", 26),
         )),
         (38.0, 9.0, (("Stock, process", facts.stock, 100), ("Treatment", facts.treatment or "—", 80))),
     )  # fmt: skip
@@ -163,11 +168,16 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
             large = 3.5 if label in {"Title", "Drawing number"} else 2.5
             words, height = fitting(value, wide - 3.0, large, bold=label == "Title")
             if words:
-                indent = 6.5 if label.startswith("Surface") else 1.5  # behind its symbol
+                indent = _INDENTS.get(label, 1.5)
                 texts.append(SheetText(at + complex(indent, 1.6), words, height, bold=label == "Title"))
             x += wide
     lines += _projection_mark(corner + complex(168.5, 23.6))
-    lines += _surface_mark(corner + complex(94.0, 30.4))
+    lines += surface_mark(corner + complex(104.0, 30.4))
+    if facts.edges[0]:
+        lines += [
+            *edge_mark(corner + complex(39.5, 31.4), outer=True),
+            *edge_mark(corner + complex(74.5, 31.0), outer=False),
+        ]
     return SheetPicture(tuple(lines), tuple(texts), ())
 
 
@@ -181,16 +191,6 @@ def _projection_mark(centre: complex) -> list[SheetLine]:
         *(SheetLine(LineKind.BREAK, np.array([rings + r, rings - r]), half, closed=True) for r in (1.25, 2.5)),
         SheetLine(LineKind.DIMENSION, np.array([cone - 4, cone + 4])),
         SheetLine(LineKind.DIMENSION, np.array([rings - 3.2, rings + 3.2])),
-    ]
-
-
-def _surface_mark(foot: complex) -> list[SheetLine]:
-    """The graphical symbol of a surface from which material is removed; ISO 21920-1."""
-    slope = np.exp(1j * math.pi / 3)
-    left, right = foot + 2.2 * slope * np.exp(1j * math.pi / 3), foot + 4.4 * slope
-    return [
-        SheetLine(LineKind.BREAK, np.array([left, foot, right])),
-        SheetLine(LineKind.BREAK, np.array([left, left + 2.2])),
     ]
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText
+from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText, arrowhead
+from ilmek.viz.drawings.feature_note import LETTER, FeatureNote
 from ilmek.viz.drawings.picture import (
     CAPITAL,
     Box,
@@ -27,40 +28,18 @@ from ilmek.viz.drawings.picture import (
 )
 from ilmek.viz.font import text_width
 
-LETTER, GAP, ROW = 2.5, 9.0, 7.5
-"""Height of letters, distance of the first row from the view, and of a row from the next [mm]."""
+GAP, ROW = 9.0, 7.5
+"""Distance of the first row of dimensions from the view, and of a row from the next [mm]."""
 
 _PAD, _STEP, _ARROWS = 0.8, 0.6, 8.0
+
+NO_NOTE = FeatureNote()
+"""Of a feature that must hold nothing but its size."""
+
 _TURNS = np.deg2rad(
-    [
-        45,
-        60,
-        30,
-        120,
-        135,
-        150,
-        75,
-        15,
-        105,
-        165,
-        -30,
-        -45,
-        -60,
-        -135,
-        -120,
-        -150,
-        0,
-        180,
-        90,
-        -90,
-        52,
-        22,
-        112,
-        142,
-        -15,
-        -52,
-        -112,
-    ]
+    np.fromstring(  # rounder directions first
+        "45 60 30 120 135 150 75 15 105 165 -30 -45 -60 -135 -120 -150 0 180 90 -90 52 22 112 142 -15 -52 -112", sep=" "
+    )
 )
 
 
@@ -247,13 +226,43 @@ class DrawnView:
         count: int = 1,
         sector: tuple[complex, complex] | None = None,
         measured: tuple[complex, complex] | None = None,
-    ) -> None:
+        note: FeatureNote = NO_NOTE,
+        lead: str = "",
+    ) -> complex:
         """A text beside a circle or arc, or beside a point (radius 0), with a line to it.
 
         sector    the ends of an arc, counter-clockwise, within which the line ends; None: anywhere
         measured  both ends of what is dimensioned, where they are not those of the circle or arc
+        note      what hangs below the text
+        lead      first words of it, below which alone the line goes on, to the right; "": below all
+        Returns the elbow of the line.
         """
-        samples = np.concatenate(self._samples) if self._samples else np.zeros(0, dtype=complex)
+        hung = None if note.is_bare else note.hanging().box
+        tip, elbow, text = self._spot(words, centre, radius, sector, hung)
+        box = text_box(text)
+        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
+        shelf = elbow + 1.5 + text_width(lead, LETTER / CAPITAL) if lead else shelf
+        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
+        inward = tip - elbow
+        self._boxes.append(box)
+        if hung is not None:
+            self._hang(note, _box_below(box, hung, text.anchor))
+        if kind is None:
+            self._texts.append(text)
+            self._add(line, body=False)
+            if hung is not None or lead:
+                self._add(SheetLine(LineKind.DIMENSION, np.array(arrowhead(tip, inward)), closed=True), body=False)
+            return elbow
+        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
+        ends = measured or (far, tip)
+        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        return elbow
+
+    def _spot(  # noqa: PLR0917
+        self, words: str, centre: complex, radius: float, sector: tuple[complex, complex] | None, hung: Box | None
+    ) -> tuple[complex, complex, SheetText]:
+        """Tip and elbow of a leader, and its text, at the nearest free spot; hung  room of what hangs below it."""
+        samples = np.concatenate([np.zeros(0, complex), *self._samples])
         best: tuple[float, complex, complex, SheetText] | None = None
         for distance in (6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0, 90.0):
             for turn in _turns(centre, sector):
@@ -264,25 +273,28 @@ class DrawnView:
                 at = elbow + (1.5 if right else -1.5) + 0.8j
                 text = SheetText(at, words, LETTER, "left" if right else "right")
                 box = text_box(text)
+                box = box if hung is None else joined_box([box, _box_below(box, hung, text.anchor)])
                 fault = self._fault(box, samples, tip, elbow)
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
             if best is not None and best[0] < 3:
                 break
         assert best is not None
-        _, tip, elbow, text = best
-        box = text_box(text)
-        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
-        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
-        inward = tip - elbow
-        self._boxes.append(box)
-        if kind is None:
-            self._texts.append(text)
+        return best[1:]
+
+    def draw(self, lines: Sequence[SheetLine]) -> None:
+        """Lines at positions of the paper, on which no text may lie."""
+        for line in lines:
             self._add(line, body=False)
-            return
-        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
-        ends = measured or (far, tip)
-        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        self._boxes.append(joined_box([box_around(line_points(line)) for line in lines]))
+
+    def _hang(self, note: FeatureNote, room: Box) -> None:
+        """Draw what hangs below a text in its room."""
+        hanging = note.hanging()
+        below = hanging.moved(complex(room[0] - hanging.box[0], room[3] - hanging.box[3]))
+        self._boxes.append(room)
+        self._texts += below.texts
+        self.draw(below.lines)
 
     def tag(self, words: str, centre: complex, radius: float) -> None:
         """A short name beside a hole."""
@@ -340,6 +352,13 @@ class DrawnView:
             length = np.concatenate([[0.0], np.cumsum(steps)])
             marks = np.linspace(0.0, total, max(2, int(total / _STEP) + 1))
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
+
+
+def _box_below(box: Box, hanging: Box, anchor: str) -> Box:
+    """The room of what hangs below the box of a text, on the side of its leader."""
+    wide, tall = hanging[2] - hanging[0], hanging[3] - hanging[1]
+    left = box[0] if anchor == "left" else box[2] - wide
+    return left, box[1] - tall, left + wide, box[1]
 
 
 def coordinate(point: complex, across: bool) -> float:
