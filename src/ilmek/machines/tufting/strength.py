@@ -86,7 +86,7 @@ def needle_strength(design: Tufting) -> NeedleStrength:
     sections = link_sections(params)
     angle, side = turn_with(design.breaks)
     times, forces = angle / params.speed, design.state.forces
-    loads = (Gravity(-1j * params.gravity), friction(params, side))
+    loads = (Gravity(-1j * params.gravity), friction(params, forces.motion, side))
     line = min(width * thickness for width, thickness in sections.values()) * limits.of_links.density
     found = linkage_loads(
         forces,
