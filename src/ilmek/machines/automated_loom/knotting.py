@@ -48,7 +48,7 @@ from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
-from ilmek.machines.weaver.design import stretches
+from ilmek.machines.weaver.design import stretches, ties_as_set
 from ilmek.machines.weaver.levers import HALF
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
 from ilmek.machines.weaver.sizes import larger_sizes
@@ -189,7 +189,7 @@ def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
     """The parameters of a head for the loom's knot: the user's, and of those left open as large as its loads need."""
     for _ in range(ROUNDS):
         params = task.parameters(WEAVER, derived)
-        if stretches(params) and _weaver(params).cycle > params.cycle * (1 + _SAME):
+        if stretches(params) and not ties_as_set(params):
             derived = replace(derived, optimise=True)
             params = task.parameters(WEAVER, derived)
         larger = larger_sizes(_weaver(params))
