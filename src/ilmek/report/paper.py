@@ -34,10 +34,14 @@ class Paper:
 
 @record
 class Papers:
-    """The papers of a machine: pages for people, in each language, and lists for other programs."""
+    """The papers of a machine: pages for people, in each language, and lists for other programs.
+
+    tree  of the package `part`, of which the assemblies are drawn; None: none
+    """
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
+    tree: object = None
 
 
 NO_PAPERS = Papers()
