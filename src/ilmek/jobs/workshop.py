@@ -94,7 +94,7 @@ class Workshop:
         drawn = [f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds]
         more = {
             "cam table": sum(kind in FORMATS for kind in kinds),
-            "sheet": kinds.count("sheet"),
+            "sheet": kinds.count("sheet") + kinds.count("assembly"),
             "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
         }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
@@ -195,7 +195,8 @@ def write_workshop(
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
-        files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
+        drawn = progress.part(0.5, 1.0, "drawings")
+        files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
         judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
         files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)

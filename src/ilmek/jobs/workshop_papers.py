@@ -20,12 +20,18 @@ from ilmek.viz.drawings.paper import scale_words
 PAPER_KINDS = ("page", "list")
 """Kinds of entries of papers: a page for people in a language, a list as CSV."""
 
+DRAWING_KINDS = ("drawings", "assembly", "sheet")
+"""Kinds of entries of drawings, in the order of the index."""
+
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
     """The papers of a design of a machine with its report; none of a machine without parts."""
     if machine.papers is not None:
         return machine.papers(design, report)
-    return NO_PAPERS if machine.tree is None else Papers(lists=part_lists(machine.tree(design), PRICES))
+    if machine.tree is None:
+        return NO_PAPERS
+    tree = machine.tree(design)
+    return Papers(lists=part_lists(tree, PRICES), tree=tree)
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:
@@ -59,7 +65,7 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
                 for table in papers.lists
             ],
             Sentence("paper.drawings"): [
-                _drawing(entry) for kind in ("drawings", "sheet") for entry in files if entry["kind"] == kind
+                _drawing(entry) for kind in DRAWING_KINDS for entry in files if entry["kind"] == kind
             ],
             Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
             Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
