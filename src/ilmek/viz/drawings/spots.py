@@ -29,14 +29,14 @@ def turns_from(centre: complex, sector: tuple[complex, complex] | None) -> np.nd
     return start + sweep * np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9])
 
 
-def spread(wanted: np.ndarray, least: float) -> np.ndarray:
+def spread(positions: np.ndarray, least: float) -> np.ndarray:
     """Ascending positions at least so far apart, near the wanted ones: blocks that touch share their mean."""
     blocks: list[list[float]] = []
-    for value in (wanted - least * np.arange(len(wanted))).tolist():
+    for value in (positions - least * np.arange(len(positions))).tolist():
         blocks.append([value, 1.0])
         while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
             mean, count = blocks.pop()
             total = blocks[-1][1] + count
             blocks[-1] = [(blocks[-1][0] * blocks[-1][1] + mean * count) / total, total]
     level = np.concatenate([np.full(int(count), mean) for mean, count in blocks])
-    return np.asarray(level + least * np.arange(len(wanted)))
+    return np.asarray(level + least * np.arange(len(positions)))
