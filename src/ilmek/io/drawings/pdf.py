@@ -14,18 +14,21 @@ from ilmek.io.chart.printing import PrintCanvas, printed_file
 from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.plane.contours import STRAIGHT, arc_centre
 from ilmek.report.sheet import LINE_DASHES, LINE_WIDTHS, DrawingSheet, SheetLine, SheetText, arrowhead
+from ilmek.sentences import translated
 
 CAPITAL = 0.729
 """Height of a capital over the size of DejaVu Sans."""
 
 
 def write_sheets_pdf(path: Path, sheets: Iterable[DrawingSheet], title: str) -> None:
-    """Write sheets as the pages of a file. The same sheets give the same bytes. Raises OSError."""
+    """Write sheets as the pages of a file. Sentences in the language that is spoken. The same sheets give the same
+    bytes. Raises OSError.
+    """
     with printed_file(path, title) as canvas:
         for sheet in sheets:
             canvas.setPageSize((sheet.width * point_per_mm, sheet.height * point_per_mm))
             canvas.bookmarkPage(f"{sheet.number}-{sheet.page}")
-            canvas.addOutlineEntry(f"{sheet.number} {sheet.title}", f"{sheet.number}-{sheet.page}")
+            canvas.addOutlineEntry(f"{sheet.number} {translated(sheet.title)}", f"{sheet.number}-{sheet.page}")
             _draw(canvas, sheet)
             canvas.showPage()
 
@@ -66,7 +69,7 @@ def _write(canvas: PrintCanvas, text: SheetText) -> None:
     if text.angle:
         canvas.rotate(math.degrees(text.angle))
     draw = {"left": canvas.drawString, "center": canvas.drawCentredString, "right": canvas.drawRightString}
-    draw[text.anchor](0, 0, text.words)
+    draw[text.anchor](0, 0, translated(text.words))
     canvas.restoreState()
 
 
@@ -78,7 +81,7 @@ def _stamp(canvas: PrintCanvas, sheet: DrawingSheet) -> None:
     canvas.setFillColorRGB(1.0, 0.82, 0.82)
     canvas.translate(sheet.width / 2, sheet.height / 2)
     canvas.rotate(math.degrees(math.atan2(sheet.height, sheet.width)))
-    canvas.drawCentredString(0, -size / 3, sheet.stamp)
+    canvas.drawCentredString(0, -size / 3, translated(sheet.stamp))
     canvas.restoreState()
 
 

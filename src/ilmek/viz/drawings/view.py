@@ -25,6 +25,7 @@ from ilmek.viz.drawings.picture import (
     millimetres,
     overlap,
     text_box,
+    words_width,
 )
 from ilmek.viz.drawings.spots import TURNS, box_below, spread, turns_from
 from ilmek.viz.font import text_width
@@ -124,7 +125,7 @@ class DrawnView:
         laid: list[tuple[MeasuredLength, float, SheetText, tuple[float, float]]] = []
         for span in sorted(spans, key=lambda one: round(abs(one.end - one.start), 6)):
             low, high = sorted(coordinate(point, across) for point in (span.start, span.end))
-            width = text_width(span.words, LETTER / CAPITAL)
+            width = words_width(span.words, LETTER)
             middle, interval = _text_in(low, high, width)
             for row in range(60):
                 line = base + row * ROW
