@@ -71,6 +71,7 @@ SHEETS = {
     "sheet.duty-fixed": "is fixed",
     "sheet.duty-screwed": "takes a screw",
     "sheet.duty-guiding": "seats a guide",
+    "sheet.duty-sliding": "slides on a face",
     "sheet.keyway": "{times}keyway {size} at {at}",
     "sheet.floor": "{size} to its floor",
     "sheet.on-circle": "{holes} on ⌀{circle}",

@@ -71,6 +71,7 @@ SHEETS = {
     "sheet.duty-fixed": "sabittir",
     "sheet.duty-screwed": "vida alır",
     "sheet.duty-guiding": "kızak taşır",
+    "sheet.duty-sliding": "yüzeyde kayar",
     "sheet.keyway": "{times}kama yuvası {size}, {at}",
     "sheet.floor": "tabanına {size}",
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",
