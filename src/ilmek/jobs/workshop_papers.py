@@ -65,7 +65,10 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
                 for table in papers.lists
             ],
             Sentence("paper.drawings"): [
-                _drawing(entry) for kind in DRAWING_KINDS for entry in files if entry["kind"] == kind
+                _drawing(entry)
+                for kind in DRAWING_KINDS
+                for entry in files
+                if entry["kind"] == kind and entry.get("language", language) == language
             ],
             Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
             Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],

@@ -10,6 +10,7 @@ from ilmek.part.shapes import Prism, Turned
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
@@ -134,7 +135,7 @@ def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     wide = listed.box[2] + LEFT + EDGE + _PAD
     paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
     within = f", ±{millimetres(part.cam.tolerance)}" if part.cam else ""
-    words = f"Radii in mm about the bore{within}, θ counter-clockwise from the zero mark, seen as on sheet 1"
+    words = Sentence("sheet.radii", within=within)
     caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
     corner = complex(LEFT + _PAD, height - EDGE - 11.0)
     laid = merged([_top_left(listed, corner), SheetPicture((), (caption,), ())])
@@ -251,11 +252,19 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
     lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
     if part.file:
-        lines.append(f"Contour: {part.file}, scale 1:1")
+        lines.append(Sentence("sheet.contour", file=part.file))
     if not lines:
         return None
-    rows = [fitting(f"{number}  {line}", 168.0, 2.5, 2.5)[0] for number, line in enumerate(lines, 1)]
-    return table(("Notes",), [(row,) for row in rows])
+    rows = [
+        fitting(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
+        for number, line in enumerate(lines, 1)
+    ]
+    return table((Sentence("sheet.notes"),), [(row,) for row in rows])
+
+
+def status_of(issue: Issue) -> Sentence:
+    """The status of a document in words."""
+    return Sentence("paper.not-released") if issue.unreleased else Sentence("sheet.for-production")
 
 
 def _sheet(  # noqa: PLR0917
@@ -263,14 +272,13 @@ def _sheet(  # noqa: PLR0917
 ) -> DrawingSheet:
     pages = 2 if is_cam(part) else 1
     facts = TitleFacts(
-        part.number, part.title, "Part drawing", part.material, part.mass_words,
-        ", ".join(words for words in (part.size, part.process) if words) or "—", str(part.pieces), part.surface,
-        part.treatment, part.general, part.edges, "NOT RELEASED" if issue.unreleased else "For production",
+        part.number, part.title, Sentence("sheet.part-drawing"), part.material, part.mass_words,
+        part.stock, str(part.pieces), part.surface, part.treatment, part.general, part.edges, status_of(issue),
         issue.owner, issue.date, issue.revision,
     )  # fmt: skip
     whole = merged([frame(paper), title_block(facts, paper, scale, page, pages), laid])
     width, height = PAPERS[paper]
-    stamp = "NOT RELEASED" if issue.unreleased else ""
+    stamp = status_of(issue) if issue.unreleased else ""
     return DrawingSheet(
         part.number, part.title, paper, width, height, scale, whole.lines, whole.texts, whole.dimensions, page, pages,
         stamp,

@@ -19,6 +19,8 @@ from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
+from ilmek.sentences import Sentence
+from ilmek.sentences.english import ENGLISH
 from ilmek.units import format_quantity, mm, um
 
 
@@ -73,16 +75,28 @@ class DrawnPart:
         if given is None or given.hardening is None:
             return ""
         hard = given.hardening
-        words = f"hardened {hard.hardness} +{hard.more} HRC"
-        depth = given.depth / mm
-        return f"{words}, {hard.kind} {depth:g} +{depth / 2:g}" if hard.kind else f"through-{words}"
+        if not hard.kind:
+            return Sentence("sheet.through-hardened", hardness=hard.hardness, more=hard.more)
+        deep, deeper = f"{given.depth / mm:g}", f"{given.depth / 2 / mm:g}"
+        return Sentence(
+            "sheet.hardened", hardness=hard.hardness, more=hard.more, kind=hard.kind, depth=deep, deeper=deeper
+        )
+
+    @property
+    def stock(self) -> str:
+        """What it is made of, and how."""
+        key = f"sheet.process-{self.process.replace(' ', '-')}"
+        process = Sentence(key) if key in ENGLISH else self.process
+        if self.size and process:
+            return Sentence("sheet.stock-process", stock=self.size, process=process)
+        return self.size or process or "—"
 
     @property
     def surface(self) -> str:
         """Roughness of all surfaces that state no other."""
         if self.stated is None:
             return "—"
-        return "as delivered" if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
+        return Sentence("sheet.as-delivered") if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
 
     @property
     def edges(self) -> tuple[str, str]:
@@ -112,7 +126,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
         part = Part(f"{machine}/{name}", plate.title, FLAT[1], "", shape, material)
     size = part.size if part is not None else ""
     if isinstance(solid, RoundSolid):
-        size = f"⌀{format_quantity(2 * solid.outer, 'mm')}, drawn as its development"
+        size = Sentence("sheet.development", size=f"⌀{format_quantity(2 * solid.outer, 'mm')}")
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,

@@ -6,6 +6,7 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.part.tolerances import FeatureKind
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.view import DrawnView
 
@@ -25,7 +26,9 @@ def face_notes(view: DrawnView, fits: Fits, right: Direction, up: Direction) -> 
             out = complex(float(normal @ right), float(normal @ up))
             note = fits.note(feature.nominal, feature.kind)
             sector = foot - 1j * out, foot + 1j * out
-            view.leader(feature.duty.value, foot, 0.0, kind=None, sector=sector, note=note)
+            view.leader(
+                Sentence(f"sheet.duty-{feature.duty.name.lower()}"), foot, 0.0, kind=None, sector=sector, note=note
+            )
 
 
 _EDGE_ON = 0.1

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from ilmek.part.tolerances import FeatureKind, GeometricTolerance, ToleratedFeature
 from ilmek.records import record
+from ilmek.sentences import Sentence
 from ilmek.units import um
 from ilmek.viz.drawings.feature_note import ControlFrame, FeatureNote
 from ilmek.viz.drawings.features import SAME
@@ -73,7 +74,7 @@ class Fits:
     def table(self) -> SheetPicture | None:
         """Size and limits of each kind of feature [mm], with what it does."""
         rows = list(dict.fromkeys(self._rows()))
-        return table(HEADER, rows, "Fits") if rows else None
+        return table(HEADER, rows, Sentence("sheet.fits")) if rows else None
 
     def _rows(self) -> Iterator[tuple[str, ...]]:
         for one in self.features:
@@ -81,13 +82,9 @@ class Fits:
                 ends = one.nominal + one.lower, one.nominal + one.upper
                 least, greatest = map(millimetres, ends) if one.lower or one.upper else ("", "")
                 sign = _SIGNS.get(one.kind, "")
-                yield (
-                    one.kind.value,
-                    f"{sign}{millimetres(one.nominal)} {one.tolerance}",
-                    least,
-                    greatest,
-                    one.duty.value,
-                )
+                size = f"{sign}{millimetres(one.nominal)} {one.tolerance}"
+                kind = Sentence(f"sheet.kind-{one.kind.name.lower().replace('_', '-')}")
+                yield kind, size, least, greatest, Sentence(f"sheet.duty-{one.duty.name.lower()}")
 
 
 def span_of(feature: ToleratedFeature) -> Span:
@@ -101,6 +98,6 @@ def _frame(limit: GeometricTolerance) -> ControlFrame:
     return ControlFrame(limit.characteristic, f"{'⌀' * limit.round}{millimetres(limit.value)}", limit.datums)
 
 
-HEADER = ("Feature", "Size", "Least", "Greatest", "It")
+HEADER = tuple(map(Sentence, ("sheet.feature", "sheet.dimension", "sheet.least", "sheet.greatest", "sheet.duty")))
 _SIGNS = {FeatureKind.BORE: "⌀", FeatureKind.JOURNAL: "⌀", FeatureKind.THREAD: "M", FeatureKind.SQUARE: "□"}
 _SIGNS[FeatureKind.SQUARE_BORE] = "□"

@@ -14,6 +14,7 @@ from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, 
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import (
     SAME,
@@ -120,7 +121,7 @@ def outline_view(
 ) -> tuple[DrawnView, tuple[SheetPicture, ...]]:
     """The view on the outline with its dimensions, and its hole table where it has one.
 
-    circles  about the origin to draw and to label by their names: radii [m]
+    circles  about the origin to draw and to label: radii [m] by the keys of their words
     """
     view = DrawnView(scale)
     view.contour(LineKind.VISIBLE, flat.outline)
@@ -145,7 +146,7 @@ def outline_view(
     _linear(view, flat)
     _labels(view, flat, fits)
     for name, radius in (circles or {}).items():
-        _diameter(view, f"{name} ⌀{millimetres(2 * radius)}", 0j, radius)
+        _diameter(view, Sentence(name, size=millimetres(2 * radius)), 0j, radius)
     tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
     return view, tables
 
@@ -240,11 +241,12 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
     for group in flat.groups:
         count = len(group.holes)
         times = f"{count}× " if count > 1 else ""
-        even = f" on ⌀{millimetres(2 * group.pitch)}" if group.pitch else ""
         hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
         if not flat.tabled or group.pitch:
             note = bore_note(fits, hole)
-            words = f"{times}⌀{millimetres(2 * hole.radius)}{note.words}{even}"
+            words = f"{times}⌀{millimetres(2 * hole.radius)}{note.words}"
+            if group.pitch:
+                words = Sentence("sheet.on-circle", holes=words, circle=millimetres(2 * group.pitch))
             _diameter(view, words, hole.at, hole.radius, count, note)
     if flat.dimensioned and flat.round_outline is None and shaft is None:
         _radii(view, flat.features.arcs)
@@ -258,12 +260,13 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
 def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
     """Width across flats of a square bore, with its angle where it is turned; side  from corner to corner [m]."""
     size, angle = abs(side), math.degrees(float(np.angle(side))) % 90
-    turned = f" at {angle:.4g}°" if 1e-6 < angle < 90 - 1e-6 else ""
     corner = centre + side * (1 + 1j) / 2
     ends = (corner * view.scale, (corner - side) * view.scale)
     view.cross(centre, size / 2)
     note = fits.note(size, FeatureKind.SQUARE_BORE)
-    words = f"□{millimetres(size)}{note.words}{turned}"
+    words = f"□{millimetres(size)}{note.words}"
+    if 1e-6 < angle < 90 - 1e-6:
+        words = Sentence("sheet.square-turned", size=words, angle=f"{angle:.4g}°")
     view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends, note=note)
 
 
@@ -279,12 +282,12 @@ def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) ->
     at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
     ends = (corners[0] * view.scale, corners[1] * view.scale)
     note = fits.note(bore.width, _KEYWAYS[kind])
-    width = f"{times}keyway {millimetres(bore.width)}{note.words} at {at}"
+    width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
     view.leader(
         width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
     )  # fmt: skip
     across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.floor) * view.scale)
-    floor = f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)} to its floor"
+    floor = Sentence("sheet.floor", size=f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)}")
     view.leader(
         floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
     )  # fmt: skip
@@ -325,7 +328,7 @@ def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
             hole = ordered[-1]
             words = f"{len(ordered)}× {letter}" if len(ordered) > 1 else letter
             view.leader(words, hole.at * view.scale, hole.radius * view.scale, kind=None, note=note)
-    return table(("Hole", "X", "Y", "Size"), rows, "Holes, from the datum")
+    return table((Sentence("sheet.hole"), "X", "Y", Sentence("sheet.dimension")), rows, Sentence("sheet.holes"))
 
 
 def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) -> DrawnView:

@@ -16,6 +16,7 @@ from ilmek.part.tolerances import FeatureKind
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import along, as_hole, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import PARALLEL
@@ -33,6 +34,8 @@ VIEWS: dict[str, tuple[Axis, Axis]] = {
 
 MOST_ENDS, MOST_LABELS = 14, 6
 """Ends of members that a view dimensions in a direction; more of them stand in the cut list alone."""
+
+PIECES = tuple(map(Sentence, ("sheet.item", "sheet.pieces", "sheet.section", "sheet.length")))
 
 Member = tuple[object, Placement]
 
@@ -203,7 +206,7 @@ def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
     for shape, _ in members:
         counts[_section(shape)] = counts.get(_section(shape), 0) + 1
     rows = [(str(k), str(number), *words) for k, (words, number) in enumerate(counts.items(), 1)]
-    return table(("Item", "Pieces", "Section", "Length"), rows[:30], "Consists of")
+    return table(PIECES, rows[:30], Sentence("sheet.members"))
 
 
 def _section(shape: object) -> tuple[str, str]:

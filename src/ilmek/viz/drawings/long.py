@@ -13,6 +13,7 @@ from ilmek.plane.contours import along, bounds, counter_clockwise
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import SAME, ContourFeatures, contour_features, distinct
 from ilmek.viz.drawings.fits import Fits, Span, span_of
@@ -232,16 +233,18 @@ def _diameter(  # noqa: PLR0917
 ) -> None:
     """A diameter, or width across flats, of equal stretches of the axis with what they must hold, at the first."""
     starts = distinct([span[0] for span in spans])
-    count, words = len(starts), note.words
+    count = len(starts)
+    times = f"{count}× " if count > 1 else ""
+    size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
     if count > MOST_DIAMETERS:
         pitch = float(np.median(np.diff(starts)))
-        words += f", {millimetres(spans[0][1] - spans[0][0])} wide, pitch {millimetres(pitch)}"
+        wide = millimetres(spans[0][1] - spans[0][0])
+        size = Sentence("sheet.grooves", size=size, wide=wide, pitch=millimetres(pitch))
     first, last = cut.drawn(np.array(spans[0]))
     share = 0.5 if cut.whole else 0.8
     at = complex(first + share * (last - first), radius) * view.scale
-    times = f"{count}× " if count > 1 else ""
     view.leader(
-        f"{times}{sign}{millimetres(2 * radius)}{words}", at, 0.0,
+        size, at, 0.0,
         kind=DimensionKind.ALIGNED if sign == "□" else DimensionKind.DIAMETER, value=2 * radius, count=count,
         measured=(at.conjugate(), at), note=note,
     )  # fmt: skip

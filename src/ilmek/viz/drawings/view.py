@@ -25,7 +25,9 @@ from ilmek.viz.drawings.picture import (
     millimetres,
     overlap,
     text_box,
+    words_width,
 )
+from ilmek.viz.drawings.spots import TURNS, box_below, spread, turns_from
 from ilmek.viz.font import text_width
 
 GAP, ROW = 9.0, 7.5
@@ -35,12 +37,6 @@ _PAD, _STEP, _ARROWS = 0.8, 0.6, 8.0
 
 NO_NOTE = FeatureNote()
 """Of a feature that must hold nothing but its size."""
-
-_TURNS = np.deg2rad(
-    np.fromstring(  # rounder directions first
-        "45 60 30 120 135 150 75 15 105 165 -30 -45 -60 -135 -120 -150 0 180 90 -90 52 22 112 142 -15 -52 -112", sep=" "
-    )
-)
 
 
 @record
@@ -129,7 +125,7 @@ class DrawnView:
         laid: list[tuple[MeasuredLength, float, SheetText, tuple[float, float]]] = []
         for span in sorted(spans, key=lambda one: round(abs(one.end - one.start), 6)):
             low, high = sorted(coordinate(point, across) for point in (span.start, span.end))
-            width = text_width(span.words, LETTER / CAPITAL)
+            width = words_width(span.words, LETTER)
             middle, interval = _text_in(low, high, width)
             for row in range(60):
                 line = base + row * ROW
@@ -181,8 +177,8 @@ class DrawnView:
         base = -(self.body[0] if across else self.body[1])
         ordered = sorted(points, key=lambda point: coordinate(point, across))
         wanted = np.array([coordinate(point, across) for point in ordered])
-        spread = _spread(wanted, LETTER * 1.75)
-        self.crowding = max(self.crowding, float(np.abs(spread - wanted).max()))
+        positions = spread(wanted, LETTER * 1.75)
+        self.crowding = max(self.crowding, float(np.abs(positions - wanted).max()))
         for attempt in range(40):
             line = base + GAP + attempt * ROW
             texts = [
@@ -193,12 +189,12 @@ class DrawnView:
                     "right",
                     0.0 if across else math.pi / 2,
                 )
-                for point, position in zip(ordered, spread.tolist(), strict=True)
+                for point, position in zip(ordered, positions.tolist(), strict=True)
             ]
             if not any(overlap(text_box(text), box, _PAD) for text in texts for box in self._boxes):
                 break
         self._boxes += [text_box(text) for text in texts]
-        for point, position, text in zip(ordered, spread.tolist(), texts, strict=True):
+        for point, position, text in zip(ordered, positions.tolist(), texts, strict=True):
             elbow = unit * coordinate(point, across) + out * (line - 5)
             end = unit * position + out * line
             lines = [*self._clear_pieces(point + out, elbow), np.array([elbow, end])]
@@ -246,7 +242,7 @@ class DrawnView:
         inward = tip - elbow
         self._boxes.append(box)
         if hung is not None:
-            self._hang(note, _box_below(box, hung, text.anchor))
+            self._hang(note, box_below(box, hung, text.anchor))
         if kind is None:
             self._texts.append(text)
             self._add(line, body=False)
@@ -258,14 +254,14 @@ class DrawnView:
         self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
         return elbow
 
-    def _spot(  # noqa: PLR0917
+    def _spot(
         self, words: str, centre: complex, radius: float, sector: tuple[complex, complex] | None, hung: Box | None
     ) -> tuple[complex, complex, SheetText]:
         """Tip and elbow of a leader, and its text, at the nearest free spot; hung  room of what hangs below it."""
         samples = np.concatenate([np.zeros(0, complex), *self._samples])
         best: tuple[float, complex, complex, SheetText] | None = None
         for distance in (6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0, 90.0):
-            for turn in _turns(centre, sector):
+            for turn in turns_from(centre, sector):
                 direction = complex(math.cos(turn), math.sin(turn))
                 tip = centre + radius * direction
                 elbow = tip + distance * direction
@@ -273,7 +269,7 @@ class DrawnView:
                 at = elbow + (1.5 if right else -1.5) + 0.8j
                 text = SheetText(at, words, LETTER, "left" if right else "right")
                 box = text_box(text)
-                box = box if hung is None else joined_box([box, _box_below(box, hung, text.anchor)])
+                box = box if hung is None else joined_box([box, box_below(box, hung, text.anchor)])
                 fault = self._fault(box, samples, tip, elbow)
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
@@ -301,7 +297,7 @@ class DrawnView:
         samples = np.concatenate(self._samples)
         candidates = []
         for distance in (0.8, 2.0, 4.0):
-            for turn in _TURNS[:16]:
+            for turn in TURNS[:16]:
                 direction = complex(math.cos(turn), math.sin(turn))
                 at = centre + (radius + distance) * direction - 0.5j * LETTER
                 text = SheetText(at, words, LETTER, "left" if direction.real > 0 else "right")
@@ -354,13 +350,6 @@ class DrawnView:
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
 
 
-def _box_below(box: Box, hanging: Box, anchor: str) -> Box:
-    """The room of what hangs below the box of a text, on the side of its leader."""
-    wide, tall = hanging[2] - hanging[0], hanging[3] - hanging[1]
-    left = box[0] if anchor == "left" else box[2] - wide
-    return left, box[1] - tall, left + wide, box[1]
-
-
 def coordinate(point: complex, across: bool) -> float:
     """Its coordinate in the direction that is measured: y where that is across, else x."""
     return point.imag if across else point.real
@@ -378,25 +367,3 @@ def _text_in(low: float, high: float, width: float) -> tuple[float, tuple[float,
         return (low + high) / 2, (low, high) if inside else (low - 5.5, high + 5.5)
     middle = high + 6.0 + width / 2
     return middle, (low - 5.5, middle + width / 2 + 1.0)
-
-
-def _turns(centre: complex, sector: tuple[complex, complex] | None) -> np.ndarray:
-    """Directions from a centre to try, within an arc where one is given."""
-    if sector is None:
-        return np.asarray(_TURNS)
-    start = float(np.angle(sector[0] - centre))
-    sweep = float(np.angle((sector[1] - centre) / (sector[0] - centre)) % (2 * math.pi)) or 2 * math.pi
-    return start + sweep * np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9])
-
-
-def _spread(wanted: np.ndarray, least: float) -> np.ndarray:
-    """Ascending positions at least so far apart, near the wanted ones: blocks that touch share their mean."""
-    blocks: list[list[float]] = []
-    for value in (wanted - least * np.arange(len(wanted))).tolist():
-        blocks.append([value, 1.0])
-        while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
-            mean, count = blocks.pop()
-            total = blocks[-1][1] + count
-            blocks[-1] = [(blocks[-1][0] * blocks[-1][1] + mean * count) / total, total]
-    level = np.concatenate([np.full(int(count), mean) for mean, count in blocks])
-    return np.asarray(level + least * np.arange(len(wanted)))

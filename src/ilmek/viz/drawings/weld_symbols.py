@@ -10,8 +10,10 @@ import numpy as np
 from ilmek.part.welds import Weld
 from ilmek.plane.contours import circle
 from ilmek.report.sheet import LineKind, SheetLine
+from ilmek.sentences import Sentence
 from ilmek.units import format_number, mm
 from ilmek.viz.drawings.feature_note import LETTER
+from ilmek.viz.drawings.joined import PIECES
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
 from ilmek.viz.drawings.view import DrawnView
@@ -59,4 +61,4 @@ def _symbol(view: DrawnView, at: complex, size: str, others: str, *, all_round: 
 def cut_list(cut: tuple[str, float], pieces: int) -> SheetPicture:
     """What is cut for a part: section of stock and length [mm], ends square."""
     row = ("1", str(pieces), cut[0], format_number(cut[1] / mm), "90° / 90°")
-    return table(("Item", "Pieces", "Section", "Length", "Ends"), [row], "Cut list")
+    return table((*PIECES, Sentence("sheet.ends")), [row], Sentence("sheet.cut-list"))
