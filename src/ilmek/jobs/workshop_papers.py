@@ -54,8 +54,8 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
             Sentence("paper.drawings"): [
                 _drawing(entry) for kind in ("drawings", "sheet") for entry in files if entry["kind"] == kind
             ],
-            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
-            Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
+            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("assembly", "dxf", "step")],
+            Sentence("paper.motions"): [_file(entry) for entry in files if "points" in entry and "format" in entry],
         }
         text = index_page(report.title, groups, report.reasons, language)
         file = page_file(INDEX_PAGE, language)
