@@ -167,7 +167,8 @@ def layering(bodies: Sequence[str], rooms: Sequence[Room], pairs: Sequence[tuple
         tried += search.tried
         if search.best is not None:
             return Layering(search.best, True, tried, search.sides)
-    return Layering({GROUND: 0, **{body: at for at, body in enumerate(bodies, 1)}}, False, tried)
+    sides = {room.name: room.sides[0] for room in rooms if room.kind is RoomKind.RING}
+    return Layering({GROUND: 0, **{body: at for at, body in enumerate(bodies, 1)}}, False, tried, sides)
 
 
 @dataclass(slots=True)

@@ -44,10 +44,10 @@ def _layer_checks(built: Construction) -> Iterator[Check]:
     cure = "move a pivot or a guide out of the way of the links, or make links narrower"
     ids = tuple(body_id(built.name, body) for body in mechanism.moving)
     yield at_most("bodies without a layer in which they meet nothing", without, 0, "1", source).with_cure(cure, *ids)
-    names = ", ".join(one.name for one in mechanism.couplings) or "none"
-    yield at_most(
-        "couplings without parts", len(mechanism.couplings), 0, "1", f"gears, belts and racks are not made: {names}"
-    ).with_cure("order them by their ratio: the links carry their hubs")
+    if mechanism.couplings:
+        source = f"gears, belts and racks are not made: {', '.join(one.name for one in mechanism.couplings)}"
+        cure = "order them by their ratio, and leave them room"
+        yield at_most("couplings without parts", len(mechanism.couplings), 0, "1", source).with_cure(cure)
 
 
 def _pin_checks(built: Construction) -> Iterator[Check]:
@@ -74,7 +74,7 @@ def _pin_checks(built: Construction) -> Iterator[Check]:
 def _key_checks(built: Construction) -> Iterator[Check]:
     for axis in built.axes:
         key = built.key(axis) if axis.driven else None
-        if key is not None:
+        if key is not None and built.loads.torques:
             yield key.check(f"shaft {axis.name}", "set a thicker pin there", (body_id(built.name, axis.driven),))
 
 
