@@ -18,8 +18,10 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
 from ilmek.jobs.drawings import write_drawings
+from ilmek.jobs.machine_space import machine_file
 from ilmek.jobs.workshop_papers import PAPER_KINDS, write_index, write_papers
 from ilmek.part.plates import tolerated
+from ilmek.part.tree import Tree
 from ilmek.plane.contours import area
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
@@ -95,6 +97,7 @@ class Workshop:
         more = {
             "cam table": sum(kind in FORMATS for kind in kinds),
             "sheet": kinds.count("sheet") + kinds.count("assembly"),
+            "file in space": kinds.count("space"),
             "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
         }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
@@ -166,6 +169,7 @@ def write_workshop(
     tolerance: Tolerance | None = None,
     *,
     papers: Papers = NO_PAPERS,
+    tree: Tree | None = None,
     outputs: Outputs | None = None,
     force: bool = False,
     issue: Issue = UNDATED,
@@ -174,6 +178,7 @@ def write_workshop(
     """Write the report's plates, pieces, drawings and cam tables into a folder, with papers and an index.
 
     tolerance  of the cam tables; default: see `SHARE`
+    tree       its parts in space, for one file of them at rest (STEP) and one in motion (GLB); default: none
     outputs    of the caller, who commits them; default: committed here
     force      replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     issue      owner, date and revision on the drawings
@@ -198,6 +203,7 @@ def write_workshop(
         drawn = progress.part(0.5, 1.0, "drawings")
         files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
         judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
+        files += _in_space(tree, report, work) if tree is not None else ()
         files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
@@ -288,6 +294,17 @@ def _piece_files(piece: WorkPiece, work: Path, name: str) -> Iterator[dict[str, 
         "volume": read,
         "volume_error": off,
     }
+
+
+def _in_space(tree: Tree, report: Report, work: Path) -> Iterator[dict[str, Json]]:
+    """The parts of a tree together: in motion as GLB, at rest as a STEP assembly where its writer is installed."""
+    kinds = {"--glb": ("assembly.glb", "GLB, in motion")}
+    if _step() is not None:
+        kinds["--step"] = ("assembly.step", "STEP AP242")
+    for option, (file, words) in kinds.items():
+        content = machine_file(option, tree, report)
+        (work / file).write_bytes(content.encode() if isinstance(content, str) else content)
+        yield {"file": file, "kind": "space", "of": report.machine, "title": report.title, "format": words}
 
 
 def _step() -> ModuleType | None:

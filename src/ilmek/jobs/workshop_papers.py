@@ -70,8 +70,8 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
                 for entry in files
                 if entry["kind"] == kind and entry.get("language", language) == language
             ],
-            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
-            Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
+            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("space", "dxf", "step")],
+            Sentence("paper.motions"): [_file(entry) for entry in files if "points" in entry and "format" in entry],
         }
         text = index_page(report.title, groups, report.reasons, language)
         file = page_file(INDEX_PAGE, language)
