@@ -86,7 +86,7 @@ class Claim:
 
 def equation(  # noqa: PLR0917 - a paper's own rows name them by position
     paper: str,
-    place: str,
+    section: str,
     item: str,
     printed: str,
     compute: Computation,
@@ -97,10 +97,10 @@ def equation(  # noqa: PLR0917 - a paper's own rows name them by position
 ) -> Claim:
     """An equation of a paper by its residual; the section of a numbered one is followed by its number.
 
-    place  name of the section, or its number, after which `{}` stands for the item: `2.1.3, Eq {}`
+    section  its name, or its number, after which `{}` stands for the item: `2.1.3, Eq {}`
     """
-    name = f"Eq {item}" if "{}" in place else item
-    return Claim(paper, name, printed, RESIDUAL, compute, place.format(item), note, mended=mended, slips=slips)
+    name = f"Eq {item}" if "{}" in section else item
+    return Claim(paper, name, printed, RESIDUAL, compute, section.format(item), note, mended=mended, slips=slips)
 
 
 def residual(left: RealField | ComplexField, right: RealField | ComplexField) -> float:
