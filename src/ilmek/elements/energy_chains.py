@@ -100,8 +100,8 @@ ENERGY_CHAINS = tuple(
         key=lambda row: (row.loop[0], row.line_mass),
     )
 )
-"""The least loop first, then the lightest. Inner height and width, outer ones, and pitch that makers have in common, within some millimetres; mass and free
-length within a fifth."""
+"""The least loop first, then the lightest. Inner height and width, outer ones, and pitch that makers have in common,
+within some millimetres; mass and free length within a fifth."""
 
 
 def width_needed(row: EnergyChain, lines: Sequence[ChainLines]) -> float:
