@@ -15,7 +15,7 @@ _WITHOUT = (JointKind.FIXED, JointKind.MISSING)
 
 
 def bill(tree: Tree, parts: Container[str] | None = None) -> tuple[BillLine, ...]:
-    """The lines of the parts list, in the order of the bodies; of some parts alone, by their ids, where they are given."""
+    """The lines of the parts list, in the order of the bodies; parts: ids of those that are listed, default: all."""
     joints = _joints(tree)
     return tuple(
         _with_joints(line_of(part, number), joints.get(part.id))

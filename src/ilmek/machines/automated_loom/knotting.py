@@ -21,7 +21,7 @@ import numpy as np
 from ilmek.cams.laws import LAWS
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.programme import least_time
+from ilmek.loom.programme import least_times
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.loom.times import Times
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -104,9 +104,15 @@ class KnottingHead:
 
     def least_time(self, rows: int, columns: int, number: int, times: Times, bobbins: Sequence[Bobbin] = ()) -> float:
         """Weaving time [s] of a number of them without colour changes: of weavers that of the longest share."""
+        return self.least_times(rows, columns, number, (times,), bobbins)[0]
+
+    def least_times(
+        self, rows: int, columns: int, number: int, times: Sequence[Times], bobbins: Sequence[Bobbin] = ()
+    ) -> list[float]:
+        """The same with each of some times."""
         if self.weaver is None:
             columns, number = math.ceil(columns / number), 1
-        return least_time(rows, columns, number, times, bobbins)
+        return least_times(rows, columns, number, times, bobbins)
 
 
 def knotting_head(task: LoomTask) -> KnottingHead:

@@ -277,7 +277,7 @@ class Bounds:
 
     def _offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
         ready, params, weft = branch.ready, self.params, branch.weft
-        grid = ready.task.rows, ready.task.columns
+        grid, bobbins = (ready.task.rows, ready.task.columns), ready.weft.bobbins
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
                 continue
@@ -289,7 +289,7 @@ class Bounds:
             busy = [_least_times(ready, option, cycle) for cycle in branch.cycles]
             for heads in (number,) if number else range(1, branch.most + 1):
                 cost, floor = self._least(weft, heads, loom, branch.head, frame)
-                time = [ready.head.least_time(*grid, heads, one, ready.weft.bobbins) for one in busy]
+                time = ready.head.least_times(*grid, heads, busy, bobbins)
                 value = self._value(cost, floor, np.array(time)).tolist()
                 for cycle, own, least in zip(branch.cycles, time, value, strict=True):
                     yield LoomOffer(branch.kind, cycle, weft, option.kind, heads, own, cost.parts, least)
