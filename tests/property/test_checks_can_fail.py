@@ -82,6 +82,8 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"looper.late": "60deg"},
         {"looper.transmission": "85deg"},
         {"looper.strength.pin_diameter": "30mm"},
+        {"needle_bar.needle_length": "20mm"},
+        {"needle.needle_distance": "110mm"},
         {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},
     ),
     "warp-tension": (

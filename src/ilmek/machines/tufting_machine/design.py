@@ -23,7 +23,8 @@ from ilmek.machines.tufting_machine.feed import TuftingFeed
 from ilmek.machines.tufting_machine.loop import Loop, NeedlePath, loop_geometry, loop_window, needle_depth
 from ilmek.machines.tufting_machine.looper import LooperDrive, looper_drive
 from ilmek.machines.tufting_machine.looper_forces import LooperForces, looper_forces, reflected_inertia
-from ilmek.machines.tufting_machine.needle_bar import NeedleBar, bar_mass, needle_bar
+from ilmek.machines.tufting_machine.needle_bar import NeedleBar, needle_bar
+from ilmek.machines.tufting_machine.needle_parts import needle_parts
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.machines.tufting_machine.shafts import SAMPLES, CrankTorques, TuftingShafts, tufting_shafts
@@ -90,7 +91,7 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
     depth = needle_depth(params)
     drive, path, lowest = _with_stroke(params.needle, depth + params.lift)
     geometry = loop_geometry(params, path, carpet)
-    window, mass = loop_window(geometry), bar_mass(params, carpet)
+    window, mass = loop_window(geometry), needle_parts(params).mass(carpet.needles, params.drives)
     given = replace(
         drive,
         bars=params.drives,
@@ -109,6 +110,7 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
         {"main": reflected_inertia(needle.state.motion, dict(needle.bodies), given.speed), "looper": moved.inertia},
     )
     shafts = tufting_shafts(params, loads, loop.margin, needle_strength(needle).main.diameter)
+    needle = _with_shafts(needle, shafts.diameter)
     return TuftingMachine(
         params,
         needle,
@@ -163,6 +165,15 @@ def _with_stroke(params: TuftingParams, stroke: float) -> tuple[TuftingParams, N
         allowed=f"{format_quantity(path.stroke, 'mm')} with needle.crank={format_quantity(params.crank, 'mm')}",
         do="set a lower pile_height, or other links of the needle drive",
     )
+
+
+def _with_shafts(needle: Tufting, diameter: float) -> Tufting:
+    """A needle drive whose shafts have a diameter [m]: its strength follows; with the masses given, its forces stay."""
+    if needle_strength(needle).main.diameter == diameter:
+        return needle
+    strength = replace(needle.params.strength, shaft_diameter=diameter)
+    params = replace(needle.params, strength=strength)
+    return needle_drive(params) if params.link_mass == "made" else replace(needle, params=params)
 
 
 def _even(needle: Tufting) -> FloatArray:
