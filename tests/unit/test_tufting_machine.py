@@ -12,6 +12,8 @@ from scipy.optimize import brentq
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting_machine import TuftingMachine
+from ilmek.timing.cyclogram import check_cyclogram
+from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
 MACHINE = MACHINES["tufting-machine"]
@@ -231,3 +233,18 @@ def test_what_the_looper_moves_weighs_what_its_forces_count() -> None:
     rest = (parts.linkage.plates["looper rocker"].mass, *(pin.mass for pin in parts.linkage.pins.values()))
     assert mass - counted <= sum(rest) + 1e-9
     assert mass - counted >= rest[0] - 1e-9
+
+
+def test_the_cyclogram_has_the_motion_of_the_linkages() -> None:
+    """Between its points the spline is off the circles' height and the linkage's path by less than a micrometre."""
+    machine = made()
+    (stitch,) = MACHINE.cyclograms(machine)
+    angle = np.random.default_rng(1).uniform(0, turn, 40)
+    found = sample(stitch.track("needles"), np.sort(angle)).position
+    lowest = min(needle_height(at) for at in np.linspace(0, turn, 7201))
+    assert np.abs(found - [needle_height(at) - lowest for at in np.sort(angle)]).max() < 1e-6
+    hooks = sample(stitch.track("loopers"), np.sort(angle)).position
+    assert np.abs(hooks - machine.looper.ahead(np.sort(angle))).max() < 1e-6
+    assert all(check.ok for check in check_cyclogram(stitch))
+    (late,) = MACHINE.cyclograms(made(**{"looper.late": "60deg"}))
+    assert not all(check.ok for check in check_cyclogram(late))

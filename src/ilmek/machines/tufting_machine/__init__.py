@@ -6,6 +6,7 @@ the hooks', several sets of both along the width.
 """
 
 from ilmek.machines.component import Component, itself
+from ilmek.machines.tufting_machine.cyclogram import cyclogram
 from ilmek.machines.tufting_machine.design import TuftingMachine, design
 from ilmek.machines.tufting_machine.figures import figures
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
@@ -26,6 +27,7 @@ MACHINE: Component[TuftingMachineParams, TuftingMachine, TuftingMachine] = Compo
     tables=tables,
     figures=figures,
     tree=tree,
+    cyclograms=lambda machine: (cyclogram(machine),),
     verdict=TuftingVerdict,
     headline=("tufts", "loop_formed"),
 )
