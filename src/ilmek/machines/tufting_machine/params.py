@@ -36,6 +36,7 @@ class TuftedCarpetParams(Params):
     back_stitch: float = kind.ratio(
         1.0, at_least=0.0, at_most=2.0, doc="yarn from stitch to stitch on the back, over their distance", symbol="k"
     )
+    shift: int = kind.count(0, at_least=0, at_most=8, doc="gauges by which the needle bar shifts from stitch to stitch")
     yarn_density: float = kind.line_density(
         3400 / 9000 * g / m, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the yarn: 3400 den"
     )
@@ -154,6 +155,9 @@ class TuftingFeedParams(Params):
     yarn_tension: float = kind.force(0.5, at_least=0.0, at_most=100.0, doc="tension of a yarn behind the feed rollers")
     spiked_roller: float = kind.length(120 * mm, at_least=10 * mm, at_most=1.0, doc="diameter of the spiked rollers")
     backing_tension: float = kind.line_load(300.0, at_least=0.0, at_most=1e5, doc="tension of the backing over width")
+    shift_acceleration: float = kind.acceleration(
+        100.0, above=0.0, at_most=1e5, doc="allowed acceleration of the needle bar in its shift"
+    )
     give: float = kind.length(
         2.5 * mm, at_least=0.0, at_most=50 * mm, doc="allowed travel of the backing while needles are in it: they bend"
     )

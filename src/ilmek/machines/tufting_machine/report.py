@@ -4,13 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 
+from ilmek.dynamics.pin_strength import bearing_life, pin_duty
 from ilmek.machines.strength_tables import strength_table
 from ilmek.machines.tufting import report as needle_report
 from ilmek.machines.tufting.tree import design_pitch
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.frame import presser_thickness
-from ilmek.machines.tufting_machine.layout import CLEAR
-from ilmek.machines.tufting_machine.looper_parts import ROCKER
+from ilmek.machines.tufting_machine.layout import CLEAR, looper_bearing
+from ilmek.machines.tufting_machine.looper_parts import NAME, ROCKER
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
 from ilmek.machines.tufting_machine.shafts import MAIN_SHAFT
 from ilmek.records import computed, record
@@ -55,7 +56,12 @@ def _room_checks(machine: TuftingMachine) -> tuple[Check, ...]:
     """Drives beside each other, and the needle bar over the presser where it is lowest."""
     params = machine.params
     pitch, over = params.width / params.drives, machine.loop.depth + presser_thickness(params) + CLEAR / 2
+    life, limits = looper_bearing_life(machine), params.needle.strength
+    row = looper_bearing(machine)
     return (
+        at_least("life of the loopers' bearings", life, limits.bearing_life, "h", f"ISO 281, {row.name}").with_cure(
+            "set a larger looper.shaft", f"{NAME}/looper-bearing"
+        ),
         at_most(
             "needle drive with its bearing plates along the shafts",
             design_pitch(machine.needle),
@@ -67,6 +73,13 @@ def _room_checks(machine: TuftingMachine) -> tuple[Check, ...]:
             "needles out of their bar", params.needle_bar.needle_length, over, "mm", "depth, presser and clearance"
         ).with_cure("set a longer needle_bar.needle_length", NEEDLE_BAR),
     )
+
+
+def looper_bearing_life(machine: TuftingMachine) -> float:
+    """Least life of the bearings of both looper shafts [s of running]; each of the two of a shaft bears half."""
+    forces, row = machine.looper_forces, looper_bearing(machine)
+    duties = (pin_duty(forces.forces, name, forces.angle / machine.params.needle.speed) for name in "QP")
+    return min(bearing_life(replace(duty, force=duty.force / 2), row) for duty in duties)
 
 
 def self_tests(machine: TuftingMachine) -> tuple[Check, ...]:

@@ -158,7 +158,7 @@ def tufting_shafts(params: TuftingMachineParams, loads: CrankTorques, margin: fl
     margin  of the looper's timing [rad]      least  diameter that the strength of the main shaft needs [m]
     """
     given = params.shafts
-    offered = (given.diameter,) if given.diameter else tuple(size for size in SHAFTS if size >= least - 1e-9)
+    offered = (given.diameter,) if given.diameter else tuple(size for size in SHAFTS if size >= least)
     tried: TuftingShafts | None = None
     for diameter in offered or (least,):
         tried = _shafts(params, loads, margin, diameter)
