@@ -82,6 +82,10 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"looper.late": "60deg"},
         {"looper.transmission": "85deg"},
         {"looper.strength.pin_diameter": "30mm"},
+        {"needle_bar.needle_length": "20mm"},
+        {"shift": "2"},
+        {"needle.needle_distance": "110mm"},
+        {"needle.crank": "20mm"},
         {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},
     ),
     "warp-tension": (

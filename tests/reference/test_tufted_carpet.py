@@ -34,6 +34,12 @@ def test_the_other_calculator_counts_the_whole_back_stitch() -> None:
     assert carpet(backing_thickness=0.0).yarn_per_area * 1e-4 == pytest.approx(printed, rel=1e-12)
 
 
+def test_a_shift_of_the_needle_bar_draws_the_back_stitch_aslant() -> None:
+    straight, aslant = carpet(), carpet(shift=2)
+    step = complex(1 / 320, 2 * inch / 8)
+    assert aslant.yarn_per_stitch - straight.yarn_per_stitch == pytest.approx(abs(step) - 1 / 320, rel=1e-12)
+
+
 def test_tufts_yarn_and_production_counted_one_by_one() -> None:
     """A square metre stitch by stitch, an hour stroke by stroke."""
     found = carpet(low_height=6 * mm, low_share=0.25, running=1.0)

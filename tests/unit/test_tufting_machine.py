@@ -12,6 +12,8 @@ from scipy.optimize import brentq
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting_machine import TuftingMachine
+from ilmek.timing.cyclogram import check_cyclogram
+from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
 
 MACHINE = MACHINES["tufting-machine"]
@@ -140,7 +142,7 @@ def test_the_linkage_moves_the_hook_as_its_synthesis_says(pile: str) -> None:
     machine = made(pile=pile)
     forces, drive = machine.looper_forces, machine.looper
     motion, needle = forces.motion, machine.params.needle
-    tip = motion.point("rocker", "tip").position
+    tip = motion.point("looper rocker", "tip").position
     line = needle.shaft_distance + needle.needle_distance
     assert np.abs(drive.sense * (tip.real - line) - drive.ahead(forces.angle)).max() < 1e-12
     assert drive.ahead(forces.angle).max() == pytest.approx(machine.params.looper.reach, abs=1e-6)
@@ -201,3 +203,48 @@ def test_what_the_machine_cannot_do_is_a_failed_check() -> None:
     assert "travel of the backing while needles are in it" in failed(stitch_rate="200/m")
     assert "twist of a needle against its looper" in failed(**{"shafts.diameter": "20mm"})
     assert "deflection of the needle bar" in failed(drives="4")
+
+
+def test_hooks_in_space_stand_beside_their_needles_at_the_height_of_the_loops() -> None:
+    """Every needle of the tree has a hook beside it, a gap away, whose point passes it under the backing."""
+    machine = made(drives="4", width="1m")
+    tree = MACHINE.tree(machine)
+    needles = next(
+        one for one in tree.body("tufting-machine/needle-bar").occurrences if one.part.title == "tufting needle"
+    )
+    bar = tree.body("tufting-machine/needle-bar").positions[0]
+    across = sorted(float(bar.after(place).origin[2]) for place in needles.positions)
+    hooks = []
+    for drive in range(4):
+        body = tree.body(f"tufting-machine/looper-rocker {drive + 1}")
+        held = next(one for one in body.occurrences if one.part.id == "tufting-machine/looper")
+        hooks += [float(body.positions[0].after(place).origin[2]) for place in held.positions]
+    assert len(hooks) == len(across) == machine.carpet.needles
+    looper = machine.params.looper
+    assert np.allclose(np.array(sorted(hooks)) - across, looper.needle / 2 + looper.gap)
+
+
+def test_what_the_looper_moves_weighs_what_its_forces_count() -> None:
+    machine = made()
+    body = MACHINE.tree(machine).body("tufting-machine/looper-rocker 1")
+    mass = sum(len(one.positions) * one.part.mass for one in body.occurrences)
+    parts = machine.looper_forces.parts
+    counted = sum(len(one.positions) * one.part.mass for one in parts.carried(0))
+    rest = (parts.linkage.plates["looper rocker"].mass, *(pin.mass for pin in parts.linkage.pins.values()))
+    assert mass - counted <= sum(rest) + 1e-9
+    assert mass - counted >= rest[0] - 1e-9
+
+
+def test_the_cyclogram_has_the_motion_of_the_linkages() -> None:
+    """Between its points the spline is off the circles' height and the linkage's path by less than a micrometre."""
+    machine = made()
+    (stitch,) = MACHINE.cyclograms(machine)
+    angle = np.random.default_rng(1).uniform(0, turn, 40)
+    found = sample(stitch.track("needles"), np.sort(angle)).position
+    lowest = min(needle_height(at) for at in np.linspace(0, turn, 7201))
+    assert np.abs(found - [needle_height(at) - lowest for at in np.sort(angle)]).max() < 1e-6
+    hooks = sample(stitch.track("loopers"), np.sort(angle)).position
+    assert np.abs(hooks - machine.looper.ahead(np.sort(angle))).max() < 1e-6
+    assert all(check.ok for check in check_cyclogram(stitch))
+    (late,) = MACHINE.cyclograms(made(**{"looper.late": "60deg"}))
+    assert not all(check.ok for check in check_cyclogram(late))

@@ -5,12 +5,13 @@ project's, in the arrangement of that paper's Figure 1: a main shaft, a driven s
 the hooks', several sets of both along the width.
 """
 
-from ilmek.machines.component import Child, Component, itself
-from ilmek.machines.tufting import MACHINE as NEEDLE_DRIVE
+from ilmek.machines.component import Component, itself
+from ilmek.machines.tufting_machine.cyclogram import cyclogram
 from ilmek.machines.tufting_machine.design import TuftingMachine, design
 from ilmek.machines.tufting_machine.figures import figures
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.report import TuftingVerdict, checks, self_tests, tables
+from ilmek.machines.tufting_machine.tree import tree
 
 __all__ = ["MACHINE", "TuftingMachine", "TuftingMachineParams", "design"]
 
@@ -25,7 +26,8 @@ MACHINE: Component[TuftingMachineParams, TuftingMachine, TuftingMachine] = Compo
     self_tests=self_tests,
     tables=tables,
     figures=figures,
-    children=lambda machine: (Child(NEEDLE_DRIVE, machine.needle),),
+    tree=tree,
+    cyclograms=lambda machine: (cyclogram(machine),),
     verdict=TuftingVerdict,
     headline=("tufts", "loop_formed"),
 )

@@ -4,6 +4,7 @@ The needle goes so deep under the backing that its eye passes the hook; where th
 short for that depth and the lift over the backing, its crank is lengthened until it suffices.
 """
 
+import math
 from dataclasses import replace
 from functools import lru_cache
 
@@ -17,13 +18,14 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.model import mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
+from ilmek.machines.tufting.strength import SHAFTS, needle_strength
 from ilmek.machines.tufting.strength import design as needle_drive
-from ilmek.machines.tufting.strength import needle_strength
 from ilmek.machines.tufting_machine.feed import TuftingFeed
 from ilmek.machines.tufting_machine.loop import Loop, NeedlePath, loop_geometry, loop_window, needle_depth
 from ilmek.machines.tufting_machine.looper import LooperDrive, looper_drive
 from ilmek.machines.tufting_machine.looper_forces import LooperForces, looper_forces, reflected_inertia
-from ilmek.machines.tufting_machine.needle_bar import NeedleBar, bar_mass, needle_bar
+from ilmek.machines.tufting_machine.needle_bar import NeedleBar, needle_bar
+from ilmek.machines.tufting_machine.needle_parts import needle_parts
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.machines.tufting_machine.shafts import SAMPLES, CrankTorques, TuftingShafts, tufting_shafts
@@ -90,7 +92,7 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
     depth = needle_depth(params)
     drive, path, lowest = _with_stroke(params.needle, depth + params.lift)
     geometry = loop_geometry(params, path, carpet)
-    window, mass = loop_window(geometry), bar_mass(params, carpet)
+    window, mass = loop_window(geometry), needle_parts(params).mass(carpet.needles, params.drives)
     given = replace(
         drive,
         bars=params.drives,
@@ -108,7 +110,7 @@ def design(params: TuftingMachineParams) -> TuftingMachine:
         {"main": _even(needle), "looper": moved.torque[:-1]},
         {"main": reflected_inertia(needle.state.motion, dict(needle.bodies), given.speed), "looper": moved.inertia},
     )
-    shafts = tufting_shafts(params, loads, loop.margin, needle_strength(needle).main.diameter)
+    shafts, needle = _shafts(params, loads, loop.margin, needle)
     return TuftingMachine(
         params,
         needle,
@@ -163,6 +165,27 @@ def _with_stroke(params: TuftingParams, stroke: float) -> tuple[TuftingParams, N
         allowed=f"{format_quantity(path.stroke, 'mm')} with needle.crank={format_quantity(params.crank, 'mm')}",
         do="set a lower pile_height, or other links of the needle drive",
     )
+
+
+def _shafts(
+    params: TuftingMachineParams, loads: CrankTorques, margin: float, needle: Tufting
+) -> tuple[TuftingShafts, Tufting]:
+    """The shafts, and the needle drives on them: the least diameter that torsion and the drives' fatigue allow.
+
+    With the masses given, the forces of the drives stay as they are; where they are those of the links as made, the
+    drives are designed again.
+    """
+    least = 0.0
+    while True:
+        shafts = tufting_shafts(params, loads, margin, least)
+        limits = replace(needle.params.strength, shaft_diameter=shafts.diameter)
+        given = replace(needle.params, strength=limits)
+        made = needle_drive(given) if given.link_mass == "made" else replace(needle, params=given)
+        strength = needle_strength(made)
+        enough = min(strength.main.fatigue, strength.driven.fatigue) >= limits.fatigue
+        if enough or params.shafts.diameter or shafts.diameter >= SHAFTS[-1]:
+            return shafts, made
+        least = math.nextafter(shafts.diameter, math.inf)
 
 
 def _even(needle: Tufting) -> FloatArray:

@@ -3,7 +3,10 @@
     yarn      turns of the feed roller a stitch  l / (pi d)      torque  N T d / 2
     backing   s a stitch over spiked rollers, evenly: while the needles are in it, it goes s (exit - entry) / 2 pi
 
-High and low loops need a roller or servo for each group of needles that is fed alike.
+    shift     the needle bar goes by j g while the needles are out, half of the time each way:  a = 4 j g / t²
+
+The loopers do not shift, so that a shift is of whole gauges. High and low loops need a roller or servo for each group
+of needles that is fed alike.
 """
 
 import math
@@ -11,6 +14,7 @@ import math
 from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import SERVO, Motor, geared_motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
+from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.records import computed, record
@@ -45,6 +49,17 @@ class TuftingFeed:
     advance_in_needles = computed(
         "mm", "travel of the backing while needles are in it", lambda it: it.params.stitch * it.inside / turn
     )
+
+    shift_acceleration = computed(
+        "m/s^2",
+        "acceleration of the needle bar in its shift along the shafts",
+        lambda it: 4 * it.params.shift * it.params.gauge / it.outside**2,
+    )
+
+    @property
+    def outside(self) -> float:
+        """Time of a stitch in which the needles are out of the backing [s]."""
+        return (turn - self.inside) / self.params.needle.speed
 
     @property
     def torques(self) -> dict[str, float]:
@@ -83,6 +98,13 @@ class TuftingFeed:
                 "mm",
                 "parameter feed.give",
             ).with_cure("set more stitches over the length, or a lower pile_height", SPIKED_ROLLER),
+            at_most(
+                "acceleration of the needle bar in its shift",
+                self.shift_acceleration,
+                self.params.feed.shift_acceleration,
+                "m/s^2",
+                "parameter feed.shift_acceleration",
+            ).with_cure("set a lower needle.speed, or a smaller shift", NEEDLE_BAR),
             must("a servo turns the yarn feed rollers", motors["yarn"] is not None, "motor table").with_cure(
                 slower, YARN_ROLLER
             ),

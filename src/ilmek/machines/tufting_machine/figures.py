@@ -10,6 +10,8 @@ from ilmek.dynamics.crank_figures import CRANK, crank_plot
 from ilmek.linkage.solve import solve
 from ilmek.machines.tufting.model import evaluate
 from ilmek.machines.tufting_machine.design import TuftingMachine
+from ilmek.machines.tufting_machine.looper_parts import CRANK as LOOPER_CRANK
+from ilmek.machines.tufting_machine.looper_parts import ROCKER
 from ilmek.machines.tufting_machine.shafts import SAMPLES
 from ilmek.report import Animation, Axis, Drawing, Figure, Mark, MovingStroke, Plot, Reading, Series, Stroke
 from ilmek.units import mm, turn
@@ -29,8 +31,10 @@ def moving(machine: TuftingMachine) -> Animation:
     angle = frames()
     needle = evaluate(machine.needle.params, machine.needle.plan, angle, bodies=machine.needle.bodies)
     looper = machine.looper_forces
-    motion = solve(looper.plan, {"crank": angle + machine.looper.offset}, {"crank": machine.params.needle.speed})
-    tip, shaft = (motion.point("rocker", name).position for name in ("tip", "P"))
+    motion = solve(
+        looper.plan, {LOOPER_CRANK: angle + machine.looper.offset}, {LOOPER_CRANK: machine.params.needle.speed}
+    )
+    tip, shaft = (motion.point(ROCKER, name).position for name in ("tip", "P"))
     hook = np.stack([shaft, tip - machine.looper.sense * 25 * mm, tip], 1)
     height = needle.height + machine.params.needle.shaft_height - machine.lowest
     readings = (
@@ -50,7 +54,7 @@ def moving(machine: TuftingMachine) -> Animation:
         motion,
         angle,
         Drawing("tufting-looper", "", (), unit="mm"),
-        names={"rocker": "looper shaft", "A": "A'", "B": "B'"},
+        names={ROCKER: "looper shaft", "A": "A'", "B": "B'"},
     )
     still = replace(
         whole.still,

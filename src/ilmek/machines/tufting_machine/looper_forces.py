@@ -2,7 +2,7 @@
 
     ground Q-P      crank Q-A, driven by the looper shaft     coupler A-B     rocker P-B, with the arm to the hook's tip
 
-Q is beside P towards the main shaft. The rocker carries the arm and its share of the bar and of the loopers. Held loops
+Q is beside P towards the main shaft. The rocker carries its shaft, arms, bar and loopers. Held loops
 pull the hooks up, with both legs; in cut pile the knives push them near the forward end.
 """
 
@@ -14,17 +14,27 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.attached import attached
-from ilmek.dynamics.inertia import Inertia, bar, combined, point_mass
+from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, Load, PointForce
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan, plan
+from ilmek.machines.link_tree import body_id, link_inertias
 from ilmek.machines.linkage_strength import LinkageStrength, linkage_loads, linkage_strength, strength_checks
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.machines.tufting_machine.loop import Loop
-from ilmek.machines.tufting_machine.looper import LooperDrive, rocker_middle
+from ilmek.machines.tufting_machine.looper import LooperDrive, rocker_angle
+from ilmek.machines.tufting_machine.looper_parts import (
+    BODIES,
+    COUPLER,
+    CRANK,
+    NAME,
+    ROCKER,
+    LooperParts,
+    looper_parts,
+)
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.records import computed, group, record
@@ -32,8 +42,6 @@ from ilmek.report import Check
 from ilmek.units import turn
 
 SAMPLES = 360
-LOOPER_PARTS = {name: f"tufting-machine/looper-{name}" for name in ("crank", "coupler", "rocker")}
-
 CUTTING = 0.8
 """Share of the swing forward from which the knives cut; assumed by this project."""
 
@@ -46,6 +54,7 @@ class LooperForces:
     torque  on the looper's crank [N m]                 inertia  mean reflected to the looper shaft [kg m²]
     """
 
+    parts: LooperParts
     plan: Plan
     tip: complex
     angle: FloatArray
@@ -64,9 +73,14 @@ class LooperForces:
         return {pin: float(np.max(np.abs(self.forces.pin(pin)))) for pin in "QABP"}
 
     @property
+    def ids(self) -> dict[str, str]:
+        """Ids of the parts of its links."""
+        return {name: body_id(NAME, name) for name in BODIES}
+
+    @property
     def checks(self) -> tuple[Check, ...]:
         """Links and pins."""
-        found = strength_checks(self.strength, name="looper.strength", drive="the looper crank's", parts=LOOPER_PARTS)
+        found = strength_checks(self.strength, name="looper.strength", drive="the looper crank's", parts=self.ids)
         return tuple(replace(one, name=f"looper: {one.name}") for one in found)
 
 
@@ -82,25 +96,25 @@ def looper_pivots(drive: LooperDrive, loop: Loop, needle: TuftingParams, lowest:
 def looper_mechanism(drive: LooperDrive, crank_shaft: complex, shaft: complex) -> tuple[Mechanism, complex]:
     """The crank-rocker, and the hook's point in the rocker's frame [m]."""
     lengths = drive.lengths
-    middle = drive.mirror * rocker_middle(drive.linkage, drive.swing)
+    middle = -rocker_angle(drive.linkage, drive.swing)
     tip = drive.params.arm * cmath.exp(1j * (math.pi / 2 - middle))
     return (
         Mechanism(
             name="looper",
             bodies=(
                 Body(GROUND, {"Q": crank_shaft, "P": shaft}),
-                Body("crank", {"Q": 0, "A": lengths["crank"]}),
-                Body("coupler", {"A": 0, "B": lengths["coupler"]}),
-                Body("rocker", {"P": 0, "B": lengths["rocker"], "tip": tip}),
+                Body(CRANK, {"Q": 0, "A": lengths["crank"]}),
+                Body(COUPLER, {"A": 0, "B": lengths["coupler"]}),
+                Body(ROCKER, {"P": 0, "B": lengths["rocker"], "tip": tip}),
             ),
             joints=(
-                Pin("Q", GROUND, "crank"),
-                Pin("A", "crank", "coupler"),
-                Pin("B", "coupler", "rocker"),
-                Pin("P", GROUND, "rocker"),
+                Pin("Q", GROUND, CRANK),
+                Pin("A", CRANK, COUPLER),
+                Pin("B", COUPLER, ROCKER),
+                Pin("P", GROUND, ROCKER),
             ),
-            inputs=(Rotation("crank", "Q"),),
-            branches={"B": drive.mirror},
+            inputs=(Rotation(CRANK, "Q"),),
+            branches={"B": -1},
         ),
         tip,
     )
@@ -113,56 +127,37 @@ def looper_forces(
     looper, speed = params.looper, params.needle.speed
     mechanism, tip = looper_mechanism(drive, *looper_pivots(drive, loop, params.needle, lowest))
     planned, angle = plan(mechanism), np.linspace(0.0, turn, SAMPLES + 1)
-    motion = solve(planned, {"crank": angle + drive.offset}, {"crank": speed}).require()
-    bodies = _inertias(params, carpet, drive, tip)
+    motion = solve(planned, {CRANK: angle + drive.offset}, {CRANK: speed}).require()
+    made = looper_parts(params, drive, mechanism, carpet.needles)
+    bodies = link_inertias(made.linkage, mechanism, {ROCKER: made.carried(0)})
     hooks = carpet.needles / params.drives
     held = np.mod(angle - loop.catch, turn) < loop.release - loop.catch
     cutting = (drive.deviation(angle) > CUTTING * drive.swing / 2) & (params.pile == "cut")
     pull = hooks * (2j * looper.tension * held - drive.sense * looper.cut * cutting)
-    loads: tuple[Load, ...] = (Gravity(-1j * params.needle.gravity), PointForce("rocker", tip, pull))
+    loads: tuple[Load, ...] = (Gravity(-1j * params.needle.gravity), PointForce(ROCKER, tip, pull))
     forces = inverse(motion, bodies, loads)
     section = looper.link_width, looper.link_thickness
     line = section[0] * section[1] * looper.strength.of_links.density
     found = linkage_loads(
-        forces, bodies, loads, {"coupler": (), "rocker": ()}, "AB",
+        forces, bodies, loads, {COUPLER: (), ROCKER: ()}, "AB",
         speed=speed, line_mass=line, times=angle / speed,
     )  # fmt: skip
     return LooperForces(
+        made,
         planned,
         tip,
         angle,
         motion,
         forces,
-        forces.effort("crank"),
+        forces.effort(CRANK),
         reflected_inertia(motion, bodies, speed),
-        linkage_strength(found, looper.strength, dict.fromkeys(("coupler", "rocker"), section), name="looper.strength"),
-    )
-
-
-def _inertias(
-    params: TuftingMachineParams, carpet: TuftedCarpet, drive: LooperDrive, tip: complex
-) -> dict[str, Inertia]:
-    looper, lengths = params.looper, drive.lengths
-    steel = looper.strength.of_links.density
-    line, width = looper.link_width * looper.link_thickness * steel, looper.link_width
-    carried = looper.bar**2 * steel * params.width / params.drives
-    loopers = looper.mass * carpet.needles / params.drives
-    arm, rocker = abs(tip), lengths["rocker"]
-    return {
-        "crank": bar(0, lengths["crank"], mass=line * lengths["crank"], width=width),
-        "coupler": bar(0, lengths["coupler"], mass=line * lengths["coupler"], width=width),
-        "rocker": combined(
-            bar(0, rocker, mass=line * rocker, width=width),
-            bar(0, tip, mass=line * arm, width=width),
-            point_mass(carried, at=tip * bar_share(params)),
-            point_mass(loopers, at=tip),
+        linkage_strength(
+            found,
+            looper.limits,
+            dict.fromkeys((COUPLER, ROCKER), section),
+            name="looper.strength",
         ),
-    }
-
-
-def bar_share(params: TuftingMachineParams) -> float:
-    """Middle of the looper bar on the arm, over the arm: the loopers stand on the bar."""
-    return max(0.0, 1 - 1.5 * params.looper.bar / params.looper.arm)
+    )
 
 
 def reflected_inertia(motion: Motion, bodies: dict[str, Inertia], speed: float) -> float:

@@ -11,14 +11,12 @@ import numpy as np
 
 from ilmek.elements.beam.model import Beam, LineLoad
 from ilmek.elements.beam.solve import bend
-from ilmek.elements.materials import MATERIALS, Material
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.tufting.design import Tufting
+from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
-from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.records import record, result
 from ilmek.report import Check, at_most
-
-NEEDLE_BAR = "tufting-machine/needle-bar"
 
 STRESS = 3.0
 """Yield strength over the allowed stress of the bar, which is loaded at every stitch; assumed by this project."""
@@ -29,7 +27,7 @@ class NeedleBar:
     """The needle bar of a machine."""
 
     params: TuftingMachineParams
-    mass: float = result("kg", "mass of the needle bar with its needles", name="needle_bar_mass")
+    mass: float = result("kg", "mass of needle bar, needles and push rods", name="needle_bar_mass")
     load: float = result("N/m", "greatest load along the needle bar", name="needle_bar_load")
     deflection: float = result("mm", "greatest deflection of the needle bar", name="needle_bar_deflection")
     stress: float = result("MPa", "greatest bending stress of the needle bar", name="needle_bar_stress")
@@ -37,7 +35,7 @@ class NeedleBar:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Deflection and stress."""
-        allowed = material_of(self.params).strength / STRESS
+        allowed = MATERIALS[self.params.needle_bar.material].strength / STRESS
         cure = "set more drives, or a higher needle_bar.height"
         return (
             at_most(
@@ -53,18 +51,6 @@ class NeedleBar:
         )
 
 
-def material_of(params: TuftingMachineParams) -> Material:
-    """The material of the needle bar."""
-    return MATERIALS[params.needle_bar.material]
-
-
-def bar_mass(params: TuftingMachineParams, carpet: TuftedCarpet) -> float:
-    """Mass of the needle bar with its needles [kg]."""
-    bar = params.needle_bar
-    section = bar.thickness * bar.height
-    return material_of(params).density * section * params.width + carpet.needles * bar.needle
-
-
 def needle_bar(params: TuftingMachineParams, mass: float, drive: Tufting) -> NeedleBar:
     """The needle bar over a turn of its drives."""
     bar, state, pitch = params.needle_bar, drive.state, params.width / params.drives
@@ -76,7 +62,11 @@ def needle_bar(params: TuftingMachineParams, mass: float, drive: Tufting) -> Nee
     unit = _unit_bend(length, supports)
     deflection, moment = (load * value for value in unit)
     return NeedleBar(
-        params, mass, load, deflection / (material_of(params).modulus * inertia), moment * bar.height / 2 / inertia
+        params,
+        mass,
+        load,
+        deflection / (MATERIALS[params.needle_bar.material].modulus * inertia),
+        moment * bar.height / 2 / inertia,
     )
 
 

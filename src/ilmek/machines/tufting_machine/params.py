@@ -1,6 +1,6 @@
 """Parameters of a tufting machine: carpet and yarn, needle drives and bar, looper, shafts, feed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
@@ -36,6 +36,7 @@ class TuftedCarpetParams(Params):
     back_stitch: float = kind.ratio(
         1.0, at_least=0.0, at_most=2.0, doc="yarn from stitch to stitch on the back, over their distance", symbol="k"
     )
+    shift: int = kind.count(0, at_least=0, at_most=8, doc="gauges by which the needle bar shifts from stitch to stitch")
     yarn_density: float = kind.line_density(
         3400 / 9000 * g / m, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the yarn: 3400 den"
     )
@@ -89,13 +90,28 @@ class LooperParams(Params):
     )
     link_width: float = kind.length(40 * mm, at_least=5 * mm, at_most=0.5, doc="width of coupler and rocker")
     link_thickness: float = kind.length(12 * mm, at_least=2 * mm, at_most=0.2, doc="thickness of coupler and rocker")
+    shaft: float = kind.length(30 * mm, at_least=5 * mm, at_most=0.2, doc="diameter of both looper shafts")
+    pin: float = kind.length(12 * mm, at_least=2 * mm, at_most=0.1, doc="diameter of the pin of coupler and rocker")
     bar: float = kind.length(25 * mm, at_least=2 * mm, at_most=0.2, doc="side of the square bar that carries loopers")
-    mass: float = kind.mass(3 * g, at_least=0.0, at_most=1.0, doc="mass of a looper")
+    stem: float = kind.length(35 * mm, at_least=2 * mm, at_most=0.3, doc="hook's point over the bar")
+    coupling: float = kind.ratio(
+        0.1, above=0.0, below=1.0, doc="crank over coupler, where the crank's rotation allows it"
+    )
     tension: float = kind.force(0.3, at_least=0.0, at_most=100.0, doc="tension of the yarn in each leg of a held loop")
     cut: float = kind.force(
         2.0, at_least=0.0, at_most=1e3, doc="force of a knife on its hook, near the forward end, in cut pile"
     )
     strength: StrengthParams = nested(StrengthParams, doc="what the looper's links and pins bear")
+
+    @property
+    def pin_diameter(self) -> float:
+        """Diameter of the pin of coupler and rocker [m]."""
+        return self.strength.pin_diameter or self.pin
+
+    @property
+    def limits(self) -> StrengthParams:
+        """What links and that pin bear."""
+        return replace(self.strength, pin_diameter=self.pin_diameter)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +121,9 @@ class NeedleBarParams(Params):
     material: str = kind.choice("aluminium alloy", tuple(MATERIALS), doc="material of the needle bar")
     thickness: float = kind.length(30 * mm, at_least=5 * mm, at_most=0.3, doc="thickness of the needle bar")
     height: float = kind.length(40 * mm, at_least=5 * mm, at_most=0.3, doc="height of the needle bar")
-    needle: float = kind.mass(1.5 * g, at_least=0.0, at_most=1.0, doc="mass of a needle")
+    needle_length: float = kind.length(50 * mm, at_least=5 * mm, at_most=0.5, doc="needle out of the bar")
+    rod: float = kind.length(20 * mm, at_least=3 * mm, at_most=0.2, doc="diameter of a push rod")
+    joint: float = kind.length(0.5 * mm, at_least=0.0, at_most=0.1, doc="gap of its pieces, with a phase of the drives")
     bow: float = kind.length(0.1 * mm, at_least=1e-6, at_most=0.1, doc="allowed deflection of the needle bar")
 
 
@@ -114,7 +132,7 @@ class TuftingShaftParams(Params):
     """Main and looper shaft along the width, motor and flywheel; values assumed by this project."""
 
     diameter: float | None = kind.length(
-        None, at_least=5 * mm, at_most=0.5, doc="diameter of main and looper shaft; default: least of stock"
+        None, at_least=5 * mm, at_most=0.5, doc="diameter of the main shaft; default: least of stock"
     )
     damping: float = kind.ratio(
         0.03, above=0.0, at_most=1.0, doc="damping of the first torsional mode over the critical"
@@ -137,6 +155,9 @@ class TuftingFeedParams(Params):
     yarn_tension: float = kind.force(0.5, at_least=0.0, at_most=100.0, doc="tension of a yarn behind the feed rollers")
     spiked_roller: float = kind.length(120 * mm, at_least=10 * mm, at_most=1.0, doc="diameter of the spiked rollers")
     backing_tension: float = kind.line_load(300.0, at_least=0.0, at_most=1e5, doc="tension of the backing over width")
+    shift_acceleration: float = kind.acceleration(
+        100.0, above=0.0, at_most=1e5, doc="allowed acceleration of the needle bar in its shift"
+    )
     give: float = kind.length(
         2.5 * mm, at_least=0.0, at_most=50 * mm, doc="allowed travel of the backing while needles are in it: they bend"
     )

@@ -1,8 +1,8 @@
 """Main and looper shaft along the width: torsion under the torques of all drives, flywheel, motor, critical speed.
 
-Motor, flywheel and the belt between both shafts are at one end. A drive is a disc: the mean inertia of its links at the
-crank. Drive k asks for the torque T(theta - k phase) of constant speed; the shaft's first end bears the mean of all of
-them. The needle at a drive is then late by its twist against that end, the hook by that of the looper shaft:
+The motor is at one end, flywheel and the belt between both shafts at the other. A drive is a disc: the mean inertia of
+its links at the crank. Drive k asks for the torque T(theta - k phase) of constant speed, the motor gives the mean of
+all. The needle at a drive is then late by its twist against the belt's end, the hook by that of the looper shaft:
 
     |twist_main - twist_looper| <= share of the looper's timing margin
                                                                   [`elements.torsion`; the purpose that the paper names]
@@ -36,7 +36,7 @@ SAMPLES = 360
 CRITICAL = 3.0
 """Critical speed over the speed at least; assumed by this project."""
 
-SHAFT_IDS = {"main": "tufting/main-shaft", "looper": "tufting-machine/looper-shaft"}
+SHAFT_IDS = MAIN_SHAFT, LOOPER_CRANKS = "tufting/main-shaft", "tufting-machine/looper-crank-shaft"
 MOTOR_ID, FLYWHEEL_ID = "tufting-machine/motor", "tufting-machine/flywheel"
 
 
@@ -50,15 +50,10 @@ class CrankTorques:
 
 @record
 class ShaftTorsion:
-    """A shaft: its modes, and the twist of its end and of each drive over a turn [rad], (1 + drives, samples)."""
+    """A shaft: its modes, and the twist of each drive against the belt's end over a turn [rad], (drives, samples)."""
 
     modes: TorsionModes
-    twist: Float[np.ndarray, "discs samples"]
-
-    @property
-    def late(self) -> FloatArray:
-        """Twist of the drives against the end with the belt [rad], (drives, samples)."""
-        return np.asarray(self.twist[1:] - self.twist[0])
+    late: Float[np.ndarray, "drives samples"]
 
 
 @record
@@ -67,7 +62,7 @@ class TuftingShafts:
 
     params: TuftingMachineParams
     margin: float
-    diameter: float = result("mm", "diameter of main and looper shaft", name="shaft_diameter")
+    diameter: float = result("mm", "diameter of the main shaft", name="shaft_diameter")
     shafts: Mapping[str, ShaftTorsion]
     flywheel: float = result("kg*m^2", "moment of inertia of the flywheel", name="flywheel_inertia")
     torque: Float[np.ndarray, " samples"]
@@ -84,7 +79,7 @@ class TuftingShafts:
     )
     shaft_twist_max = computed(
         "deg",
-        "greatest twist of a drive against the end with the motor, by shaft",
+        "greatest twist of a drive against the belt's end, by shaft",
         lambda it: {name: float(np.max(np.abs(one.late))) for name, one in it.shafts.items()},
     )
     needle_twist = computed(
@@ -93,7 +88,7 @@ class TuftingShafts:
     timing_error = computed(
         "deg", "greatest twist of a needle against its looper", lambda it: float(np.max(np.abs(it.main - it.looper)))
     )
-    critical_speed = computed("rpm", "critical speed of the shafts between their bearings", lambda it: it.whirl)
+    critical_speed = computed("rpm", "critical speed of the main shaft between its drives", lambda it: it.whirl)
     drive_torque_rms = computed("N*m", "root mean square of the torque of all drives", lambda it: it.rms_torque)
     drive_torque_max = computed("N*m", "its greatest magnitude", lambda it: float(np.max(np.abs(it.torque))))
     drive_motor = computed(
@@ -131,7 +126,7 @@ class TuftingShafts:
     def checks(self) -> tuple[Check, ...]:
         """Twist against the looper's window, resonance, critical speed, motor."""
         given, speed = self.params.shafts, self.params.needle.speed
-        cure, ids = "set a larger shafts.diameter, more or lighter drives", tuple(SHAFT_IDS.values())
+        cure, ids = "set a larger shafts.diameter, more or lighter drives", SHAFT_IDS
         first = min(self.natural_frequency, self.looper_natural_frequency)
         return (
             at_most(
@@ -163,7 +158,7 @@ def tufting_shafts(params: TuftingMachineParams, loads: CrankTorques, margin: fl
     margin  of the looper's timing [rad]      least  diameter that the strength of the main shaft needs [m]
     """
     given = params.shafts
-    offered = (given.diameter,) if given.diameter else tuple(size for size in SHAFTS if size >= least - 1e-9)
+    offered = (given.diameter,) if given.diameter else tuple(size for size in SHAFTS if size >= least)
     tried: TuftingShafts | None = None
     for diameter in offered or (least,):
         tried = _shafts(params, loads, margin, diameter)
@@ -179,15 +174,24 @@ def _shafts(params: TuftingMachineParams, loads: CrankTorques, margin: float, di
     total = np.sum([one.sum(axis=0) for one in torques.values()], axis=0)
     wheel = _flywheel(total, speed, params.shafts.fluctuation)
     pitch = params.width / params.drives
-    stations = np.concatenate(([0.0], (np.arange(params.drives) + 1) * pitch))
-    shafts = {}
-    for name, torque in torques.items():
-        inertias = np.concatenate(([max(wheel, loads.inertias[name])], np.full(params.drives, loads.inertias[name])))
-        modes = torsion_modes(stations, inertias, diameter, STEEL)
-        asked = np.concatenate((np.full((1, torque.shape[1]), torque.sum(axis=0).mean()), -torque))
-        shafts[name] = ShaftTorsion(modes, steady_twist(modes, asked, speed, params.shafts.damping))
+    stations = np.arange(params.drives + 1) * pitch
     required = max(MARGIN * float(np.sqrt(np.mean(total**2))), float(np.max(np.abs(total))) / SERVO_PEAK)
     motor = geared_motor(required, speed, (DIRECT, *PLANETARY), SERVO)
+    rotor = motor[0].inertia * motor[1].ratio ** 2 if motor else wheel
+    shafts = {}
+    for name, torque in torques.items():
+        mean, end = np.full((1, torque.shape[1]), torque.sum(axis=0).mean()), max(wheel, loads.inertias[name])
+        inertias = np.concatenate(([end], np.full(params.drives, loads.inertias[name])))
+        if name == "main":  # the motor beyond the last drive gives the mean; it reaches the loopers by the belt
+            modes = torsion_modes(
+                np.append(stations, params.width + pitch / 2), np.append(inertias, rotor), diameter, STEEL
+            )
+            asked = np.concatenate((0 * mean, -torque, mean))
+        else:
+            modes = torsion_modes(stations, inertias, params.looper.shaft, STEEL)
+            asked = np.concatenate((mean, -torque))
+        twist = steady_twist(modes, asked, speed, params.shafts.damping)
+        shafts[name] = ShaftTorsion(modes, twist[1 : params.drives + 1] - twist[0])
     return TuftingShafts(params, margin, diameter, shafts, wheel, total, motor)
 
 
