@@ -330,7 +330,8 @@ def test_the_mass_centre_of_turned_and_repeated_bodies() -> None:
 
 def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     loom = default_design("automated-loom")
-    (check,) = papers().checks
+    check = papers().checks[-1]
+    assert "assembly" in check.name
     assert check.ok, check.source
     manual = next(paper for paper in papers().pages if paper.name == "assembly-manual")
     rows = [row for section in manual.sections if section.table for row in section.table.rows]

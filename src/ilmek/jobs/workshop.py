@@ -74,22 +74,14 @@ class Workshop:
     """The files that were written.
 
     entries   of the index, one per file: part, error, number of points
-<<<<<<< HEAD
-    left_out  warnings of parts whose files cannot be made      found  checks made for the papers
-=======
     left_out  warnings of parts whose files cannot be made
     judged_for_papers  checks of the papers
->>>>>>> main
     """
 
     folder: Path
     entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
-<<<<<<< HEAD
-    found: tuple[Check, ...] = ()
-=======
     judged_for_papers: tuple[Check, ...] = ()
->>>>>>> main
 
     @property
     def files(self) -> list[str]:
@@ -129,11 +121,7 @@ class Workshop:
             reverse=True,
         )
         missed = sum(not entry["kept"] for entry in tables)
-<<<<<<< HEAD
-        return (complete, *self.found, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
-=======
         return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]), *self.judged_for_papers)
->>>>>>> main
 
     def judged(self, report: Report) -> Report:
         """A report with the checks of the files that were written for it."""
@@ -212,17 +200,11 @@ def write_workshop(
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
-<<<<<<< HEAD
-        files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
-        judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
-        files += write_papers(papers, judged, work)
-=======
         drawn = progress.part(0.5, 1.0, "drawings")
         files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
         judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
         files += _in_space(tree, report, work) if tree is not None else ()
         files += write_papers(papers, judged, work, issue)
->>>>>>> main
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
     return Workshop(folder, tuple(files), tuple(left_out), papers.checks)

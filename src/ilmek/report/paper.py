@@ -77,23 +77,16 @@ class PrintedPaper:
 
 @record
 class Papers:
-<<<<<<< HEAD
-    """The papers of a machine: pages for people, in each language, lists for other programs, checks made for them."""
-=======
     """The papers of a machine: pages for people, in each language, and lists for other programs.
 
     checks  what was judged for them, beside the checks of the report
     tree  of the package `part`, of which the assemblies are drawn; None: none
     """
->>>>>>> main
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
     checks: tuple[Check, ...] = ()
-<<<<<<< HEAD
-=======
     tree: object = None
->>>>>>> main
 
 
 NO_PAPERS = Papers()

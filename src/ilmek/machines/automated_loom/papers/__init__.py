@@ -21,9 +21,6 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
     )
-<<<<<<< HEAD
-    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices), (assembly_check(loom),))
-=======
     tree = loom_tree(loom)
-    return Papers(pages, part_lists(tree, whole_list(loom).prices), safety_checks(loom, report), tree)
->>>>>>> main
+    checks = (*safety_checks(loom, report), assembly_check(loom))
+    return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)
