@@ -43,6 +43,7 @@ from ilmek.report import Papers, Report, must
 from ilmek.report.scene import SceneMotion
 from ilmek.report.sheet import Schematic
 from ilmek.sentences import in_language, translated
+from ilmek.viz.document_page import printed
 
 
 @cache
@@ -283,15 +284,15 @@ def test_diagrams_have_the_devices_of_the_tables() -> None:
         assert {*row, f"4 × {section:g} mm²", str(sign).replace("M", "T")} <= {*drawn}
     circuit, terminals = figure_texts("electrical", 4), rows_of("electrical", 3)
     for sign, _, _, number, signals in rows_of("electrical", 4):
-        letter = str(sign).removeprefix("-").rstrip("0123456789 …")
-        if letter in "SB" and sign != "-S0":
-            assert sorted(text for text in circuit if text.startswith(f"-{letter}")) == [
-                f"-{letter}{index}" for index in range(1, int(number) + 1) for _ in "12"
+        letter = str(sign).rstrip("0123456789 …")
+        if letter in "SB" and sign != "S0":
+            assert sorted(text for text in circuit if text[1:].isdigit() and text[0] == letter) == [
+                f"{letter}{index}" for index in range(1, int(number) + 1) for _ in "12"
             ]
             (address,) = [f"X1:{row[1]}{row[2]}" for row in terminals if row[0] == signals]
             assert address in circuit
     (axes,) = [row["quantity"] for row in listed("parts") if row["id"] == "automated-loom/control-axis"]
-    assert f"-T1 … ({axes} ×)" in circuit
+    assert f"T1 … ({axes} ×)" in circuit
 
 
 def test_safety_functions_reach_what_their_hazards_require() -> None:
@@ -364,6 +365,34 @@ def test_pages_are_in_two_languages(tmp_path: Path) -> None:
                 assert f"<h2>{escape(translated(section.title))}</h2>" in other
             assert f"<h2>{escape(section.title)}</h2>" in said
         assert "NOT RELEASED" not in said
+
+
+def test_nouns_of_the_loom_are_turkish_in_turkish_papers() -> None:
+    loom = default_design("automated-loom")
+    tree = loom_tree(loom)
+    nouns = {part.title for part, _ in tree.occurrences()} | {own for body in tree.bodies for own in body.id.split("/")}
+    for cyclogram in loom.cyclograms:
+        nouns |= {track.name for track in cyclogram.tracks}
+        nouns |= {segment.name.rstrip(" 0123456789") for track in cyclogram.tracks for segment in track.segments}
+    with in_language("tr"):
+        same = {noun for noun in nouns if translated(noun.replace("-", " ")) == noun and translated(noun) == noun}
+        assert (
+            translated("3 × motor of a cylinder; 1 × pulley of a carriage") == "3 × silindir motoru; 1 × araba kasnağı"
+        )
+    assert not same
+    english, turkish = (
+        {
+            cell.text
+            for paper in papers().pages
+            for section in printed(paper, "", language, UNDATED).sections
+            for row in section.rows
+            for cell in row
+            if " of " in cell.text or " the " in cell.text
+        }
+        for language in ("en", "tr")
+    )
+    assert len(english) > 100
+    assert turkish == {"disc brake of a yarn"}  # a designation, as it is ordered
 
 
 def test_a_design_whose_checks_fail_is_not_released(tmp_path: Path) -> None:

@@ -273,6 +273,8 @@ PAPERS = {
     "manual.lead": "Steps in the order that the joints allow, with what comes, screws and torques",
     "manual.machine": "{machine}: steps {first} to {last}",
     "manual.picture": "From the weaver's right: what comes in bold lines, what stands dashed",
+    "manual.picture-front": "From the front: what comes in bold lines, what stands dashed",
+    "manual.picture-top": "From above: what comes in bold lines, what stands dashed",
     "manual.step": "step",
     "manual.body": "body",
     "manual.onto": "carried by",

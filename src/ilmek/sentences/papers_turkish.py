@@ -272,6 +272,8 @@ PAPERS = {
     "manual.lead": "Mafsalların izin verdiği sırayla adımlar, gelen parçalar, vidalar ve sıkma torkları",
     "manual.machine": "{machine}: {first} ile {last} arası adımlar",
     "manual.picture": "Dokuyucunun sağından: gelen parçalar kalın, duranlar kesik çizgili",
+    "manual.picture-front": "Önden: gelen kalın, duran kesik çizgiyle",
+    "manual.picture-top": "Üstten: gelen kalın, duran kesik çizgiyle",
     "manual.step": "adım",
     "manual.body": "gövde",
     "manual.onto": "taşıyan",

@@ -35,7 +35,7 @@ def printed(paper: Paper, machine: str, language: str, issue: Issue) -> PrintedP
             language,
             f"{translated(paper.title)}: {machine}",
             translated(paper.lead),
-            sentence("paper.issue", revision=issue.revision, date=issue.date),
+            sentence("paper.issue", revision=issue.revision, date=issue.date) if issue.given else "",
             tuple(map(sentence, why)),
             tuple(_section(section) for section in paper.sections),
             sentence("paper.made-by", version=ilmek.__version__),

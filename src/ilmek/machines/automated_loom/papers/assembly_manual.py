@@ -1,15 +1,13 @@
-"""The assembly manual of a loom: its bodies in the order that their joints allow, with what comes, screws, pictures.
+"""The assembly manual of a machine: its bodies in the order that their joints allow, with what comes, screws, pictures.
 
 A body comes after what carries it and after the bodies that close loops with it and stand before it in the tree; so the
-order is that of the tree, machine by machine. The pictures are seen from the weaver's right.
+order is that of the tree, machine by machine. The pictures of a loom are seen from the weaver's right.
 """
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from ilmek.elements.hexagon_screws import screw_of
-from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.part_lists import FASTENER
 from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.tree import JointKind, RigidBody, Tree
@@ -46,16 +44,15 @@ def machine_of(body: RigidBody) -> str:
     return machine if dash else OWN
 
 
-def assembly_manual(loom: LoomDesign) -> Paper:
-    """A section for the bodies of each machine that follow each other, with a picture and its steps."""
-    tree = loom_tree(loom)
-    seen = outlines(tree, View.SIDE)
+def assembly_manual(tree: Tree, view: View = View.SIDE) -> Paper:
+    """A section for the bodies of each machine that follow each other, with a picture from a side and its steps."""
+    seen = outlines(tree, view)
     standing: set[str] = set()
     sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
     for machine, grouped in groupby(assembly_steps(tree), key=lambda step: machine_of(step.body)):
         steps = tuple(grouped)
         coming = {step.body.id for step in steps}
-        sections.append(_section(machine, steps, _picture(seen, standing, coming)))
+        sections.append(_section(machine, steps, _picture(seen, standing, coming, _CAPTIONS[view])))
         standing |= coming
     sections.append(PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)))
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
@@ -74,7 +71,7 @@ def _section(machine: str, steps: Sequence[AssemblyStep], picture: Drawing) -> P
         Column(Sentence("manual.tighten")),
     )
     table = Table("steps", title, heads, tuple(_row(step) for step in steps))
-    return PaperSection(title, (Sentence("manual.picture"),), table, boxes=True, figure=picture)
+    return PaperSection(title, (picture.title,), table, boxes=True, figure=picture)
 
 
 def _row(step: AssemblyStep) -> tuple[float | int | str, ...]:
@@ -104,7 +101,7 @@ def _screws(body: RigidBody) -> Iterator[str]:
             yield f"{len(own.positions)} × {own.part.purchase.row}{torque}"
 
 
-def _picture(seen: Sequence[PieceOutline], standing: set[str], coming: set[str]) -> Drawing:
+def _picture(seen: Sequence[PieceOutline], standing: set[str], coming: set[str], caption: str) -> Drawing:
     """What stands, dashed, and what comes, in bold lines: the largest outlines of both."""
     shown = sorted((own for own in seen if own.body in standing | coming), key=_extent, reverse=True)[:MOST_CURVES]
     strokes = [
@@ -112,12 +109,18 @@ def _picture(seen: Sequence[PieceOutline], standing: set[str], coming: set[str])
         for own in sorted(shown, key=lambda own: own.body in coming)
         for curve in own.curves
     ]
-    return Drawing("assembly", Sentence("manual.picture"), tuple(strokes), unit="mm")
+    return Drawing("assembly", caption, tuple(strokes), unit="mm")
 
 
 def _extent(outline: PieceOutline) -> float:
     return max(float(abs(curve - outline.middle).max()) for curve in outline.curves)
 
+
+_CAPTIONS = {
+    View.SIDE: Sentence("manual.picture"),
+    View.FRONT: Sentence("manual.picture-front"),
+    View.TOP: Sentence("manual.picture-top"),
+}
 
 _JOINTS = {
     JointKind.FIXED: Sentence("manual.fixed"),

@@ -85,7 +85,7 @@ def motor_circuits(loom: LoomDesign) -> tuple[MotorCircuit, ...]:
     ]
     together = sum(number // loom.heads for part, number in motors if part.id in on_head)
     return tuple(
-        MotorCircuit(f"-M{sign}", part, number, together if part.id in on_head else 1)
+        MotorCircuit(f"M{sign}", part, number, together if part.id in on_head else 1)
         for sign, (part, number) in enumerate(motors, 1)
     )
 
@@ -184,7 +184,7 @@ def _motors(circuits: tuple[MotorCircuit, ...]) -> PaperSection:
 
 def _sensors(loom: LoomDesign) -> PaperSection:
     sensors = [part.id for part, _ in loom_tree(loom).occurrences() if part.process in SENSING]
-    signs = {part: f"-B{number}" for number, part in enumerate(sensors, 11)}
+    signs = {part: f"B{number}" for number, part in enumerate(sensors, 11)}
     return _devices(loom, Sentence("electric.sensors"), SENSING, signs)
 
 
@@ -230,8 +230,8 @@ def _terminals(loom: LoomDesign) -> PaperSection:
 
 def _safety(loom: LoomDesign, report: Report) -> PaperSection:
     functions, stops = tuple(safety_functions(loom, report)), stopping_time(loom)
-    signs = {own.part: "-" + own.sign + ("1" if own.number == 1 else f"1 … {own.number}") for own in functions}
-    signs |= {signals.RELAY: "-K1", signals.RESET: "-S0"}
+    signs = {own.part: own.sign + ("1" if own.number == 1 else f"1 … {own.number}") for own in functions}
+    signs |= {signals.RELAY: "K1", signals.RESET: "S0"}
     made = _devices(loom, Sentence("electric.safety"), SAFE, signs)
     text = Sentence(
         "electric.safety-how",

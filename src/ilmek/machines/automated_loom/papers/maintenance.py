@@ -14,8 +14,11 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
 from ilmek.machines.weaver.carriage_guide import life as guide_life
+from ilmek.machines.weaver.knife import KNIFE
 from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
+from ilmek.machines.weft.carriers import WEFT_CUTTER
+from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
@@ -185,26 +188,34 @@ def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:
 
 def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Table:
     """What is replaced within the years of the loom, and a set of what wears without a computed life."""
+    computed = (
+        (one.title, one.designation, one.spare(year.years), Sentence("maintenance.by-life"))
+        for one in wears
+        if one.spare(year.years)
+    )
+    return _kept((*computed, *worn_sets(loom_tree(loom), max(loom.heads, 1))))
+
+
+def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]:
+    """A set for one of some machines that are alike, of what wears and has no computed life."""
+    for part, number in tree.occurrences():
+        if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
+            row = part.purchase.row if part.purchase else part.size
+            yield part.title, row, max(1, number // alike), Sentence("maintenance.by-set")
+
+
+def spares_of(tree: Tree) -> Paper | None:
+    """The maintenance of a machine of which no use in a year is known: what wears; None where nothing does."""
+    rows = tuple(worn_sets(tree))
+    title, lead = Sentence("maintenance.title"), Sentence("maintenance.spares")
+    return Paper("maintenance", title, lead, (PaperSection(lead, (), _kept(rows)),)) if rows else None
+
+
+def _kept(rows: tuple[tuple[float | int | str, ...], ...]) -> Table:
     heads = (
         Column(Sentence("maintenance.part")),
         Column(Sentence("maintenance.designation")),
         Column(Sentence("maintenance.keep")),
         Column(Sentence("maintenance.why")),
     )
-    computed = [
-        (one.title, one.designation, one.spare(year.years), Sentence("maintenance.by-life"))
-        for one in wears
-        if one.spare(year.years)
-    ]
-    each = max(loom.heads, 1)
-    sets = [
-        (
-            part.title,
-            part.purchase.row if part.purchase else part.size,
-            max(1, number // each),
-            Sentence("maintenance.by-set"),
-        )
-        for part, number in loom_tree(loom).occurrences()
-        if part.process in WEARING or part.id in ("weaver/knife", "weft/cutter")
-    ]
-    return Table("spares", Sentence("maintenance.spares"), heads, (*computed, *sets))
+    return Table("spares", Sentence("maintenance.spares"), heads, rows)
