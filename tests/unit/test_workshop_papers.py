@@ -178,6 +178,9 @@ def test_belts_are_tuned_by_their_mass_and_tension() -> None:
     tension = check_value("tension of the heads' belt") / 2  # where no head steps
     wave = math.sqrt(tension / mass)
     assert float(str(rows_of("commissioning", 3)[0][1]).removesuffix(" Hz")) == pytest.approx(wave / 2 / span, rel=0.01)
+    kept = rows_of("maintenance", 2)[0]
+    assert kept[2] == pytest.approx(wave / 2 / span, rel=0.01)
+    assert kept[3] == pytest.approx(math.sqrt(0.8 * tension / mass) / 2 / span, rel=0.01)  # four fifths of the tension
 
 
 def test_axes_stand_before_a_body_comes_from_the_doors() -> None:
@@ -275,13 +278,14 @@ def figure_texts(page: str, section: int) -> list[str]:
 
 def test_diagrams_have_the_devices_of_the_tables() -> None:
     drawn = figure_texts("electrical", 0)
-    for sign, title, _, number, _, _, amplifier, fuse, section, _ in rows_of("electrical", 1):
+    for sign, title, row_of_table, number, _, _, amplifier, fuse, section, _ in rows_of("electrical", 1):
+        wires = 5 if "stepper" in str(row_of_table) else 4
         row = [
             f"{sign}: {number} × {title}",
             f"{sign.replace('M', 'F')}: {number} × {fuse:g} A",
             f"{amplifier:g} A, STO",
         ]
-        assert {*row, f"4 × {section:g} mm²", str(sign).replace("M", "T")} <= {*drawn}
+        assert {*row, f"{wires} × {section:g} mm²", str(sign).replace("M", "T")} <= {*drawn}
     circuit, terminals = figure_texts("electrical", 4), rows_of("electrical", 3)
     for sign, _, _, number, signals in rows_of("electrical", 4):
         letter = str(sign).rstrip("0123456789 …")

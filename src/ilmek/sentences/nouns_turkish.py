@@ -52,7 +52,8 @@ side jaws = yan çeneler | side plate = yan levha | side-gripper grasp = yan kı
 side-gripper motion = yan kıskaç hareket+i | slide = sürgü | sliding knife = kayan bıçak | small pulley = küçük kasnak
 spacer = ara parça | spacer cylinder = ara silindir | spacer bearings = ara silindir yataklar+ı | spring = yay
 spacer drive = ara silindir tahriğ+i | springs = yaylar | stand = ayaklık | step = adım | stop motion = durdurma düzen+i
-support = destek | take up = sar | take-up = sarma | tension = gerginlik | terminal = klemens | tie = bağ
+support = destek | take up = sar | take-up = sarma
+sensor of the warps' tension = çözgü gerginliği algılayıcı+sı | terminal = klemens | tie = bağ
 to tube = tüpe | toothed plate = dişli levha | trough = oluk | tube = tüp | tuck-in needle = kıvırma iğne+si
 turn back = geri dön | turning cam shaft = dönen kam mil+i | turning cutters = dönen kesiciler | wire = tel
 turning eccentric = dönen eksantrik | turning pile handler = dönen hav taşıyıcı+sı | turning pinion = dönen pinyon
@@ -72,14 +73,18 @@ arm of a head to its energy chain = kafanın enerji zincir+i kol+u | axle of suc
 bracket of the head on its carriage = kafanın araba konsol+u | warp stop barrier = çözgü durdurma bariyer+i
 yarn duct = iplik kanal+ı | retreat sensor = geri çekilme algılayıcı+sı | tension sensor = gerginlik algılayıcı+sı
 beat encoder = tefe kodlayıcı+sı | carrier of the weft = atkı taşıyıcı+sı | coupler = biyel | links = uzuvlar
-light grid = ışık perde+si | button = düğme
+light grid = ışık perde+si | button = düğme | Automated loom = Otomatik tezgâh | Hand loom = El tezgâh+ı
+Beat by hand = Elle tefeleme | Beat-up = Tefeleme | Hammer = Tokmak | Hand shed = El ağızlık düzen+i | Cam = Kam
+Knotting head = Düğüm kafa+sı | Knotting dyad = Düğüm diyad+ı | Knotting four-bar = Dört çubuklu düğüm mekanizma+sı
+Shedding cams = Ağızlık kamlar+ı | Tension compensator = Gerginlik dengeleyici+si | Weft = Atkı
+Tufting needle mechanism = Tufting iğne mekanizma+sı | Warp tension = Çözgü gerginliğ+i
 """
 
 NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair in line.split(" | "))
 
 _OF = re.compile(r"(.+?) of (?:the |an? |such a )?(.+)")
 _ITS = re.compile(r"(.+?)(?:'s|(?<=s)') (.+)")
-_PIECES = re.compile(r"(; |: |, |\d+ × | \d+$)")
+_PIECES = re.compile(r"(; |: |\d+ × | \d+$)")
 _VOWELS = {"a": "ı", "ı": "ı", "e": "i", "i": "i", "o": "u", "u": "u", "ö": "ü", "ü": "ü"}
 
 
@@ -90,12 +95,17 @@ def named(text: str) -> str:
     >>> named("2 × bearing of the cam shaft; 1 × heads' rail"), named("weaver: sley-follower"), named("NEMA 17")
     ('2 × kam mili yatağı; 1 × kafalar rayı', 'dokuma kafası: tefe tarağı izleyicisi', 'NEMA 17')
     """
-    whole = _noun(text)
+    whole = None if "; " in text else _noun(text)
     if whole is None:
-        whole = "".join(_noun(piece) or piece for piece in _PIECES.split(text))
+        whole = "".join(map(_listed, _PIECES.split(text)))
     return whole.replace("+", "") if whole != text else text
 
 
+def _listed(text: str) -> str:
+    return _noun(text) or ", ".join(_noun(piece) or piece for piece in text.split(", "))
+
+
+@lru_cache(maxsize=4096)
 def _noun(text: str) -> str | None:
     """A noun with its mark; None where it is not known."""
     if text in NOUNS:

@@ -45,6 +45,10 @@ PAPERS = {
     "maintenance.why": "because",
     "maintenance.by-life": "its life is shorter than that of the loom",
     "maintenance.by-set": "it wears; no life is computed",
+    "maintenance.belts-how": "Measure each belt after its first week, then at each greasing; tighten it below "
+    "{share} of its tension, replace it with a cracked tooth.",
+    "maintenance.set": "set to",
+    "maintenance.least": "tighten below",
     # Wear
     "wear.shed-bearing": "bearing of a cam shaft",
     "wear.upper-bearing": "bearing of the upper cylinder",

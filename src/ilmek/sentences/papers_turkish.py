@@ -44,6 +44,10 @@ PAPERS = {
     "maintenance.why": "neden",
     "maintenance.by-life": "ömrü tezgâhınkinden kısadır",
     "maintenance.by-set": "aşınır; ömrü hesaplanmamıştır",
+    "maintenance.belts-how": "Her kayışı ilk haftadan sonra, ardından her yağlamada ölçün; gerginliğinin {share} "
+    "değerinin altında gerin, dişi çatlamışsa değiştirin.",
+    "maintenance.set": "ayar",
+    "maintenance.least": "altında gerin",
     # Wear
     "wear.shed-bearing": "kam milinin yatağı",
     "wear.upper-bearing": "üst silindirin yatağı",

@@ -65,6 +65,16 @@ class MotorCircuit:
         return fuse_for(self.current)
 
     @property
+    def phases(self) -> int:
+        """Phases of its windings."""
+        return 2 if self.part.process == STEPPER else 3
+
+    @property
+    def wires(self) -> int:
+        """Wires of its cable: both ends of the two windings of a stepper, or three phases; and the protective one."""
+        return {2: 4, 3: 3}[self.phases] + 1
+
+    @property
     def amplifier(self) -> float:
         """Rated current of its amplifier [A]; nan above the series."""
         return next((rated for rated in AMPLIFIERS if rated >= self.current), math.nan)
@@ -134,10 +144,10 @@ def _supply(report: Report, circuits: tuple[MotorCircuit, ...]) -> PaperSection:
         f"{fuse:g} A",
         [
             (
-                "2~" if one.part.process == STEPPER else "3~",
+                f"{one.phases}~",
                 f"{one.number} × {one.fuse:g} A",
                 f"{one.amplifier:g} A, STO",
-                f"4 × {one.section:g} mm²",
+                f"{one.wires} × {one.section:g} mm²",
                 f"{one.number} × {one.part.title}",
                 f"{format_quantity(one.power, 'W', 3)}, {one.current:.3g} A",
             )

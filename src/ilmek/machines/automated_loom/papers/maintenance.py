@@ -1,6 +1,7 @@
 """Maintenance of a loom: lives of what wears, lubrication, spare parts.
 
 years = life / use in a year        pieces to keep = n (ceil(years of the loom / years) - 1)
+f = sqrt(share of the tension)      of a belt's frequency when it is set [`commissioning`]
 t = 10 (14e6 / (n sqrt(d)) - 4 d)   hours between two greasings of a ball bearing of the bore d [mm] at n [1/min],
 at most 3 years: the grease ages                 [makers of bearings; SKF, 1989]
 a guide or ball screw is greased each 100 km of travel                               [makers of guides]
@@ -12,6 +13,7 @@ from collections.abc import Iterator
 from ilmek.elements.bearings import find_bearing
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.commissioning import belts
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
 from ilmek.machines.weaver.carriage_guide import life as guide_life
 from ilmek.machines.weaver.knife import KNIFE
@@ -31,6 +33,9 @@ GREASE_AGES = 3 * YEAR
 
 TRAVEL = 100e3
 """Travel between two greasings of a guide or a ball screw [m]: makers say 100 km, or half a year."""
+
+SLACK = 0.8
+"""Share of its tension at which a belt is tightened again; assumed by this project."""
 
 WEARING = frozenset(("belt", "belt and pulleys", "spring", "yarn brake"))
 """Processes of parts that wear, and of which no life is computed: a set is kept."""
@@ -149,6 +154,7 @@ def maintenance(loom: LoomDesign, report: Report) -> Paper:
             PaperSection(
                 Sentence("maintenance.grease"), (Sentence("maintenance.grease-how"),), _grease(loom, report, year)
             ),
+            *([_belts(loom)] if loom.heads else []),
             PaperSection(
                 Sentence("maintenance.spares"), (Sentence("maintenance.spares-how"),), _spares(loom, wears, year)
             ),
@@ -184,6 +190,19 @@ def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:
         Column(Sentence("maintenance.every"), "day", 3),
     )
     return Table("grease", Sentence("maintenance.grease"), heads, tuple(greasings(loom, report, year)))
+
+
+def _belts(loom: LoomDesign) -> PaperSection:
+    """The frequency of each belt's span as it is set, and that below which it is set again."""
+    heads = (
+        Column(Sentence("maintenance.part")),
+        Column(Sentence("maintenance.designation")),
+        Column(Sentence("maintenance.set"), "Hz", 3),
+        Column(Sentence("maintenance.least"), "Hz", 3),
+    )
+    rows = tuple((title, row, hertz, math.sqrt(SLACK) * hertz) for title, hertz, row in belts(loom))
+    title, how = Sentence("setting.belts"), Sentence("maintenance.belts-how", share=f"{SLACK:.0%}")
+    return PaperSection(title, (how,), Table("belts", title, heads, rows), boxes=True)
 
 
 def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Table:
