@@ -8,9 +8,9 @@ from typing import Any
 from ilmek.elements.prices import PRICES
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.table_csv import rows_csv
-from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.component import AnyComponent
+from ilmek.machines.tree_manual import tree_manual
 from ilmek.part.part_lists import part_lists
 from ilmek.part.projection import widest_view
 from ilmek.records import JsonObject
@@ -34,7 +34,7 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
     if machine.tree is None:
         return NO_PAPERS
     tree = machine.tree(design)
-    pages = assembly_manual(tree, widest_view(tree)), spares_of(tree)
+    pages = tree_manual(tree, widest_view(tree), Sentence("joint.how")), spares_of(tree)
     return Papers(tuple(page for page in pages if page is not None), part_lists(tree, PRICES))
 
 

@@ -15,7 +15,7 @@ from ilmek.report import Papers, Report
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
     pages = (
-        assembly_manual(loom_tree(loom)),
+        assembly_manual(loom),
         commissioning(loom, report),
         electrical(loom, report),
         maintenance(loom, report),
