@@ -59,7 +59,7 @@ def paper_of(rows: int) -> Paper:
     figure = Drawing("square", Sentence("manual.picture"), (square,))
     sections = (
         PaperSection(Sentence("electric.motors"), (Sentence("electric.residual"),), table, boxes=True),
-        PaperSection(Sentence("risk.transport"), (Sentence("risk.third-sling"),), figure=figure),
+        PaperSection(Sentence("risk.transport"), (Sentence("lift.how"),), figure=figure),
     )
     return Paper("try", Sentence("electric.title"), Sentence("electric.lead"), sections)
 

@@ -74,14 +74,13 @@ class Workshop:
     """The files that were written.
 
     entries   of the index, one per file: part, error, number of points
-    left_out  warnings of parts whose files cannot be made
-    judged_for_papers  checks of the papers
+    left_out  warnings of parts whose files cannot be made      found  checks made for the papers
     """
 
     folder: Path
     entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
-    judged_for_papers: tuple[Check, ...] = ()
+    found: tuple[Check, ...] = ()
 
     @property
     def files(self) -> list[str]:
@@ -110,9 +109,7 @@ class Workshop:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss;
-        the checks of the papers.
-        """
+        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss."""
         cure = "see the notes: change the part, or order it otherwise"
         complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions").with_cure(cure)
         tables = sorted(
@@ -121,7 +118,7 @@ class Workshop:
             reverse=True,
         )
         missed = sum(not entry["kept"] for entry in tables)
-        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]), *self.judged_for_papers)
+        return (complete, *self.found, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
 
     def judged(self, report: Report) -> Report:
         """A report with the checks of the files that were written for it."""

@@ -8,8 +8,12 @@ from typing import Any
 from ilmek.elements.prices import PRICES
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.table_csv import rows_csv
+from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.component import AnyComponent
+from ilmek.machines.tree_manual import UP, assembly_check, tree_manual
+from ilmek.part.insertion import insertions
 from ilmek.part.part_lists import part_lists
+from ilmek.part.projection import widest_view
 from ilmek.records import JsonObject
 from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
 from ilmek.report.sheet import Issue
@@ -25,13 +29,19 @@ DRAWING_KINDS = ("drawings", "assembly", "sheet")
 
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
-    """The papers of a design of a machine with its report; none of a machine without parts."""
+    """The papers of a design of a machine with its report; none of a machine without parts.
+
+    Of a machine without papers of its own: how it is put together, what wears in it, and the lists of its parts.
+    """
     if machine.papers is not None:
         return machine.papers(design, report)
     if machine.tree is None:
         return NO_PAPERS
     tree = machine.tree(design)
-    return Papers(lists=part_lists(tree, PRICES), tree=tree)
+    steps = insertions(tree, UP)
+    pages = tree_manual(tree, steps, widest_view(tree)), spares_of(tree)
+    shown = tuple(page for page in pages if page is not None)
+    return Papers(shown, part_lists(tree, PRICES), (assembly_check(steps),), tree)
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:

@@ -16,6 +16,7 @@ from scipy.spatial import ConvexHull
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
 from ilmek.part.colliders import MANY
+from ilmek.part.extents import around, extents
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import Chain, Poses, chains, poses
@@ -50,6 +51,13 @@ class View(Enum):
         """From the axes of the scene to those of the view: right, up, towards the eye."""
         sight, right, up = (np.array(axis) for axis in self.value)
         return np.array([right, up, -sight])
+
+
+def widest_view(tree: Tree) -> View:
+    """The view in which the box about a tree is largest."""
+    low, high = around(extents(tree, ()))
+    area = {view: float(np.prod((np.abs(view.rotation) @ (high - low))[:2])) for view in View}
+    return max(area, key=area.__getitem__)
 
 
 @record

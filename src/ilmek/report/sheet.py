@@ -158,6 +158,11 @@ class Issue:
     revision: str = "—"
     unreleased: bool = False
 
+    @property
+    def given(self) -> bool:
+        """Whether it has a revision or a date."""
+        return (self.revision, self.date) != ("—", "—")
+
 
 ARROW = 2.5, math.radians(20.0)
 """Length of an arrowhead [mm] and its full angle, filled."""

@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import Any
 
 from ilmek.sentences.english import ENGLISH
+from ilmek.sentences.nouns_turkish import named
 
 DEFAULT = "en"
 LANGUAGES = {"en": "english", "tr": "turkish"}
@@ -86,14 +87,14 @@ def in_language(language: str) -> Iterator[None]:
 
 
 def translated(text: str) -> str:
-    """A text in the language that is spoken; one that is no sentence stays as it is.
+    """A text in the language that is spoken; of one that is no sentence the nouns of machines, where they are known.
 
     >>> with in_language("tr"):
     ...     translated(Sentence("size.one-side", text="120cm")), translated("120cm")
     ("'120cm' boyutunun tek kenarı var", '120cm')
     """
     if not isinstance(text, Sentence):
-        return text
+        return named(text) if _SPOKEN.get() == "tr" else text
     template = catalogue_of(_SPOKEN.get())[text.key]
     return template.format(**{name: translated(value) for name, value in text.values.items()})
 

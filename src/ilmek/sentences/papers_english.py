@@ -45,6 +45,10 @@ PAPERS = {
     "maintenance.why": "because",
     "maintenance.by-life": "its life is shorter than that of the loom",
     "maintenance.by-set": "it wears; no life is computed",
+    "maintenance.belts-how": "Measure each belt after its first week, then at each greasing; tighten it below "
+    "{share} of its tension, replace it with a cracked tooth.",
+    "maintenance.set": "set to",
+    "maintenance.least": "tighten below",
     # Wear
     "wear.shed-bearing": "bearing of a cam shaft",
     "wear.upper-bearing": "bearing of the upper cylinder",
@@ -174,6 +178,21 @@ PAPERS = {
     "electric.halt": "halt, at once",
     "electric.amplifiers": "amplifiers",
     "electric.feedback": "feedback",
+    # Joint
+    "joint.joint": "joint",
+    "joint.fixed": "fixed",
+    "joint.pin": "turns",
+    "joint.slide": "slides",
+    "joint.screw": "screws",
+    "joint.rolling": "rolls",
+    "joint.transmission": "follows a transmission",
+    "joint.cam": "follows a cam",
+    "joint.missing": "not designed",
+    "joint.stand": "frame or floor",
+    "joint.from-front": "From the front: what comes in bold lines, what stands dashed",
+    "joint.from-top": "From above: what comes in bold lines, what stands dashed",
+    "joint.how": "Each body comes after what carries it. The manual of a loom proves that each part reaches its "
+    "seat; that of a machine alone does not.",
     # Risk
     "risk.title": "Risk assessment",
     "risk.lead": "In the form of ISO 12100: hazards found from moving bodies and energies, measures, what remains",

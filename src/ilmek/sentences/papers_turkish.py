@@ -44,6 +44,10 @@ PAPERS = {
     "maintenance.why": "neden",
     "maintenance.by-life": "ömrü tezgâhınkinden kısadır",
     "maintenance.by-set": "aşınır; ömrü hesaplanmamıştır",
+    "maintenance.belts-how": "Her kayışı ilk haftadan sonra, ardından her yağlamada ölçün; gerginliğinin {share} "
+    "değerinin altında gerin, dişi çatlamışsa değiştirin.",
+    "maintenance.set": "ayar",
+    "maintenance.least": "altında gerin",
     # Wear
     "wear.shed-bearing": "kam milinin yatağı",
     "wear.upper-bearing": "üst silindirin yatağı",
@@ -173,6 +177,21 @@ PAPERS = {
     "electric.halt": "duruş, hemen",
     "electric.amplifiers": "sürücüler",
     "electric.feedback": "geri bildirim",
+    # Joint
+    "joint.joint": "mafsal",
+    "joint.fixed": "sabit",
+    "joint.pin": "döner",
+    "joint.slide": "kayar",
+    "joint.screw": "vidalı",
+    "joint.rolling": "yuvarlanır",
+    "joint.transmission": "aktarmayı izler",
+    "joint.cam": "kamı izler",
+    "joint.missing": "tasarlanmamış",
+    "joint.stand": "gövde ya da zemin",
+    "joint.from-front": "Önden: gelen kalın, duran kesik çizgiyle",
+    "joint.from-top": "Üstten: gelen kalın, duran kesik çizgiyle",
+    "joint.how": "Her gövde taşıyanından sonra gelir. Bir tezgâhın kılavuzu her parçanın yerine ulaştığını kanıtlar; "
+    "tek bir makineninki kanıtlamaz.",
     # Risk
     "risk.title": "Risk değerlendirmesi",
     "risk.lead": "ISO 12100 biçiminde: hareketli gövdelerden ve enerjilerden bulunan tehlikeler, önlemler, kalan risk",

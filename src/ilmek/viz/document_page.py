@@ -33,9 +33,9 @@ def printed(paper: Paper, machine: str, language: str, issue: Issue) -> PrintedP
         why = ("paper.not-released", "paper.not-released-why") if issue.unreleased else ()
         return PrintedPaper(
             language,
-            f"{translated(paper.title)}: {machine}",
+            f"{translated(paper.title)}: {translated(machine)}",
             translated(paper.lead),
-            sentence("paper.issue", revision=issue.revision, date=issue.date),
+            sentence("paper.issue", revision=issue.revision, date=issue.date) if issue.given else "",
             tuple(map(sentence, why)),
             tuple(_section(section) for section in paper.sections),
             sentence("paper.made-by", version=ilmek.__version__),
@@ -81,7 +81,7 @@ def index_page(
         }
         return render(
             "index.html.j2",
-            title=machine,
+            title=translated(machine),
             lead="",
             groups={title: own for title, own in spoken.items() if own},
             reasons=reasons,

@@ -32,7 +32,6 @@ _LEAD = ParagraphStyle("lead", _PLAIN, textColor=_PALE, spaceAfter=6)
 _TITLE = ParagraphStyle("title", _PLAIN, fontName=STRONG, fontSize=16, leading=20, spaceAfter=4)
 _SECTION = ParagraphStyle("section", _PLAIN, fontName=STRONG, fontSize=11.5, leading=15, spaceBefore=8, spaceAfter=4)
 _CELL = ParagraphStyle("cell", _PLAIN, fontSize=7.5, leading=9.5, spaceAfter=0)
-_NUMBER = ParagraphStyle("number", _CELL, alignment=TA_RIGHT)
 _WARNING = ParagraphStyle("warning", _PLAIN, fontName=STRONG, textColor=HexColor("#9b2d30"))
 _COLUMN = ParagraphStyle("column", _CELL, fontName=STRONG)
 _NUMBERS = ParagraphStyle("numbers", _COLUMN, alignment=TA_RIGHT)
@@ -128,8 +127,8 @@ def _widths(section: PrintedSection) -> Widths:
         columns.insert(0, (BOX, BOX))
     words, whole = list[float](), list[float]()
     for head, *texts in columns:
-        longest = [stringWidth(word, STRONG, _CELL.fontSize) for word in head.split()]
-        longest += [stringWidth(word, TEXT, _CELL.fontSize) for text in {*texts} for word in text.split()]
+        longest = [stringWidth(word, STRONG, _CELL.fontSize) for word in head.split(" ")]
+        longest += [stringWidth(word, TEXT, _CELL.fontSize) for text in {*texts} for word in text.split(" ")]
         words.append(max(longest, default=0.0) + _ROOM)
         full = (stringWidth(text, TEXT, _CELL.fontSize) + _ROOM for text in {*texts})
         whole.append(max(words[-1], max(full, default=0.0)))
@@ -151,11 +150,12 @@ def _table(section: PrintedSection, widths: Widths, room: float) -> Table:
     )
     rows = [[*before, *heads, *measured]]
     rows += [
-        [*before, *(Paragraph(escape(cell.text), _NUMBER if cell.is_number else _CELL) for cell in row), *after]
+        [*before, *(cell.text if cell.is_number else Paragraph(escape(cell.text), _CELL) for cell in row), *after]
         for row in section.rows
     ]
     table = Table(
         rows, [shrunk * width for width in fitted], repeatRows=1, spaceAfter=_AFTER, hAlign="LEFT", splitInRow=1
     )
-    table.setStyle(_TABLE)
+    right = (column for column, own in enumerate(numeric, len(before)) if own)
+    table.setStyle([*_TABLE, *(("ALIGN", (column, 0), (column, -1), "RIGHT") for column in right)])
     return table

@@ -30,7 +30,7 @@ def part_id(name: str) -> str:
 
 SHUTTLE_WOOD, FITTINGS, BOBBIN = part_id("shuttle"), part_id("fittings"), part_id("bobbin")
 CARRIAGE, AXIS, MOTOR, BOX = part_id("carriage"), part_id("axis"), part_id("motor"), part_id("box")
-RAPIER_TUBE, GRIPPER, NEEDLE = part_id("rapier"), part_id("gripper"), part_id("needle")
+RAPIER_TUBE, GRIPPER, NEEDLE, WEFT_CUTTER = part_id("rapier"), part_id("gripper"), part_id("needle"), part_id("cutter")
 MAGNET, BOX_MOTOR = part_id("magnet"), part_id("box-motor")
 
 

@@ -10,7 +10,17 @@ from collections.abc import Iterator
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
 from ilmek.machines.weft.axis import BeltAxis
-from ilmek.machines.weft.carriers import AXIS, CARRIAGE, GRIPPER, MOTOR, NEEDLE, along, part_id, rapier_tube
+from ilmek.machines.weft.carriers import (
+    AXIS,
+    CARRIAGE,
+    GRIPPER,
+    MOTOR,
+    NEEDLE,
+    WEFT_CUTTER,
+    along,
+    part_id,
+    rapier_tube,
+)
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import CLAMP, Rapier
@@ -125,7 +135,7 @@ class RapierSide:
 
         shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)
         along = Joint(JointKind.SLIDE, motor=EDGE_MOTOR)
-        cutter, needle = (part_id("cutter"), "weft cutter"), (NEEDLE, "tuck-in needle")
+        cutter, needle = (WEFT_CUTTER, "weft cutter"), (NEEDLE, "tuck-in needle")
         selector = part_id("selector"), "weft selector"
         yield device("turning cutters", (*cutter, "one at each edge"), CUTTER, shear, (-1, 0), (1, 0))
         yield device("needles at the edges", (*needle, "one at each edge"), TUCKER, along, (-1, 1), (1, 1))

@@ -3,7 +3,7 @@
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.papers.assembly_manual import assembly_check, assembly_manual
+from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
@@ -14,13 +14,14 @@ from ilmek.report import Papers, Report
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
+    manual, reached = assembly_manual(loom)
     pages = (
-        assembly_manual(loom),
+        manual,
         commissioning(loom, report),
         electrical(loom, report),
         maintenance(loom, report),
         risks(loom, report),
     )
     tree = loom_tree(loom)
-    checks = (*safety_checks(loom, report), assembly_check(loom))
+    checks = (*safety_checks(loom, report), reached)
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)

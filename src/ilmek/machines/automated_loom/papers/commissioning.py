@@ -63,7 +63,7 @@ def commissioning(loom: LoomDesign, report: Report) -> Paper:
             ticked("warp", Sentence("setting.warp"), _warp(loom, report)),
             ticked("tools", Sentence("setting.tools"), _tools(loom, report)),
             *(
-                [ticked("belts", Sentence("setting.belts"), belts(loom), Sentence("setting.plucked"))]
+                [ticked("belts", Sentence("setting.belts"), _belts(loom), Sentence("setting.plucked"))]
                 if loom.heads
                 else []
             ),
@@ -113,14 +113,14 @@ def _tools(loom: LoomDesign, report: Report) -> Rows:
         yield Sentence("setting.brake"), format_quantity(value_of(report, "yarn_brake"), "N"), "yarn_brake"
 
 
-def belts(loom: LoomDesign) -> Rows:
-    """The belts of the heads: their tension at rest, and the frequency of a span by which it is measured."""
+def belts(loom: LoomDesign) -> Iterator[tuple[str, float, str]]:
+    """The belts of the heads with their tension at rest: the frequency of a span by which it is measured [Hz], row."""
     head, heads = loom.weaver, loom.heads
     drive = drive_of(head)
     tension, span = drive.force * (heads + 1) / 2, head.belt_length - 2 * CLAMP - heads * loom.head_width
     hertz = plucked(tension, BELT.belt.mass * drive.width, span)
     title = Sentence("setting.heads-belt", span=in_mm(span), tension=format_quantity(tension, "N", 3))
-    yield title, format_quantity(hertz, "Hz", 3), f"{BELT.belt.name}, {in_mm(drive.width)}"
+    yield title, hertz, f"{BELT.belt.name}, {in_mm(drive.width)}"
     part = next(part for part, _ in loom_tree(loom).occurrences() if part.id == CAM_BELT)
     assert part.purchase is not None
     teeth = round(part.purchase.length / PROFILE.pitch)
@@ -128,7 +128,11 @@ def belts(loom: LoomDesign) -> Rows:
     free = math.sqrt(made.distance**2 - (made.radii[1] - made.radii[0]) ** 2)
     rest = head.belt.pull / 2
     title = Sentence("setting.cam-belt", span=in_mm(free), tension=format_quantity(rest, "N", 3))
-    yield title, format_quantity(plucked(rest, PROFILE.mass * head.belt.width, free), "Hz", 3), part.purchase.row
+    yield title, plucked(rest, PROFILE.mass * head.belt.width, free), part.purchase.row
+
+
+def _belts(loom: LoomDesign) -> Rows:
+    return ((title, format_quantity(hertz, "Hz", 3), row) for title, hertz, row in belts(loom))
 
 
 def _axes(loom: LoomDesign) -> PaperSection:

@@ -65,6 +65,16 @@ class MotorCircuit:
         return fuse_for(self.current)
 
     @property
+    def phases(self) -> int:
+        """Phases of its windings."""
+        return 2 if self.part.process == STEPPER else 3
+
+    @property
+    def wires(self) -> int:
+        """Wires of its cable: both ends of the two windings of a stepper, or three phases; and the protective one."""
+        return {2: 4, 3: 3}[self.phases] + 1
+
+    @property
     def amplifier(self) -> float:
         """Rated current of its amplifier [A]; nan above the series."""
         return next((rated for rated in AMPLIFIERS if rated >= self.current), math.nan)
@@ -85,7 +95,7 @@ def motor_circuits(loom: LoomDesign) -> tuple[MotorCircuit, ...]:
     ]
     together = sum(number // loom.heads for part, number in motors if part.id in on_head)
     return tuple(
-        MotorCircuit(f"-M{sign}", part, number, together if part.id in on_head else 1)
+        MotorCircuit(f"M{sign}", part, number, together if part.id in on_head else 1)
         for sign, (part, number) in enumerate(motors, 1)
     )
 
@@ -134,10 +144,10 @@ def _supply(report: Report, circuits: tuple[MotorCircuit, ...]) -> PaperSection:
         f"{fuse:g} A",
         [
             (
-                "2~" if one.part.process == STEPPER else "3~",
+                f"{one.phases}~",
                 f"{one.number} × {one.fuse:g} A",
                 f"{one.amplifier:g} A, STO",
-                f"4 × {one.section:g} mm²",
+                f"{one.wires} × {one.section:g} mm²",
                 f"{one.number} × {one.part.title}",
                 f"{format_quantity(one.power, 'W', 3)}, {one.current:.3g} A",
             )
@@ -184,7 +194,7 @@ def _motors(circuits: tuple[MotorCircuit, ...]) -> PaperSection:
 
 def _sensors(loom: LoomDesign) -> PaperSection:
     sensors = [part.id for part, _ in loom_tree(loom).occurrences() if part.process in SENSING]
-    signs = {part: f"-B{number}" for number, part in enumerate(sensors, 11)}
+    signs = {part: f"B{number}" for number, part in enumerate(sensors, 11)}
     return _devices(loom, Sentence("electric.sensors"), SENSING, signs)
 
 
@@ -230,8 +240,8 @@ def _terminals(loom: LoomDesign) -> PaperSection:
 
 def _safety(loom: LoomDesign, report: Report) -> PaperSection:
     functions, stops = tuple(safety_functions(loom, report)), stopping_time(loom)
-    signs = {own.part: "-" + own.sign + ("1" if own.number == 1 else f"1 … {own.number}") for own in functions}
-    signs |= {signals.RELAY: "-K1", signals.RESET: "-S0"}
+    signs = {own.part: own.sign + ("1" if own.number == 1 else f"1 … {own.number}") for own in functions}
+    signs |= {signals.RELAY: "K1", signals.RESET: "S0"}
     made = _devices(loom, Sentence("electric.safety"), SAFE, signs)
     text = Sentence(
         "electric.safety-how",

@@ -1,6 +1,7 @@
 """Maintenance of a loom: lives of what wears, lubrication, spare parts.
 
 years = life / use in a year        pieces to keep = n (ceil(years of the loom / years) - 1)
+f = sqrt(share of the tension)      of a belt's frequency when it is set [`commissioning`]
 t = 10 (14e6 / (n sqrt(d)) - 4 d)   hours between two greasings of a ball bearing of the bore d [mm] at n [1/min],
 at most 3 years: the grease ages                 [makers of bearings; SKF, 1989]
 a guide or ball screw is greased each 100 km of travel                               [makers of guides]
@@ -12,10 +13,14 @@ from collections.abc import Iterator
 from ilmek.elements.bearings import find_bearing
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.commissioning import belts
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
 from ilmek.machines.weaver.carriage_guide import life as guide_life
+from ilmek.machines.weaver.knife import KNIFE
 from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
+from ilmek.machines.weft.carriers import WEFT_CUTTER
+from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
@@ -28,6 +33,9 @@ GREASE_AGES = 3 * YEAR
 
 TRAVEL = 100e3
 """Travel between two greasings of a guide or a ball screw [m]: makers say 100 km, or half a year."""
+
+SLACK = 0.8
+"""Share of its tension at which a belt is tightened again; assumed by this project."""
 
 WEARING = frozenset(("belt", "belt and pulleys", "spring", "yarn brake"))
 """Processes of parts that wear, and of which no life is computed: a set is kept."""
@@ -146,6 +154,7 @@ def maintenance(loom: LoomDesign, report: Report) -> Paper:
             PaperSection(
                 Sentence("maintenance.grease"), (Sentence("maintenance.grease-how"),), _grease(loom, report, year)
             ),
+            *([_belts(loom)] if loom.heads else []),
             PaperSection(
                 Sentence("maintenance.spares"), (Sentence("maintenance.spares-how"),), _spares(loom, wears, year)
             ),
@@ -183,28 +192,49 @@ def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:
     return Table("grease", Sentence("maintenance.grease"), heads, tuple(greasings(loom, report, year)))
 
 
+def _belts(loom: LoomDesign) -> PaperSection:
+    """The frequency of each belt's span as it is set, and that below which it is set again."""
+    heads = (
+        Column(Sentence("maintenance.part")),
+        Column(Sentence("maintenance.designation")),
+        Column(Sentence("maintenance.set"), "Hz", 3),
+        Column(Sentence("maintenance.least"), "Hz", 3),
+    )
+    rows = tuple((title, row, hertz, math.sqrt(SLACK) * hertz) for title, hertz, row in belts(loom))
+    title, how = Sentence("setting.belts"), Sentence("maintenance.belts-how", share=f"{SLACK:.0%}")
+    return PaperSection(title, (how,), Table("belts", title, heads, rows), boxes=True)
+
+
 def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Table:
     """What is replaced within the years of the loom, and a set of what wears without a computed life."""
+    computed = (
+        (one.title, one.designation, one.spare(year.years), Sentence("maintenance.by-life"))
+        for one in wears
+        if one.spare(year.years)
+    )
+    return _kept((*computed, *worn_sets(loom_tree(loom), max(loom.heads, 1))))
+
+
+def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]:
+    """A set for one of some machines that are alike, of what wears and has no computed life."""
+    for part, number in tree.occurrences():
+        if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
+            row = part.purchase.row if part.purchase else part.size
+            yield part.title, row, max(1, number // alike), Sentence("maintenance.by-set")
+
+
+def spares_of(tree: Tree) -> Paper | None:
+    """The maintenance of a machine of which no use in a year is known: what wears; None where nothing does."""
+    rows = tuple(worn_sets(tree))
+    title, lead = Sentence("maintenance.title"), Sentence("maintenance.spares")
+    return Paper("maintenance", title, lead, (PaperSection(lead, (), _kept(rows)),)) if rows else None
+
+
+def _kept(rows: tuple[tuple[float | int | str, ...], ...]) -> Table:
     heads = (
         Column(Sentence("maintenance.part")),
         Column(Sentence("maintenance.designation")),
         Column(Sentence("maintenance.keep")),
         Column(Sentence("maintenance.why")),
     )
-    computed = [
-        (one.title, one.designation, one.spare(year.years), Sentence("maintenance.by-life"))
-        for one in wears
-        if one.spare(year.years)
-    ]
-    each = max(loom.heads, 1)
-    sets = [
-        (
-            part.title,
-            part.purchase.row if part.purchase else part.size,
-            max(1, number // each),
-            Sentence("maintenance.by-set"),
-        )
-        for part, number in loom_tree(loom).occurrences()
-        if part.process in WEARING or part.id in ("weaver/knife", "weft/cutter")
-    ]
-    return Table("spares", Sentence("maintenance.spares"), heads, (*computed, *sets))
+    return Table("spares", Sentence("maintenance.spares"), heads, rows)

@@ -1,0 +1,139 @@
+"""Nouns of machines in Turkish: titles of parts, bodies, tracks and motions, put together from those they consist of.
+
+    X of the Y, Y's X, y-x     =     y x+suffix          kam mili yatağı: bearing of the cam shaft
+
+The suffix of possession follows the last vowel; k after a vowel becomes ğ, ç becomes c. A noun with a + has it already.
+"""
+
+import re
+from functools import lru_cache
+
+_NOUNS = """
+actuator = karşılık | angle reducer = açılı redüktör | arm = kol | arm 1 = 1. kol | arm 2 = 2. kol | axes = eksenler
+attachment bar = bağlama çubuğ+u | axis = eksen | axle = dingil | back = geri | back rest = arka köprü | bar = çubuk
+bar under the heads' guide = kafa kızağı alt lama+sı | bars and rods = çubuk ve miller | beam = kiriş | beat = tefe
+beam across = enine kiriş | beam across at the floor = zemindeki enine kiriş | beat-up = tefeleme | beater = tefe
+beam across between the front feet = ön ayaklar arası enine kiriş | bearing = yatak | bearings = yataklar
+beam along an edge = kenar boyu kiriş+i | bell cranks = dirsekli kollar | belt = kayış | belt axis = kayış eksen+i
+block = blok | block under that plate = o levhanın alt blok+u | bracket = konsol
+bundle = demet | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaft = kam mil+i | cams = kamlar
+carriage = araba | tubes = tüpler | yarns = iplikler | heads' belt about a pulley = kasnaktaki kafa kayış+ı
+carriages = arabalar | carrier = taşıyıcı | centre gripper = orta kıskaç | centre jaws = orta çeneler | creel = cağlık
+centre-gripper grasp = orta kıskaç kavrama+sı | centre-gripper motion = orta kıskaç hareket+i | chain = zincir
+chains = zincirler | circuit = devre | clamp = bağlantı | clamping nut = sıkma somun+u | close = kapan | cloth = kumaş
+collar = bilezik | colours = renkler | column = kolon | comb = tarak | compensator = dengeleyici | control = kumanda
+conduits = kılavuz hortumlar | cover = kapak | cross = geç | cross bar = enine çubuk | cross-piece = ara parça
+cutter = kesici | cylinder = silindir | devices at an edge = kenar aygıtları+ | door = kapı | doors = kapılar
+devices at the edges = kenarlardaki aygıtlar | down = aşağı | draw = çek | drawbar = çekme çubuğ+u | drive = tahrik
+driven shaft end = tahrikli mil uc+u | drum = tambur | duct = kanal | eccentric = eksantrik | encoder = kodlayıcı
+emergency stop = acil durdurma | end = uc+u | energy chain = enerji zincir+i | energy chains = enerji zincirler+i
+even bar = çift çubuk | even stand = çift ayaklık | even warps = çift çözgüler | eye = göz | face = alın
+finger = parmak | fingers = parmaklar | flag = bayrak | follower = izleyici | followers = izleyiciler | forward = ileri
+frame = gövde | freewheel = tek yönlü kavrama | front foot = ön ayak | gripper = kıskaç | guards = koruyucular
+guide = kızak | guide cam = kılavuz kam | guide cam beside shims = şimli kılavuz kam | hammer = tokmak | head = kafa
+heads = kafalar | hinge = menteşe | home = eve | index = indeks | insert = sok | interlock = kilitleme | jaws = çeneler
+key = kama | knife = bıçak | leaf = yaprak | left side gripper = sol yan kıskaç | levelling foot = ayar ayağ+ı
+lever = kol | lift = kaldır | light barrier for broken warps = çözgü kopuşu ışık bariyer+i | lintel = üst kiriş
+lower = indir | lower cylinder = alt silindir | lower bearings = alt yataklar | lower drive = alt tahrik | lug = kulak
+magazine = magazin | motion controller = hareket denetleyici+si | motor = motor | mounting rail = montaj ray+ı
+needles at the edges = kenarlardaki iğneler | nut = somun | odd warps = tek çözgüler | open = aç | output = çıkış
+open warps = çözgüleri aç | package = bobin | panel = panel | peg = pim | pile handler = hav taşıyıcı+sı
+pile yarn = hav ipliğ+i | pin = pim | pinion = pinyon | pivot = mafsal | plate = levha | post = dikme | present = sun
+plate across behind the carriages = arabaların arkasındaki enine levha | plate across the head = kafanın enine levha+sı
+plate under the post = dikme taban levha+sı | power supply = güç kaynağ+ı | pull back = geri çek | pulley = kasnak
+rack = kremayer | rail = ray | rapier = kanca | rapier with its carriage = arabasıyla kanca | rear foot = arka ayak
+reducer = redüktör | reset = yeniden kurma düğme+si | retreat = geri çekilme | retreated heads = geri çekilmiş kafalar
+return = dön | return spring = geri getirme yay+ı | right side gripper = sağ yan kıskaç | rod = çubuk | rods = çubuklar
+roller = makara | saddle = yuva | safety circuit = emniyet devre+si | safety relay = emniyet röle+si | screw = vida
+seat = yuva | selector = seçici | selector, cutters and needles = seçici, kesici ve iğneler | sensor = algılayıcı
+shaft = mil | shaft end = mil uc+u | shed-encoder = ağızlık kodlayıcı+sı | shedding cam = ağızlık kam+ı | shims = şimler
+shedding cams = ağızlık kamlar+ı | side = yan | side carriage = yan araba | side gripper = yan kıskaç
+side jaws = yan çeneler | side plate = yan levha | side-gripper grasp = yan kıskaç kavrama+sı | sley = tefe tarağ+ı
+side-gripper motion = yan kıskaç hareket+i | slide = sürgü | sliding knife = kayan bıçak | small pulley = küçük kasnak
+spacer = ara parça | spacer cylinder = ara silindir | spacer bearings = ara silindir yataklar+ı | spring = yay
+spacer drive = ara silindir tahriğ+i | springs = yaylar | stand = ayaklık | step = adım | stop motion = durdurma düzen+i
+support = destek | take up = sar | take-up = sarma
+sensor of the warps' tension = çözgü gerginliği algılayıcı+sı | terminal = klemens | tie = bağ
+to tube = tüpe | toothed plate = dişli levha | trough = oluk | tube = tüp | tuck-in needle = kıvırma iğne+si
+turn back = geri dön | turning cam shaft = dönen kam mil+i | turning cutters = dönen kesiciler | wire = tel
+turning eccentric = dönen eksantrik | turning pile handler = dönen hav taşıyıcı+sı | turning pinion = dönen pinyon
+twisted bar = burgulu çubuk | twisted bars = burgulu çubuklar | two signals = iki sinyal | up = yukarı
+upper cylinder = üst silindir | upper bearings = üst yataklar | upper drive = üst tahrik | upright = dikey direk
+upper cylinder, back rest and compensator = üst silindir, arka köprü ve dengeleyici | vertical axis = düşey eksen
+warp = çözgü | warps = çözgüler | warp opener = çözgü açıcı | weft = atkı | weft cutter = atkı kesici+si
+weft selector = atkı seçici+si | withdraw = geri al | yarn = iplik | yarn brake = iplik fren+i | yarn tube = iplik tüp+ü
+yarn tubes = iplik tüpler+i | yarns and cables = iplik ve kablolar | rocker = salınım kol+u
+tension compensator = gerginlik dengeleyici+si | warp tension = çözgü gerginliğ+i | weaver = dokuma kafa+sı
+shedding = ağızlık düzen+i | automated loom = otomatik tezgâh | head-encoder = kafa kodlayıcı+sı | guides = kızaklar
+head on its carriage = kafayı arabasına bağlayan | head to its energy chain = kafanın enerji zincir+i | crank = krank
+energy chain of a head with its cables = kablolarıyla kafa enerji zincir+i | weft sensor = atkı algılayıcı+sı
+face of the head with the tools' guides = kafanın takım kızaklı aln+ı
+tie of the guards to a rear foot = koruyucu ile arka ayak bağ+ı
+arm of a head to its energy chain = kafanın enerji zincir+i kol+u | axle of such a roller = makara dingil+i
+bracket of the head on its carriage = kafanın araba konsol+u | warp stop barrier = çözgü durdurma bariyer+i
+yarn duct = iplik kanal+ı | retreat sensor = geri çekilme algılayıcı+sı | tension sensor = gerginlik algılayıcı+sı
+beat encoder = tefe kodlayıcı+sı | carrier of the weft = atkı taşıyıcı+sı | coupler = biyel | links = uzuvlar
+light grid = ışık perde+si | button = düğme | Automated loom = Otomatik tezgâh | Hand loom = El tezgâh+ı
+Beat by hand = Elle tefeleme | Beat-up = Tefeleme | Hammer = Tokmak | Hand shed = El ağızlık düzen+i | Cam = Kam
+Knotting head = Düğüm kafa+sı | Knotting dyad = Düğüm diyad+ı | Knotting four-bar = Dört çubuklu düğüm mekanizma+sı
+Shedding cams = Ağızlık kamlar+ı | Tension compensator = Gerginlik dengeleyici+si | Weft = Atkı
+Tufting needle mechanism = Tufting iğne mekanizma+sı | Warp tension = Çözgü gerginliğ+i
+"""
+
+NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair in line.split(" | "))
+
+_OF = re.compile(r"(.+?) of (?:the |an? |such a )?(.+)")
+_ITS = re.compile(r"(.+?)(?:'s|(?<=s)') (.+)")
+_PIECES = re.compile(r"(; |: |\d+ × | \d+$)")
+_VOWELS = {"a": "ı", "ı": "ı", "e": "i", "i": "i", "o": "u", "u": "u", "ö": "ü", "ü": "ü"}
+
+
+@lru_cache(maxsize=4096)
+def named(text: str) -> str:
+    """A text with its nouns in Turkish; what is not known stays as it is.
+
+    >>> named("2 × bearing of the cam shaft; 1 × heads' rail"), named("weaver: sley-follower"), named("NEMA 17")
+    ('2 × kam mili yatağı; 1 × kafalar rayı', 'dokuma kafası: tefe tarağı izleyicisi', 'NEMA 17')
+    """
+    whole = None if "; " in text else _noun(text)
+    if whole is None:
+        whole = "".join(map(_listed, _PIECES.split(text)))
+    return whole.replace("+", "") if whole != text else text
+
+
+def _listed(text: str) -> str:
+    return _noun(text) or ", ".join(_noun(piece) or piece for piece in text.split(", "))
+
+
+@lru_cache(maxsize=4096)
+def _noun(text: str) -> str | None:
+    """A noun with its mark; None where it is not known."""
+    if text in NOUNS:
+        return NOUNS[text]
+    plain = text.replace("-", " ")
+    if plain in NOUNS:
+        return NOUNS[plain]
+    parts = _OF.fullmatch(text)
+    pairs = [(parts[1], parts[2])] if parts else []
+    owned = _ITS.fullmatch(text)
+    pairs += [(owned[2], owned[1])] if owned else []
+    whole, dash, last = text.rpartition("-")
+    pairs += [(last, whole), (last, " ".join(whole.rsplit("-", 1)))] if dash else []
+    known = ((_noun(thing), _noun(owner)) for thing, owner in pairs)
+    return next((f"{owner.replace('+', '')} {_possessed(thing)}" for thing, owner in known if thing and owner), None)
+
+
+def _possessed(noun: str) -> str:
+    """A noun with the suffix of possession.
+
+    >>> [_possessed(noun) for noun in ("motor", "levha", "kasnak", "kıskaç", "yay", "kam mil+i")]
+    ['motor+u', 'levhas+ı', 'kasnağ+ı', 'kıskac+ı', 'yay+ı', 'kam mil+i']
+    """
+    if "+" in noun:
+        return noun
+    end = noun[-1]
+    vowel = next(_VOWELS[letter] for letter in reversed(noun.lower()) if letter in _VOWELS)
+    if end in _VOWELS:
+        return f"{noun}s+{vowel}"
+    soft = {"k": "ğ", "ç": "c"}.get(end, end) if len(re.findall("[aıeioöuü]", noun)) > 1 else end
+    return f"{noun[:-1]}{soft}+{vowel}"
