@@ -318,13 +318,15 @@ def construction(
 
 
 def _strengthened(built: Construction) -> dict[str, StudSize]:
-    """The next thicker sizes of the pins that are too weak, but of those that are given."""
+    """The next thicker sizes of the pins that are too weak; of one that is given, only of its shank."""
     stronger: dict[str, StudSize] = {}
     for axis in built.axes:
         stud, allowed = built.studs[axis.name], built.studs[axis.name].member
-        if stud.given or stud.journal >= DIAMETERS[-1] - 1e-9:
+        if max(stud.journal, stud.shank) >= DIAMETERS[-1] - 1e-9 or (stud.given and axis.driven):
             continue
         for stress, journal in zip(built.stresses(axis), (True, False), strict=True):
+            if journal and stud.given:
+                continue
             if stress.bending > allowed.bending or stress.shear > allowed.shear or stress.pressure > allowed.pressure:
                 stronger[axis.name] = thicker(stronger.get(axis.name, stud), journal=journal)
     return stronger
