@@ -57,9 +57,10 @@ def _built(machine: str, design: FourBarDesign) -> Construction | str:
 def _member(params: FourBarTaskParams) -> FlatMember | None:
     """The section of the links; None: by the shortest of them."""
     width, thickness = params.link_width, params.link_thickness
-    if not (width or thickness):
+    if width is None and thickness is None:
         return None
-    width = width or thickness / THICKNESS_SHARE
+    if width is None:
+        width = (thickness or THIN) / THICKNESS_SHARE
     return FlatMember(width, thickness or max(THICKNESS_SHARE * width, THIN), MATERIAL)
 
 
