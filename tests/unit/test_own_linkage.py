@@ -163,3 +163,42 @@ def test_the_folder_has_drawings_lists_and_the_parts_in_space(tmp_path: Path) ->
     results = json.loads(found.stdout)["results"]
     assert results["layers"] == max(results["layer_of"].values())
     assert results["layer_of"][GROUND] == 0
+
+
+def test_a_crank_of_shapes_is_made_of_them() -> None:
+    """The pieces lie on top of one another: the part weighs their sum, less its bores, with shaft and keys."""
+    steel = 'material = "structural steel"'
+    disc = f'{{ disc = "O", radius = "60mm", thickness = "10mm", {steel} }}'
+    boss = f'{{ disc = "A", radius = "15mm", thickness = "20mm", {steel} }}'
+    mechanism = made(
+        FOUR_BAR.replace('crank.length = "40mm"', f'crank = {{ length = "40mm", shapes = [{disc}, {boss}] }}')
+    )
+    plate = next(part for part, _ in mechanism.tree.occurrences() if part.id == "mechanism/crank")
+    assert plate.shape is not None
+    bores = sum(
+        np.pi * radius**2 * length
+        for radius, length in (
+            (mechanism.built.studs["A"].shank / 2, 0.03),
+            (mechanism.built.studs["O"].journal / 2, 0.01),
+        )
+    )
+    solid = np.pi * (0.06**2 * 0.01 + 0.015**2 * 0.02)
+    assert plate.shape.volume == pytest.approx(solid - bores, rel=2e-3)  # the keyway besides
+    assert mechanism.built.thickness("crank") == pytest.approx(0.03)
+
+
+def test_a_slide_has_a_rail_as_long_as_its_travel_and_a_carriage_on_it() -> None:
+    text = FOUR_BAR.replace(
+        'rocker = { length = "90mm", mass = "1kg" }', "ram = { points = { B = [0, 0], C = [0, 0] } }"
+    )
+    text = text.replace('"rocker"', '"ram"').replace('C.pin = ["ground", "ram"]', 'C = { slide = ["ram", "ground"] }')
+    text = text.replace('{ torque = "20N*m", on = "ram" }', '{ friction = "100N", on = ["ram", "B"] }')
+    mechanism = made(text)
+    parts = {part.id: part for part, _ in mechanism.tree.occurrences()}
+    (line,) = mechanism.built.lines
+    assert line.travel[1] - line.travel[0] == pytest.approx(0.08, abs=1e-6)  # twice the crank
+    rail = parts["mechanism/rail"]
+    assert rail.purchase is not None
+    guide = mechanism.built.guides["C"]
+    assert 0 <= rail.purchase.length - (0.08 + guide.block_length + 0.01) <= 0.001
+    assert meeting_parts(mechanism.tree, 12) == set()

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from link_plates import link_plate
 
 from ilmek.cli import main
-from ilmek.elements.plates import link_plate
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.cam_tables import FORMATS
 from ilmek.jobs.workshop import Tolerance, read_tolerance, write_workshop

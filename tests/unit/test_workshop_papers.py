@@ -16,11 +16,11 @@ import pytest
 from default_machines import default_design, default_report
 from hypothesis import given
 from hypothesis import strategies as st
+from link_plates import link_plate
 from small_programme import small_programme
 
 from ilmek.elements.hexagon_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.plates import link_plate
 from ilmek.io.plc.io_list import io_rows
 from ilmek.io.plc.project import plc_project
 from ilmek.io.table_csv import rows_csv

@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from ezdxf.entitydb import EntityDB
 from ezdxf.path import make_path
+from link_plates import link_plate
 from processes import printed, python
 
 from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam, area
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
-from ilmek.elements.plates import link_plate, round_bore, zero_mark
+from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.dxf import LAYERS, read_dxf, write_dxf
 from ilmek.part.shapes import rectangle
@@ -152,12 +153,7 @@ def test_a_step_file_that_is_none_is_refused(tmp_path: Path) -> None:
         step.read_step_volume(tmp_path / "nothing.step")
 
 
-def test_links_that_cannot_be_made_are_refused() -> None:
-    made = {"hole_radius": 0.006, "thickness": 0.008, "material": "steel"}
-    with pytest.raises(ParameterError, match="a link 12 mm wide with holes of 12 mm; wider than its holes"):
-        link_plate("rod", "Rod", [("A", 0j), ("B", 0.1 + 0j)], width=0.012, **made)  # type: ignore[arg-type]
-    with pytest.raises(ParameterError, match="the holes of rod run into one another; 12 mm apart"):
-        link_plate("rod", "Rod", [("A", 0j), ("B", 0.01 + 0j)], width=0.02, **made)  # type: ignore[arg-type]
+def test_a_bore_without_a_key_of_its_size_is_refused() -> None:
     with pytest.raises(ParameterError, match="no parallel key for a shaft of 150 mm; above 6 mm, at most 130 mm"):
         round_bore(0.15)
 

@@ -57,6 +57,9 @@ class Material:
     designation: str
     treatment: Hardening | None = None
 
+    def __repr__(self) -> str:
+        return f"<Material {self.name}>"
+
     @property
     def shear_modulus(self) -> float:
         """G = E / (2 + 2 ν) [Pa]."""

@@ -59,7 +59,8 @@ def _member(params: FourBarTaskParams) -> FlatMember | None:
     width, thickness = params.link_width, params.link_thickness
     if width is None and thickness is None:
         return None
-    width = width or (thickness or 0.0) / THICKNESS_SHARE
+    if width is None:
+        width = (thickness or THIN) / THICKNESS_SHARE
     return FlatMember(width, thickness or max(THICKNESS_SHARE * width, THIN), MATERIAL)
 
 

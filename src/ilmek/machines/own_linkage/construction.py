@@ -15,7 +15,6 @@ from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
-from ilmek.elements.plates import PIN_SHARE
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
@@ -34,6 +33,7 @@ from ilmek.machines.own_linkage.sizes import (
     link_members,
     shank_stress,
     thicker,
+    usual_diameter,
 )
 from ilmek.part.shapes import rectangle
 from ilmek.plane.outlines import Outline
@@ -51,6 +51,9 @@ BRIDGE = 1 * mm
 
 RAIL_END = 5 * mm
 """Rail beyond the carriage at the ends of its travel [m]."""
+
+_NONE = 1e-12
+"""Side [m] of a plate under a carriage that is not wider than the link."""
 
 _ROUNDS = 30
 """Rounds in which pins and layers are made to agree: more than there are diameters."""
@@ -181,7 +184,7 @@ def _free_points(built: Construction, body: str) -> dict[str, complex]:
 
 def tool_holes(built: Construction, body: str) -> dict[str, float]:
     """Radius of the hole at each point of a body that is no joint, where there is room beside its joints [m]."""
-    radius = PIN_SHARE * built.members[body].width / 2
+    radius = usual_diameter(built.members[body].width) / 2
     taken = [
         (axis.points[body], stud.eye(body, keyed=True))
         for axis, stud in ((axis, built.studs[axis.name]) for axis in built.axes)
@@ -219,7 +222,7 @@ def _slide_eyes(built: Construction, body: str, radius: float) -> Iterator[Eye]:
     for line in built.lines:
         guide = built.guides[line.name]
         if line.body == body:
-            inner = rectangle(max(guide.block_length - 2 * radius, mm), max(guide.block - 2 * radius, mm)).points
+            inner = rectangle(*(max(side - 2 * radius, _NONE) for side in (guide.block_length, guide.block))).points
             yield from (Eye(complex(line.at + line.forward * corner), radius) for corner in inner)
         if line.guide == body:
             yield from (Eye(end, max(radius, guide.rail / 2)) for end in rail_ends(line, guide))
@@ -318,13 +321,15 @@ def construction(
 
 
 def _strengthened(built: Construction) -> dict[str, StudSize]:
-    """The next thicker sizes of the pins that are too weak, but of those that are given."""
+    """The next thicker sizes of the pins that are too weak; of one that is given, only of its shank."""
     stronger: dict[str, StudSize] = {}
     for axis in built.axes:
         stud, allowed = built.studs[axis.name], built.studs[axis.name].member
-        if stud.given or stud.journal >= DIAMETERS[-1] - 1e-9:
+        if max(stud.journal, stud.shank) >= DIAMETERS[-1] - 1e-9 or (stud.given and axis.driven):
             continue
         for stress, journal in zip(built.stresses(axis), (True, False), strict=True):
+            if journal and stud.given:
+                continue
             if stress.bending > allowed.bending or stress.shear > allowed.shear or stress.pressure > allowed.pressure:
                 stronger[axis.name] = thicker(stronger.get(axis.name, stud), journal=journal)
     return stronger

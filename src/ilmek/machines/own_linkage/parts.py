@@ -5,6 +5,7 @@ from z = 0 upwards.
 """
 
 import cmath
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
@@ -204,6 +205,11 @@ def keyed_hole(built: Construction, axis: PinAxis) -> Contour:
     return Contour(axis.points[axis.driven] + key_direction(built, axis) * bore.points, bore.bulges)
 
 
+def _whole(size: float) -> float:
+    """The size in whole millimetres, not less [m]."""
+    return math.ceil(size / mm) * mm
+
+
 def base_part(built: Construction) -> Part:
     """The plate that stands: about all pivots, housings and rails, with holes for screws at its corners."""
     holes, reach = [], []
@@ -218,8 +224,12 @@ def base_part(built: Construction) -> Part:
             row = built.guides[line.name]
             reach += [end + row.block * side for end in rail_ends(line, row) for side in (0.5, -0.5, 0.5j, -0.5j)]
     corners = np.array(reach)
-    low = complex(corners.real.min(), corners.imag.min()) - MARGIN * (1 + 1j)
-    high = complex(corners.real.max(), corners.imag.max()) + MARGIN * (1 + 1j)
+    low, high = (
+        complex(
+            *(side * math.ceil(max(side * along) / mm) * mm + side * MARGIN for along in (corners.real, corners.imag))
+        )
+        for side in (-1, 1)
+    )  # whole millimetres
     size, middle = high - low, (low + high) / 2
     inset = rectangle(size.real - 1.2 * MARGIN, size.imag - 1.2 * MARGIN).points + middle
     screws = [Hole(complex(at), SCREW / 2) for at in inset]

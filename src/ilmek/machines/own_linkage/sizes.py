@@ -133,7 +133,7 @@ def _first_stud(machine: OwnMachine, axis: PinAxis, members: Mapping[str, FlatMe
     moving = [body for body in axis.points if body != GROUND]
     thick = {body: members[body].thickness for body in moving}
     width = min(members[body].width for body in moving)
-    default = max((size for size in DIAMETERS if size <= PIN_SHARE * width * (1 + 1e-9)), default=DIAMETERS[0])
+    default = usual_diameter(width)
     if axis.driven:
         return _shaft(axis, given, default, thick, loads)
     bearing = find_bearing(given.bearing) if given is not None and given.bearing else None
@@ -148,6 +148,15 @@ def _first_stud(machine: OwnMachine, axis: PinAxis, members: Mapping[str, FlatMe
     ):
         stud = thicker(stud, journal=True)
     return stud
+
+
+def usual_diameter(width: float) -> float:
+    """The diameter next below a third of a link's width [m], of a pin or a hole without a force.
+
+    >>> usual_diameter(0.025), usual_diameter(0.001)
+    (0.008, 0.003)
+    """
+    return max((size for size in DIAMETERS if size <= PIN_SHARE * width * (1 + 1e-9)), default=DIAMETERS[0])
 
 
 def _shaft(
