@@ -124,10 +124,13 @@ def _datum(features: ContourFeatures, corner: complex, centres: list[complex], h
 
 
 def bore_note(fits: Fits, hole: Hole) -> FeatureNote:
-    """What a round hole must hold, its fit or thread behind the diameter; bare: nothing."""
-    fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
+    """What a round hole must hold, its words with the diameter, or the thread: `⌀12 H7 (+0.018/0)`, `M12 6H`."""
+    size = millimetres(2 * hole.radius)
     thread = fits.note(2 * hole.radius, FeatureKind.THREAD, hole.at)
-    return thread._replace(words=f" M{millimetres(2 * hole.radius)}{thread.words}") if thread.words else fit
+    if thread.words:
+        return thread._replace(words=f"M{size}{thread.words}")
+    fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
+    return fit._replace(words=f"⌀{size}{fit.words}")
 
 
 def outline_view(
@@ -292,7 +295,7 @@ def _hole_label(view: DrawnView, flat: FlatPart, group: HoleGroup, fits: Fits, o
     count = len(group.holes)
     hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
     note = bore_note(fits, hole)
-    words = f"{f'{count}× ' if count > 1 else ''}⌀{millimetres(2 * hole.radius)}{note.words}"
+    words = f"{f'{count}× ' if count > 1 else ''}{note.words}"
     if group.pitch:
         words = Sentence("sheet.on-circle", holes=words, circle=millimetres(2 * group.pitch))
     _diameter(view, words, hole.at - origin, hole.radius, count, note)
@@ -363,8 +366,7 @@ def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
             tag = f"{letter}{number}" if len(ordered) > 1 else letter
             view.tag(tag, hole.at * view.scale, hole.radius * view.scale)
             at, note = hole.at - flat.datum, bore_note(fits, hole)
-            size = f"⌀{millimetres(2 * hole.radius)}{note.words}"
-            rows.append((tag, millimetres(at.real), millimetres(at.imag), size))
+            rows.append((tag, millimetres(at.real), millimetres(at.imag), note.words))
         if not note.is_bare:
             hole = ordered[-1]
             words = f"{len(ordered)}× {letter}" if len(ordered) > 1 else letter
