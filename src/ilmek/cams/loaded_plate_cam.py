@@ -32,7 +32,6 @@ from ilmek.cams.trace import CamTrace
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import MATERIALS, hertz_limit
 from ilmek.elements.motors import NO_MOTOR
-from ilmek.elements.reducers import DIRECT, PLANETARY
 from ilmek.plane.contours import polygon_moments
 from ilmek.records import computed, record, result
 from ilmek.units import mm, turn
@@ -310,6 +309,4 @@ def drive_for(cams: Sequence[LoadedPlateCam], speed: float, belt: float = 1.0) -
 
 def _smallest(cycle: LoadCycle) -> ServoDrive | None:
     """The motor of least power, with the least ratio at which it bears the cycle."""
-    ratios = sorted((DIRECT, *PLANETARY), key=lambda reducer: reducer.ratio)
-    found = [size_motor(cycle, (reducer,)) for reducer in ratios]
-    return min((one for one in found if one), key=lambda one: one.motor.power, default=None)
+    return size_motor(cycle, best=lambda drive: drive.reducer.ratio)

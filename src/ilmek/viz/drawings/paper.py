@@ -12,7 +12,9 @@ from ilmek.viz.drawings.feature_note import edge_mark, surface_mark
 from ilmek.viz.drawings.picture import CAPITAL, SheetPicture, words_width
 from ilmek.viz.font import text_width
 
-PAPERS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
+PAPERS = {
+    "A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)
+}  # fmt: skip
 """Width and height of trimmed sheets [mm]; ISO 5457: A4 upright, the others lying."""
 
 SCALES = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
@@ -78,7 +80,7 @@ def fitting(words: str, width: float, height: float, least: float = 1.8, *, bold
     height = max(least, height * width / natural)
     if words_width(words, height, bold=bold) <= width + _ROUNDING:
         return words, height
-    while len(words) > 1 and text_width(words, height / CAPITAL, bold) > width:
+    while len(words) > 1 and text_width(words, height / CAPITAL, bold) > width + _ROUNDING:
         words = words.rstrip("…")[:-1].rstrip() + "…"
     return words, height
 
