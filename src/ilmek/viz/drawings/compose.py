@@ -13,10 +13,12 @@ from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.sentences import Sentence
 from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
+from ilmek.viz.drawings.details import step_detail
 from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.edge import edge_view
 from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import edge_view, flat_part, outline_view
+from ilmek.viz.drawings.flat import flat_part, outline_view
 from ilmek.viz.drawings.joined import joined_views, members_of
 from ilmek.viz.drawings.long import bar_view, is_long, turned_view
 from ilmek.viz.drawings.paper import (
@@ -69,7 +71,9 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
         views, more = _prism_views(part, shape, fits, scale)
         return Arrangement(views, (*tables, *more))
     if isinstance(shape, Turned):
-        return Arrangement({"front": turned_view(shape.profile, scale, fits)}, tables)
+        front = turned_view(shape.profile, scale, fits)
+        detail = step_detail(front, shape.profile.outline)
+        return Arrangement({"front": front}, tables if detail is None else (*tables, detail))
     members = tuple(members_of(shape))
     one_axis = coaxial(members)
     if one_axis is not None:

@@ -10,11 +10,12 @@ from ilmek.arrays import ComplexArray
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
 from ilmek.plane.biarcs import as_contour
-from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, keyed_bore, polygon
+from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, keyed_bore
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.details import Detail, detail_view, details_for, mark_detail
 from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import (
     SAME,
@@ -58,6 +59,25 @@ class FlatPart:
     def holes(self) -> tuple[Hole, ...]:
         """All round holes."""
         return tuple(hole for group in self.groups for hole in group.holes)
+
+    @property
+    def contours(self) -> tuple[Contour, ...]:
+        """All its closed lines."""
+        cuts = *self.cutouts, *(keyed_contour(bore) for bore in self.bores), *(_circle(hole) for hole in self.holes)
+        return (self.outline, *cuts)
+
+    @property
+    def squares(self) -> tuple[tuple[complex, complex], ...]:
+        """Its square bores, by centre and side."""
+        squares = ((cut, square_of(cut)) for cut in self.cutouts)
+        return tuple(own for cut, own in squares if own is not None and _corners_of(cut, self) == (own[0],))
+
+    @property
+    def small(self) -> Iterator[tuple[complex, float]]:
+        """What may be too small on its paper: middle and width of holes and cutouts [m]."""
+        yield from ((hole.at, 2 * hole.radius) for hole in self.holes)
+        for low, high in map(bounds, self.cutouts):
+            yield (low + high) / 2, min((high - low).real, (high - low).imag)
 
     @property
     def dimensioned(self) -> bool:
@@ -104,10 +124,13 @@ def _datum(features: ContourFeatures, corner: complex, centres: list[complex], h
 
 
 def bore_note(fits: Fits, hole: Hole) -> FeatureNote:
-    """What a round hole must hold, its fit or thread behind the diameter; bare: nothing."""
-    fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
+    """What a round hole must hold, its words with the diameter, or the thread: `⌀12 H7 (+0.018/0)`, `M12 6H`."""
+    size = millimetres(2 * hole.radius)
     thread = fits.note(2 * hole.radius, FeatureKind.THREAD, hole.at)
-    return thread._replace(words=f" M{millimetres(2 * hole.radius)}{thread.words}") if thread.words else fit
+    if thread.words:
+        return thread._replace(words=f"M{size}{thread.words}")
+    fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
+    return fit._replace(words=f"⌀{size}{fit.words}")
 
 
 def outline_view(
@@ -124,11 +147,10 @@ def outline_view(
     circles  about the origin to draw and to label: radii [m] by the keys of their words
     """
     view = DrawnView(scale)
-    view.contour(LineKind.VISIBLE, flat.outline)
-    for cut in (*flat.cutouts, *(keyed_contour(bore) for bore in flat.bores)):
-        view.contour(LineKind.VISIBLE, cut)
+    details = details_for([*flat.small], scale)
+    for contour in flat.contours:
+        view.contour(LineKind.VISIBLE, contour)
     for hole in flat.holes:
-        view.contour(LineKind.VISIBLE, _circle(hole))
         view.cross(hole.at, hole.radius)
     shaft = as_keyed(flat.outline)
     for bore in (*flat.bores, *([shaft] if shaft else [])):
@@ -144,11 +166,27 @@ def outline_view(
         view.contour(LineKind.CENTRE, _circle(Hole(0j, radius)))
     _patterns(view, flat)
     _linear(view, flat)
-    _labels(view, flat, fits)
+    _labels(view, flat, fits, details)
     for name, radius in (circles or {}).items():
         _diameter(view, Sentence(name, size=millimetres(2 * radius)), 0j, radius)
+    for detail in details:
+        mark_detail(view, detail)
     tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
-    return view, tables
+    return view, (*tables, *(_enlarged(detail, flat, fits).picture for detail in details))
+
+
+def _enlarged(detail: Detail, flat: FlatPart, fits: Fits) -> DrawnView:
+    """A detail with the labels of the holes and squares that are all in it."""
+    view = detail_view(detail, flat.contours)
+    for group in flat.groups:
+        if all(detail.has(hole.at) for hole in group.holes):
+            for hole in group.holes:
+                view.cross(hole.at - detail.centre, hole.radius)
+            _hole_label(view, flat, group, fits, detail.centre)
+    for centre, side in flat.squares:
+        if detail.has(centre):
+            _square(view, centre - detail.centre, side, fits)
+    return view
 
 
 def keyed_contour(bore: KeyedCircle) -> Contour:
@@ -227,8 +265,8 @@ def _patterns(view: DrawnView, flat: FlatPart) -> None:
             view.contour(LineKind.CENTRE, _circle(Hole(group.centre, group.pitch)))
 
 
-def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
-    """Diameters of holes and bores, radii, widths of keyways."""
+def _labels(view: DrawnView, flat: FlatPart, fits: Fits, details: Sequence[Detail]) -> None:
+    """Diameters of holes and bores, radii, widths of keyways; but what is all in a detail."""
     if flat.round_outline is not None:
         ring = flat.round_outline
         _diameter(view, f"⌀{millimetres(2 * ring.radius)}", ring.at, ring.radius)
@@ -239,22 +277,28 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
         _diameter(view, f"⌀{millimetres(2 * bore.radius)}{note.words}", bore.centre, bore.radius, note=note)
         keyway(view, bore, fits, kind)
     for group in flat.groups:
-        count = len(group.holes)
-        times = f"{count}× " if count > 1 else ""
-        hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
-        if not flat.tabled or group.pitch:
-            note = bore_note(fits, hole)
-            words = f"{times}⌀{millimetres(2 * hole.radius)}{note.words}"
-            if group.pitch:
-                words = Sentence("sheet.on-circle", holes=words, circle=millimetres(2 * group.pitch))
-            _diameter(view, words, hole.at, hole.radius, count, note)
+        if not any(all(detail.has(hole.at) for hole in group.holes) for detail in details):
+            _hole_label(view, flat, group, fits)
     if flat.dimensioned and flat.round_outline is None and shaft is None:
         _radii(view, flat.features.arcs)
     for cut in flat.cutouts:
         _radii(view, contour_features(cut).arcs)
-        square = square_of(cut)
-        if square is not None and _corners_of(cut, flat) == (square[0],):
-            _square(view, *square, fits)
+    for centre, side in flat.squares:
+        if not any(detail.has(centre) for detail in details):
+            _square(view, centre, side, fits)
+
+
+def _hole_label(view: DrawnView, flat: FlatPart, group: HoleGroup, fits: Fits, origin: complex = 0j) -> None:
+    """The diameter of a group of holes, unless a table has it, in a view about an origin [m]."""
+    if flat.tabled and not group.pitch:
+        return
+    count = len(group.holes)
+    hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
+    note = bore_note(fits, hole)
+    words = f"{f'{count}× ' if count > 1 else ''}{note.words}"
+    if group.pitch:
+        words = Sentence("sheet.on-circle", holes=words, circle=millimetres(2 * group.pitch))
+    _diameter(view, words, hole.at - origin, hole.radius, count, note)
 
 
 def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
@@ -322,55 +366,9 @@ def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
             tag = f"{letter}{number}" if len(ordered) > 1 else letter
             view.tag(tag, hole.at * view.scale, hole.radius * view.scale)
             at, note = hole.at - flat.datum, bore_note(fits, hole)
-            size = f"⌀{millimetres(2 * hole.radius)}{note.words}"
-            rows.append((tag, millimetres(at.real), millimetres(at.imag), size))
+            rows.append((tag, millimetres(at.real), millimetres(at.imag), note.words))
         if not note.is_bare:
             hole = ordered[-1]
             words = f"{len(ordered)}× {letter}" if len(ordered) > 1 else letter
             view.leader(words, hole.at * view.scale, hole.radius * view.scale, kind=None, note=note)
     return table((Sentence("sheet.hole"), "X", "Y", Sentence("sheet.dimension")), rows, Sentence("sheet.holes"))
-
-
-def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) -> DrawnView:
-    """The edge of a plate: seen from the left, or from above where it stands below the outline (first angle)."""
-    view = DrawnView(scale)
-
-    def turn(level: float, depth: float) -> complex:
-        return complex(level, -depth) if below else complex(depth, level)
-
-    low, high = bounds(flat.outline)
-    start, end = (low.real, high.real) if below else (low.imag, high.imag)
-    corners = [turn(start, 0.0), turn(end, 0.0), turn(end, thickness), turn(start, thickness)]
-    view.contour(LineKind.VISIBLE, polygon(np.array(corners)))
-    for level in distinct(list(edge_levels(flat, below=below))):
-        if start + SAME < level < end - SAME:
-            view.line(LineKind.VISIBLE, np.array([turn(level, 0.0), turn(level, thickness)]))
-    round_holes = [(h.at, h.radius) for h in flat.holes] + [(b.centre, b.radius) for b in flat.bores]
-    if len(round_holes) <= 12:
-        for centre, radius in round_holes:
-            middle = centre.real if below else centre.imag
-            for level in (middle - radius, middle + radius):
-                view.line(LineKind.HIDDEN, np.array([turn(level, 0.0), turn(level, thickness)]))
-            over = 2.5 / scale
-            view.line(LineKind.CENTRE, np.array([turn(middle, -over), turn(middle, thickness + over)]), body=False)
-    view.rows([MeasuredLength(corners[0] * scale, corners[3] * scale, thickness)], across=below)
-    return view
-
-
-def edge_levels(flat: FlatPart, *, below: bool = False) -> Iterator[float]:
-    """Levels of corners that nothing hides: on the side of the outline from which it is seen."""
-    if not flat.dimensioned:
-        return
-    points = along(flat.outline, 1e-5)
-    points = -points.imag + 1j * points.real if below else points  # depth from the eye, and level on the paper
-    after = np.roll(points, -1)
-    for corner in flat.features.corners:
-        level, depth = coordinate(corner, not below), (-corner.imag if below else corner.real)
-        hidden = False
-        for offset in (-1e-6, 1e-6):
-            crossed = (points.imag > level + offset) != (after.imag > level + offset)
-            share = (level + offset - points.imag[crossed]) / (after.imag[crossed] - points.imag[crossed])
-            before = points.real[crossed] + share * (after.real[crossed] - points.real[crossed])
-            hidden = hidden or bool(np.any(before < depth - 1e-5))
-        if not hidden:
-            yield level

@@ -101,8 +101,8 @@ def _page(  # noqa: PLR0917
     top = complex(26.0, height - 16.0)
     pictures = [frame(paper)]
     facts = TitleFacts(
-        f"{report.machine}/parts", report.title, Sentence("sheet.parts-list"), "—", "—", "—", str(1), "—", "", "—",
-        ("", ""),        status_of(issue), issue.owner, issue.date, issue.revision,
+        f"{report.machine}/parts", report.title, Sentence("sheet.parts-list"), "—", "—", "—", str(1), "—", "", "—", (),
+        status_of(issue), issue.owner, issue.date, issue.revision,
     )  # fmt: skip
     pictures.append(title_block(facts, paper, 1.0, page, pages))
     if reasons:

@@ -14,10 +14,11 @@ from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.edge import edge_levels
 from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import SAME, ContourFeatures, contour_features, distinct
 from ilmek.viz.drawings.fits import Fits, Span, span_of
-from ilmek.viz.drawings.flat import PARALLEL, FlatPart, edge_levels
+from ilmek.viz.drawings.flat import PARALLEL, FlatPart
 from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength
 from ilmek.viz.drawings.weld_symbols import weld_symbols
@@ -238,7 +239,7 @@ def _diameter(  # noqa: PLR0917
     size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
     if count > MOST_DIAMETERS:
         pitch = float(np.median(np.diff(starts)))
-        wide = millimetres(spans[0][1] - spans[0][0])
+        wide = millimetres(float(np.median(np.diff(spans))))
         size = Sentence("sheet.grooves", size=size, wide=wide, pitch=millimetres(pitch))
     first, last = cut.drawn(np.array(spans[0]))
     share = 0.5 if cut.whole else 0.8

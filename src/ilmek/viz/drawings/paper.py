@@ -36,7 +36,7 @@ class TitleFacts:
 
     number   of the drawing            mass      of a piece, in words     pieces  to be made
     surface  roughness of all surfaces that state no other                treatment  of the material; "": none
-    general, edges   general tolerances, and states of outer and inner edges by ISO 13715
+    general, edges   general tolerances, and states of outer and inner edges by ISO 13715, if any
     status   of the document           date, revision  of its issue: as given, never of a clock
     """
 
@@ -50,7 +50,7 @@ class TitleFacts:
     surface: str
     treatment: str
     general: str
-    edges: tuple[str, str]
+    edges: Sequence[str]
     status: str
     owner: str = "—"
     date: str = "—"
@@ -142,6 +142,7 @@ def _rectangle(kind: LineKind, low: complex, high: complex) -> SheetLine:
 def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: int) -> SheetPicture:
     """The title block, in the lower right corner of a sheet."""
     width, _ = PAPERS[paper]
+    outer, inner = (*facts.edges, "", "")[:2]
     corner = complex(width - EDGE - BLOCK_WIDTH, EDGE)
     rows = (
         (0.0, 9.0, (
@@ -156,8 +157,8 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
             ("sheet.projection", "", 24),
         )),
         (29.0, 9.0, (
-            ("sheet.general", facts.general, 36), ("sheet.outer", facts.edges[0], 36),
-            ("sheet.inner", facts.edges[1], 30), ("sheet.surface", facts.surface, 52), ("sheet.unit", "mm", 26),
+            ("sheet.general", facts.general, 36), ("sheet.outer", outer, 36),
+            ("sheet.inner", inner, 30), ("sheet.surface", facts.surface, 52), ("sheet.unit", "mm", 26),
         )),
         (38.0, 9.0, (("sheet.stock", facts.stock, 100), ("sheet.treatment", facts.treatment or "—", 80))),
     )  # fmt: skip
@@ -182,7 +183,7 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
             x += wide
     lines += _projection_mark(corner + complex(168.5, 23.6))
     lines += surface_mark(corner + complex(104.0, 30.4))
-    if facts.edges[0]:
+    if inner:
         lines += [
             *edge_mark(corner + complex(39.5, 31.4), outer=True),
             *edge_mark(corner + complex(74.5, 31.0), outer=False),

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -22,7 +23,12 @@ Box = tuple[float, float, float, float]
 
 def words_width(words: str, height: float, *, bold: bool = False) -> float:
     """Width of a text with capitals of a height [mm]: of a sentence in its longest language."""
-    return max(text_width(text, height / CAPITAL, bold) for text in spoken(words))
+    return _widest(words, getattr(words, "key", ""), height / CAPITAL, bold)
+
+
+@lru_cache(maxsize=16384)
+def _widest(words: str, key: str, size: float, bold: bool) -> float:  # noqa: ARG001  sentences of a text by their key
+    return max(text_width(text, size, bold) for text in spoken(words))
 
 
 def text_box(text: SheetText) -> Box:
