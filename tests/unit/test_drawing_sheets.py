@@ -185,8 +185,22 @@ def assert_clear(book: Path) -> None:
         assert boxes[:, 3].max() < height - 5
 
 
-def test_no_text_lies_on_another_or_leaves_the_frame(beat_up: Path) -> None:
-    assert_clear(beat_up / "drawings.pdf")
+BOOKS = ("drawings.pdf", "drawings.tr.pdf")
+
+
+@pytest.mark.parametrize("book", BOOKS)
+def test_no_text_lies_on_another_or_leaves_the_frame(book: str, beat_up: Path) -> None:
+    assert_clear(beat_up / book)
+
+
+def test_the_turkish_book_has_its_words_on_the_same_sheets(beat_up: Path) -> None:
+    english, turkish = (pdfium.PdfDocument(beat_up / name) for name in BOOKS)
+    assert len(english) == len(turkish)
+    for number in range(1, len(turkish)):
+        page = turkish[number].get_textpage().get_text_range()
+        assert all(word in page for word in ("Parça resmi", "Malzeme", "Kenarlar ISO 13715, dış", "Yarı mamul, işlem"))
+        assert not any(word in page for word in ("Part drawing", "Stock, process", "Drawing number", "as delivered"))
+        assert page != english[number].get_textpage().get_text_range()
 
 
 def printed(value: float) -> str:
@@ -198,7 +212,8 @@ def printed(value: float) -> str:
 @pytest.mark.parametrize("name", ["tension-compensator", "tufting", "hand-loom", "weaver", "automated-loom"])
 def test_the_sheets_of_every_machine_are_clear(name: str, tmp_path: Path) -> None:
     design_machine(name, {}, WorkshopOrder(tmp_path / "parts"), illustrated=False)
-    assert_clear(tmp_path / "parts" / "drawings.pdf")
+    for book in BOOKS:
+        assert_clear(tmp_path / "parts" / book)
 
 
 def points_of(document: Drawing, page: str) -> dict[str, bool]:

@@ -15,6 +15,7 @@ from ilmek.records import JsonObject
 from ilmek.report import Plate, Report, WorkPiece
 from ilmek.report.left_out import made_or_left_out
 from ilmek.report.sheet import DrawingSheet, Issue
+from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, in_language, translated
 from ilmek.units import counted
 from ilmek.viz.drawings.assembly import assembly_sheets
 from ilmek.viz.drawings.compose import sheets_of
@@ -69,10 +70,23 @@ def write_drawings(  # noqa: PLR0917
         )
         left_out.append(f"{sheets_of_sums} left out: pip install 'ilmek[step]'")
     first = index_sheets(report, part_rows(report, parts), issue)
-    write_sheets_pdf(work / BOOK, (*first, *book), f"Drawings: {report.title}")
+    whole = {"kind": "drawings", "of": report.machine, "title": report.title, "sheets": len(first) + len(book)}
+    for language in LANGUAGES:
+        with in_language(language):
+            title = translated(Sentence("sheet.book", title=report.title))
+            write_sheets_pdf(work / book_file(language), (*first, *book), title)
+        entries.append({"file": book_file(language), **whole, "language": language})
     progress(1.0)
-    whole = {"file": BOOK, "kind": "drawings", "of": report.machine, "title": report.title}
-    return [*entries, {**whole, "sheets": len(first) + len(book)}]
+    return entries
+
+
+def book_file(language: str) -> str:
+    """The book in a language: as pages of papers have it.
+
+    >>> book_file("en"), book_file("tr")
+    ('drawings.pdf', 'drawings.tr.pdf')
+    """
+    return BOOK if language == DEFAULT else f"{Path(BOOK).stem}.{language}.pdf"
 
 
 def _assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> tuple[DrawingSheet, ...]:

@@ -23,6 +23,9 @@ class LineKind(StrEnum):
     PATH = "path"
     FRAME = "frame"
     BREAK = "break"
+    TOLERANCE = "tolerance"
+    TEXTURE = "texture"
+    WELD = "weld"
     CONTOUR = "contour"
     LEADER = "leader"
 
@@ -36,6 +39,9 @@ LINE_WIDTHS = {
     LineKind.PATH: 0.25,
     LineKind.FRAME: 0.7,
     LineKind.BREAK: 0.25,
+    LineKind.TOLERANCE: 0.25,
+    LineKind.TEXTURE: 0.25,
+    LineKind.WELD: 0.35,
     LineKind.CONTOUR: 0.35,
     LineKind.LEADER: 0.18,
 }
@@ -76,6 +82,16 @@ class SheetText:
     angle: float = 0.0
     bold: bool = False
     light: bool = False
+
+
+@record
+class Schematic:
+    """A diagram of a circuit: lines and texts, not to scale."""
+
+    name: str
+    title: str
+    lines: tuple[SheetLine, ...]
+    texts: tuple[SheetText, ...]
 
 
 class DimensionKind(StrEnum):

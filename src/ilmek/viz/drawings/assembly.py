@@ -29,7 +29,7 @@ from ilmek.records import record
 from ilmek.report.sheet import DimensionKind, DrawingSheet, Issue, LineKind, SheetDimension, SheetLine, SheetText
 from ilmek.units import format_quantity, mm
 from ilmek.viz.drawings.balloons import ROOM, SIDES, Balloon, CrowdedViewError, rows_about
-from ilmek.viz.drawings.compose import merged
+from ilmek.viz.drawings.compose import merged, status_of
 from ilmek.viz.drawings.item_views import balloons_on, item_view, rotation_to
 from ilmek.viz.drawings.joined import VIEWS
 from ilmek.viz.drawings.paper import (
@@ -96,11 +96,11 @@ class _Titles:
     def sheet(self, paper: str, scale: float, drawn: Sequence[SheetPicture], page: int) -> DrawingSheet:
         """A sheet with its frame and title block."""
         own, issue = self.assembly, self.issue
-        stamp = "NOT RELEASED" if issue.unreleased else ""
+        stamp = status_of(issue) if issue.unreleased else ""
         title = own.title[:1].upper() + own.title[1:]
         facts = TitleFacts(
             own.drawing, title, "Assembly drawing", "see list", format_quantity(self.mass, "kg", 3), "—",
-            str(own.count), "—", "", "—", "—", stamp or "For production", issue.owner, issue.date, issue.revision,
+            str(own.count), "—", "", "—", ("—", "—"), status_of(issue), issue.owner, issue.date, issue.revision,
         )  # fmt: skip
         whole = merged([frame(paper), title_block(facts, paper, scale, page, self.pages), *drawn])
         width, height = PAPERS[paper]

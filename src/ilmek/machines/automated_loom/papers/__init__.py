@@ -7,7 +7,7 @@ from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
-from ilmek.machines.automated_loom.papers.risks import risks
+from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
@@ -22,4 +22,4 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         risks(loom, report),
     )
     tree = loom_tree(loom)
-    return Papers(pages, part_lists(tree, whole_list(loom).prices), tree)
+    return Papers(pages, part_lists(tree, whole_list(loom).prices), safety_checks(loom, report), tree)
