@@ -6,6 +6,7 @@ the faces on which its own lie.
 """
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -60,6 +61,7 @@ class _Placed:
     turning: bool
 
 
+@lru_cache(maxsize=8)
 def meetings(tree: Tree) -> tuple[Meeting, ...]:
     """The meetings of different parts, those of like pairs of features in the same bodies once."""
     placed, lines = _placed(tree)

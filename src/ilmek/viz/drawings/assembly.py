@@ -54,7 +54,7 @@ LEAST_SIZE = {"A3": 85.0, "A2": 110.0, "A1": 160.0, "A0": 0.0}
 """Papers, and the least greatest extent of an assembly on them [mm]: below it, the next paper is taken, unless it is
 drawn in true size or larger."""
 
-HEADER = ("Item", "Qty", "Designation", "Material, type", "Drawing", "Mass")
+HEADER = ("No.", "Qty", "Designation", "Material, type", "Drawing", "Mass")
 WIDTHS = {"A3": (9.0, 9.0, 54.0, 42.0, 52.0, 14.0)}
 WIDE = (10.0, 10.0, 74.0, 62.0, 58.0, 16.0)
 """Widths of the columns of the list [mm], on A3 and on larger papers."""

@@ -26,7 +26,7 @@ ROOM = AWAY + RADIUS + 1.0
 STEEP = math.radians(30)
 """Least angle of a leader to the row of its balloon [rad]."""
 
-_FLAT, _DOT, _CLEAR, _FINEST = 1e4, 0.3, 0.4, 300
+_FLAT, _DOT, _CLEAR, _FINEST = 1e4, 0.3, 0.4, 150
 """Cost of a flat leader, radius of the dot at its end, least distance from other balloons [mm]; pixels across a region
 that are looked at.
 """
