@@ -17,6 +17,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import chain
 
 import numpy as np
 
@@ -214,12 +215,23 @@ def _chosen(
         return section.name if number == 1 else f"{number} x ({section.name})"
 
     for checks_of in rules:
-        first = next((k for k, one in enumerate(offered) if all(check.ok for check in checks_of(one))), None)
-        if first is not None:
-            last = offered[max(first - 1, 0) : first + 1]
-            choice = choose(f"frame_{name}", [Alternative(label(*one), tuple(checks_of(one))) for one in last])[1]
-            return offered[first], choice
+        smaller: tuple[str, Iterable[Check]] | None = None
+        for one in offered:
+            checks = iter(checks_of(one))
+            judged = list(_to_failure(checks))
+            if all(check.ok for check in judged):
+                last = [Alternative(size, tuple(own)) for size, own in ([smaller] if smaller else [])]
+                return one, choose(f"frame_{name}", [*last, Alternative(label(*one), tuple(judged))])[1]
+            smaller = label(*one), chain(judged, checks)
     return offered[-1], Choice(f"frame_{name}", label(*offered[-1]), "the largest that has room")
+
+
+def _to_failure(checks: Iterator[Check]) -> Iterator[Check]:
+    """The checks up to the first that fails: others are not computed."""
+    for check in checks:
+        yield check
+        if not check.ok:
+            return
 
 
 def column_load(task: FrameTask, section: HollowSquare, number: int = 1) -> tuple[float, float]:

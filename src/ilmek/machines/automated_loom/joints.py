@@ -17,7 +17,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import LoomFrame, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports
-from ilmek.machines.automated_loom.standing_frame import foot_reach
+from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, foot_reach
 from ilmek.machines.automated_loom.steady_posts import steady_post
 from ilmek.machines.automated_loom.supports import beat_beam, supports
 from ilmek.machines.bearing_seats import BRACKET
@@ -108,7 +108,7 @@ def joint_checks(loom: LoomDesign, frame: LoomFrame) -> tuple[Check, ...]:
 
 def foot_check(frame: LoomFrame) -> Check:
     """Load of a levelling foot against its rating."""
-    source, parts = f"rating of {frame.foot.name}", (part_id("levelling-foot"),)
+    source, parts = f"rating of {frame.foot.name}", (LEVELLING_FOOT,)
     cure = "set a narrower carpet"
     return at_most("load of a levelling foot", frame.foot_load, frame.foot.rating, "N", source).with_cure(cure, *parts)
 
@@ -126,5 +126,5 @@ def tipping(loom: LoomDesign, frame: LoomFrame) -> Check | None:
         return None
     source = "weight at the columns against the beat at its beam; assumed by this project"
     return at_least("frame: against tipping over its feet", weight * lever / moment, TIPPING, "1", source).with_cure(
-        "set a lower speed of the crank, or bolt the feet to the floor", part_id("levelling-foot")
+        "set a lower speed of the crank, or bolt the feet to the floor", LEVELLING_FOOT
     )

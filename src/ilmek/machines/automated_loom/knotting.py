@@ -83,13 +83,18 @@ class KnottingHead:
     """What ties the knots of a loom.
 
     kind      hand, cams or arms     weaver  the head, with the tracks of arms in its cyclogram; None: weavers by hand
-    children  the machines of one head, by name     checks  of all of them
+    children  the machines of one head, by name
     """
 
     kind: str
     weaver: Weaver | None
     children: Mapping[str, Child]
-    checks: tuple[Check, ...]
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """The checks of all machines of a head."""
+        machines = [(child.component, child.design) for child in self.children.values()]
+        return tuple(check for machine, design in machines for check in machine.checks(machine.analysis(design)))
 
     @property
     def width(self) -> float:
@@ -121,7 +126,7 @@ def knotting_head(task: LoomTask) -> KnottingHead:
     Raises LoomError where the settings of its machines contradict the loom's.
     """
     if task.params.knotting == HAND:
-        return KnottingHead(HAND, None, {}, ())
+        return KnottingHead(HAND, None, {})
     component = MACHINES[WEAVER]
     assert component.fit is not None
     params: WeaverParams = component.fit(task)
@@ -214,23 +219,18 @@ def _weaver(params: WeaverParams) -> Weaver:
 
 @lru_cache(maxsize=4)
 def _on_cams(params: WeaverParams) -> KnottingHead:
-    """A head on its cams, with its checks."""
-    return _of(CAMS, _weaver(params), {})
+    """A head on its cams."""
+    weaver = _weaver(params)
+    return KnottingHead(CAMS, weaver, {WEAVER: Child(MACHINES[WEAVER], weaver)})
 
 
 @lru_cache(maxsize=4)
 def _by_arms(params: WeaverParams, arms: KnottingDyad) -> KnottingHead:
-    """A head with arms, with its checks."""
+    """A head with arms."""
     made = _weaver(params)
-    return _of(ARMS, replace(made, cyclogram=with_arms(made, arms)), {DYAD: Child(MACHINES[DYAD], arms)})
-
-
-def _of(kind: str, weaver: Weaver, others: Mapping[str, Child]) -> KnottingHead:
-    children = {WEAVER: Child(MACHINES[WEAVER], weaver), **others}
-    checks = tuple(
-        check for child in children.values() for check in child.component.checks(child.component.analysis(child.design))
-    )
-    return KnottingHead(kind, weaver, children, checks)
+    weaver = replace(made, cyclogram=with_arms(made, arms))
+    children = {WEAVER: Child(MACHINES[WEAVER], weaver), DYAD: Child(MACHINES[DYAD], arms)}
+    return KnottingHead(ARMS, weaver, children)
 
 
 def _arms(task: LoomTask) -> KnottingDyad:

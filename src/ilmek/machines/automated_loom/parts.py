@@ -18,11 +18,11 @@ from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.shaking import least_frequency
-from ilmek.machines.automated_loom.standing_frame import foot_reach
+from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import least_rail
-from ilmek.part.bill import bill
+from ilmek.part.bill import bill, line_of
 from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
 from ilmek.report import BillLine
@@ -85,7 +85,9 @@ def _listed(
     load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
     mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
     frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
-    return PartsList((*carried, *bill(frame_tree(loom, frame, motors(carried)))), prices, frame)
+    foot = frame.foot.part(LEVELLING_FOOT)
+    standing = (line_of(foot, line.number) if line.part == foot.id else line for line in own)
+    return PartsList((*carried, *standing), prices, frame)
 
 
 def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:

@@ -192,6 +192,7 @@ class _Search:
         self.lost: list[tuple[LoomOffer, Check]] = []
         self.tried: list[tuple[LoomOffer, LoomDesign, float]] = []
         self.branches: dict[tuple[str, str], HeadBranch] = {}
+        self.failed: dict[HeadBranch, Mapping[str, list[Check]]] = {}
         self.heads: dict[tuple[str, float], MachineCost] = {}
         self.limits: list[_Limit] = []
         self.order = count()
@@ -215,12 +216,14 @@ class _Search:
 
     def _failed(self, branch: HeadBranch) -> Mapping[str, list[Check]]:
         """The checks that fail for each kind of beat: of head and weft, of its own, and in space."""
-        ready = branch.ready
-        shared = [check for check in (*ready.head.checks, *ready.weft.checks) if not check.ok]
-        return {
-            option.kind: [*shared, *(c for c in option.checks if not c.ok), *self.refused.get(option.kind, ())]
-            for option in ready.options
-        }
+        if branch not in self.failed:
+            ready = branch.ready
+            shared = [check for check in (*ready.head.checks, *ready.weft.checks) if not check.ok]
+            self.failed[branch] = {
+                option.kind: [*shared, *(c for c in option.checks if not c.ok), *self.refused.get(option.kind, ())]
+                for option in ready.options
+            }
+        return self.failed[branch]
 
     def add(self, branch: HeadBranch) -> None:
         """The offers of a branch; those whose head, weft or beat fails a check are lost."""

@@ -29,8 +29,8 @@ CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
 
-AMPLIFIER = part_id("control-axis")
-"""Id of the amplifier of a motor, with its cable and switch."""
+AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
+"""Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
 
 _LEAST = 0.05 * mm
 """Thinner spacers are left out, and posts that are nearer to each other stand on one beam [m]."""
@@ -142,7 +142,7 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     for name, title, long, start in lengths:
         yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
-    foot = frame.foot.part(part_id("levelling-foot"))
+    foot = frame.foot.part(LEVELLING_FOOT)
     yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in stations for z in ends))
 
 

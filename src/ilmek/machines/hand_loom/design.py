@@ -141,7 +141,7 @@ class HandLoom:
 def design(params: HandLoomParams) -> HandLoom:
     """The hand loom for a carpet. Raises CarpetError for a carpet without knots; the errors of its machines."""
     (rows, columns), cloth = params.knot_grid, params.cloth
-    tying = KnottingHead(HAND, None, {}, ())
+    tying = KnottingHead(HAND, None, {})
     most = tying.most(columns, cloth.knot_pitch)
     weavers = knotters(params, most, tying)
     task, machines = LoomTask(params, rows, columns, cloth, {}), dict[str, Child]()
