@@ -9,6 +9,7 @@ import numpy as np
 from scipy.optimize import least_squares as local_squares
 from scipy.optimize import linprog, minimize
 
+from benchmarks.superposition import superposed_through_points
 from ilmek.arrays import FloatArray
 from ilmek.synthesis.approximation.dyad import dyads_along
 from ilmek.synthesis.approximation.exchange import linear_minimax
@@ -16,7 +17,6 @@ from ilmek.synthesis.approximation.function_generator import CRITERIA, function_
 from ilmek.synthesis.approximation.polynomial import SynthesisPolynomial, least_squares, minimax, of_table, range_nodes
 from ilmek.synthesis.dyad import dyads_through_points
 from ilmek.synthesis.function import Function
-from ilmek.synthesis.superposition import superposed_through_points
 from ilmek.units import deg
 
 Answer = TypeVar("Answer")

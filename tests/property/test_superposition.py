@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from benchmarks.superposition import superposed_through_points, superposed_through_poses
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -9,7 +10,6 @@ from ilmek.errors import ParameterError
 from ilmek.synthesis.approximation.dyad import design_polynomial
 from ilmek.synthesis.approximation.polynomial import interpolation
 from ilmek.synthesis.dyad import TwoLinkArm, dyads_through_points, dyads_through_poses
-from ilmek.synthesis.superposition import superposed_through_points, superposed_through_poses
 
 SEEDS = st.integers(0, 2**32 - 1)
 

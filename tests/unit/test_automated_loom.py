@@ -11,18 +11,15 @@ import pytest
 from default_machines import default_report, loom_report
 from examples.draw_loom_scaling import OUT, drawn
 
-from ilmek.arrays import Indices
 from ilmek.elements.carpet_yarns import yarn
 from ilmek.elements.yarns import usual_warp_density
 from ilmek.errors import IlmekError, LoomError, ParameterError
-from ilmek.loom.programme import make_programme
 from ilmek.machines import BEATS
 from ilmek.machines.automated_loom import (
     AutomatedLoomParams,
     LoomDesign,
     design,
     estimated_time,
-    production_time,
 )
 from ilmek.machines.automated_loom.cyclogram import BEATER, TAKE_UP
 from ilmek.machines.automated_loom.figures import figures, time_against_pitch, time_of_one_knotter
@@ -240,24 +237,6 @@ def test_more_heads_weave_sooner() -> None:
     assert times == sorted(times, reverse=True)
     stops = 90.0 * sum(one.changes(450) for one in loom.bobbins)
     assert times[0] == pytest.approx(450 * (12 + 300 * (2 + 0.06 * loom.weaver.colour_change)) + stops)
-
-
-def chart() -> Indices:
-    rows, columns = np.mgrid[0:450, 0:300]
-    return ((rows // 9 + columns // 7) % 5).astype(np.uint8)
-
-
-def test_the_shares_of_a_programme_are_its_time() -> None:
-    loom = design(AutomatedLoomParams(aim="price", beat="comb", heads=4))
-    programme = make_programme(chart(), 5, loom.heads, loom.times, bobbins=loom.bobbins)
-    spent = production_time(programme)
-    assert spent.total == programme.duration <= 24 * hour
-    parts = spent.wefts + spent.stops + spent.tying + spent.changing + spent.travelling + spent.waiting
-    assert parts == pytest.approx(spent.total)
-    assert spent.tying == pytest.approx(135000 * 2.0 / 4)
-    assert spent.by_hand == pytest.approx(135000 * 2.4)
-    assert 0.85 < spent.utilisation < 1
-    assert spent.knots_per_minute == pytest.approx(135000 / (spent.total / 60))
 
 
 def test_heads_are_the_fewest_for_the_price_and_the_most_for_the_time() -> None:

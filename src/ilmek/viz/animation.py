@@ -58,15 +58,15 @@ class LaidOut:
     parts: tuple[MovingPart, ...]
 
 
-def laid_out(animation: Animation, looks: Mapping[str, int], sheet: type[Sheet] = Sheet) -> LaidOut:
-    """The layout of the figure; sheet: the kind of sheet on which the fixed parts are drawn."""
+def laid_out(animation: Animation, looks: Mapping[str, int]) -> LaidOut:
+    """The layout of the figure."""
     still, start = animation.still, animation.start
     moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
     numbers = look_numbers((*still.strokes, *moving), looks)
     rows = list(_rows(animation))
     foot = FOOT + _ROW * len(rows)
     points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(dot.at for dot in animation.dots)]
-    pen = pen_for(np.concatenate(points), numbers, still.unit, foot, sheet)
+    pen = pen_for(np.concatenate(points), numbers, still.unit, foot)
     draw_still(pen, still)
     _legend(pen, rows, {at for at, one in enumerate(moving, len(still.strokes)) if one.role == "path"})
     bars = _bars(pen, animation)

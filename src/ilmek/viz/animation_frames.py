@@ -10,13 +10,13 @@ from ilmek.records import record
 from ilmek.report import Animation
 from ilmek.units import parse_unit
 from ilmek.viz.animation import SECONDS, laid_out
-from ilmek.viz.canvas import FINER, Canvas, PixelSheet
+from ilmek.viz.canvas import FINER, Canvas
 from ilmek.viz.cursor import decimals
 from ilmek.viz.drawing import WIDTH
 from ilmek.viz.font import text_width
 from ilmek.viz.moving_parts import DOT_RADII, MovingBlock, MovingCircle, MovingLine, MovingMarker, MovingPart
 from ilmek.viz.number_format import NARROW_SPACE
-from ilmek.viz.sheet import circle
+from ilmek.viz.sheet import Sheet, circle
 from ilmek.viz.strokes import BLOCK
 from ilmek.viz.style import INK, MUTED, PALETTE, PAPER, STEEL, STRONG, TEXT, YARN, shown_unit, tint
 
@@ -57,19 +57,18 @@ class _Slot:
 
 def pictures(animation: Animation, looks: Mapping[str, int]) -> Iterator[Image.Image]:
     """The pictures of a run: a turn that closes, or forth and back. Between frames, points move on straight lines."""
-    layout = laid_out(animation, looks, PixelSheet)
-    assert isinstance(layout.sheet, PixelSheet)
+    layout = laid_out(animation, looks)
     slots, low = _slots(animation)
     height = low + layout.sheet.height + _HEAD
     scale = PIXELS * FINER / WIDTH
-    sheet = PixelSheet(WIDTH, height)
+    sheet = Sheet(WIDTH, height)
     sheet.text(complex(_LEFT, height - 16.0), animation.title, fontsize=STRONG + 1, bold=True)
     for slot in slots:
         sheet.text(slot.at, slot.label, fontsize=TEXT, color=MUTED)
     ground = Canvas(WIDTH, height, scale)
-    sheet.draw(ground)
+    ground.draw(sheet)
     still = Canvas(WIDTH, layout.sheet.height, scale)
-    layout.sheet.draw(still)
+    still.draw(layout.sheet)
     top = round(_HEAD * scale)
     ground.picture.paste(still.picture, (0, top))
     for value in _run(animation):

@@ -1,7 +1,7 @@
 """A picture of pixels on which figures are drawn in points, as on a `Sheet`; drawn twice as fine and reduced."""
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -9,8 +9,8 @@ from PIL import Image, ImageDraw, ImageFont
 
 from ilmek.arrays import ComplexArray
 from ilmek.viz.font import ASCENT, DESCENT, FONTS, text_width
-from ilmek.viz.sheet import BASELINES, Sheet
-from ilmek.viz.style import INK, PAPER, TEXT
+from ilmek.viz.sheet import BASELINES, AreaMark, LineMark, Sheet, TextMark
+from ilmek.viz.style import PAPER
 
 FINER = 2
 """Pixels drawn for a pixel of the picture, in each direction."""
@@ -90,6 +90,25 @@ class Canvas:
         x, y = self._corners(np.array([middle]))
         self.picture.paste(color, (round(x - mask.width / 2), round(y - mask.height / 2)), mask)
 
+    def draw(self, sheet: Sheet) -> None:
+        """Draw all marks of a sheet; a text that is turned is turned about its middle."""
+        for mark in sheet.marks:
+            if isinstance(mark, LineMark):
+                self.line(mark.points, mark.color, mark.linewidth, [mark.linewidth * length for length in mark.dashes])
+            elif isinstance(mark, AreaMark):
+                self.area(mark.points, mark.facecolor, mark.edgecolor, mark.linewidth)
+            else:
+                self._mark_text(mark)
+
+    def _mark_text(self, mark: TextMark) -> None:
+        at, words, size = mark.at, mark.words, mark.fontsize
+        if mark.clear:
+            self.area(_box(words, size, mark.bold) * np.exp(1j * np.radians(mark.rotation)) + at, PAPER)
+        if abs(mark.rotation) > 1e-6:
+            self.turned_text(at, words, size, mark.color, mark.rotation)
+        else:
+            self.text(at - 1j * BASELINES[mark.va] * size, words, size, mark.color, anchor=mark.ha, bold=mark.bold)
+
     def _corners(self, points: ComplexArray) -> list[float]:
         pixels = np.column_stack((points.real, self.height - points.imag)) * self.scale
         return [float(number) for number in np.clip(pixels, -1e5, 1e5).ravel()]
@@ -97,65 +116,6 @@ class Canvas:
     def _disc(self, at: list[float], radius: float, color: str) -> None:
         x, y = at
         self._draw.ellipse((x - radius, y - radius, x + radius - 1, y + radius - 1), fill=color)
-
-
-class PixelSheet(Sheet):
-    """A sheet whose marks are drawn on a canvas instead of written as SVG."""
-
-    def __init__(self, width: float, height: float) -> None:
-        super().__init__(width, height)
-        self._drawn: list[tuple[float, Callable[[Canvas], None]]] = []
-
-    def line(
-        self,
-        points: ComplexArray,
-        *,
-        color: str = INK,
-        linewidth: float = 1.0,
-        dashes: Sequence[float] = (),
-        zorder: float = 2.0,
-        attribute: str = "",  # noqa: ARG002 - of an SVG element
-    ) -> None:
-        """Draw a line, as on a sheet."""
-        lengths = [linewidth * length for length in dashes]
-        self._drawn.append((zorder, lambda canvas: canvas.line(points, color, linewidth, lengths)))
-
-    def area(
-        self, points: ComplexArray, *, facecolor: str, edgecolor: str = "", linewidth: float = 0.0, zorder: float = 1.0
-    ) -> None:
-        """Draw a filled polygon, as on a sheet."""
-        self._drawn.append((zorder, lambda canvas: canvas.area(points, facecolor, edgecolor, linewidth)))
-
-    def text(
-        self,
-        at: complex,
-        words: str,
-        *,
-        fontsize: float = TEXT,
-        color: str = INK,
-        ha: str = "left",
-        va: str = "baseline",
-        bold: bool = False,
-        rotation: float = 0.0,
-        clear: bool = False,
-        zorder: float = 3.0,
-    ) -> None:
-        """Draw a text, as on a sheet; one that is turned is turned about its middle."""
-
-        def draw(canvas: Canvas) -> None:
-            if clear:
-                canvas.area(_box(words, fontsize, bold) * np.exp(1j * np.radians(rotation)) + at, PAPER)
-            if abs(rotation) > 1e-6:
-                canvas.turned_text(at, words, fontsize, color, rotation)
-            else:
-                canvas.text(at - 1j * BASELINES[va] * fontsize, words, fontsize, color, anchor=ha, bold=bold)
-
-        self._drawn.append((zorder, draw))
-
-    def draw(self, canvas: Canvas) -> None:
-        """Draw all marks on a canvas, the lowest level first."""
-        for _, mark in sorted(self._drawn, key=lambda one: one[0]):
-            mark(canvas)
 
 
 def _box(words: str, size: float, bold: bool) -> ComplexArray:

@@ -42,15 +42,12 @@ def extent(drawing: Drawing) -> ComplexArray:
     return np.concatenate([*(stroke.points for stroke in drawing.strokes), dots])
 
 
-def pen_for(
-    points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT, sheet: type[Sheet] = Sheet
-) -> Pen:
+def pen_for(points: ComplexArray, numbers: Mapping[int, int], unit: str, foot: float = FOOT) -> Pen:
     """A pen on a sheet that contains all points [m], with space below for the scale bar.
 
     numbers  look of each stroke, by index
     unit     of the scale bar
     foot     height of the space below [pt]
-    sheet    kind of the sheet
     """
     finite = points[np.isfinite(points)]
     lower, upper = _corners(finite) if len(finite) else (0j, 1 + 1j)
@@ -58,7 +55,7 @@ def pen_for(
     scale = min((WIDTH - 2 * _MARGIN) / max(size.real, 1e-12), (_MOST - 2 * _MARGIN) / max(size.imag, 1e-12))
     high = max(size.imag * scale + 2 * _MARGIN, _LEAST)
     centre = complex(WIDTH / 2, foot + high / 2)
-    return Pen(sheet(WIDTH, high + foot), scale, (lower + upper) / 2 - centre / scale, numbers, unit)
+    return Pen(Sheet(WIDTH, high + foot), scale, (lower + upper) / 2 - centre / scale, numbers, unit)
 
 
 def draw_still(pen: Pen, drawing: Drawing) -> None:

@@ -52,7 +52,6 @@ TIME, TRIED, STOPPED, FAILED, COUNTS, ALL_CALLS, WORK = 0, 1, 2, 3, 4, 10, 16
 each cause the faults, the calls of the operator and his time from call to repair."""
 
 SUM_COLUMNS = 22
-_CAUSES = 6
 
 
 @compiled

@@ -8,7 +8,6 @@ Source: thesis, chapters 2.2.3 and 3. How heads share a row: `ilmek.loom.sharing
 
 from dataclasses import fields, replace
 
-from ilmek.loom.production import Production, production_time
 from ilmek.machines.arrangement.side_view import SideView
 from ilmek.machines.automated_loom.assembly import LoomAssembly, assembly
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
@@ -51,11 +50,9 @@ __all__ = [
     "MACHINE",
     "AutomatedLoomParams",
     "LoomDesign",
-    "Production",
     "cyclograms",
     "design",
     "estimated_time",
-    "production_time",
 ]
 
 

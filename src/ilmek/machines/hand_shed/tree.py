@@ -52,7 +52,6 @@ STRING = 1 * mm
 BEHIND = 60 * mm
 """Axes of the beams behind the warps, where no loom sets them [m]."""
 
-_STEEL = MATERIALS["structural steel"]
 _SHAFT = MATERIALS["heat-treatable steel"]
 
 

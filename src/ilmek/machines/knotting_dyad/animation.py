@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray
 from ilmek.machines.knotting_dyad.clearance import arm_bars, mirrored_bars
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.motion import CyclePart, KnotCycle
@@ -10,7 +10,7 @@ from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT, Phase
 from ilmek.plane.round_bars import RoundBars
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.units import turn
-from ilmek.weaving.knots.led_yarn import evenly
+from ilmek.weaving.knots.led_yarn import yarn_over_time
 
 FRAMES = 66
 ALONG, EACH = 80, 41
@@ -26,7 +26,7 @@ def animation(head: Head, cycle: KnotCycle) -> Animation:
     tip = section.middle + 1j * centre
     gripper = MovingStroke(np.stack([tip, tip + 1j * section.needle_length], -1), "outline")
     ends = [_led(head, cycle, end) for end in (0, 1)]
-    yarn = MovingStroke(np.stack([_yarn(ends, float(now)) for now in time]), "outline")
+    yarn = MovingStroke(yarn_over_time(ends, time, ALONG), "outline")
     elbows = tuple(MovingDot(one.starts[:, 1], name) for one, name in zip(bars, ("E", "E'"), strict=True))
     pivot = head.arm.pivot
     dots = (Dot(pivot, "O", "pivot"), Dot(complex(2 * section.middle - pivot.conjugate()), "O'", "pivot"))
@@ -76,9 +76,3 @@ def _carried(head: Head, cycle: KnotCycle, part: CyclePart, phase: Phase, end: i
         return time, np.asarray(head.section.middle + 1j * centre)
     tip = head.arm.tip(left if carrier == LEFT else right)
     return time, tip if carrier == LEFT else np.asarray(2 * head.section.middle - np.conj(tip))
-
-
-def _yarn(ends: list[tuple[FloatArray, ComplexArray]], now: float) -> Complex[np.ndarray, " along"]:
-    """The yarn at a time: the first end's path until then backwards, then the second's, in even steps."""
-    first, second = (points[: max(int(np.searchsorted(times, now, side="right")), 1)] for times, points in ends)
-    return evenly(np.concatenate([first[::-1], second]), ALONG)

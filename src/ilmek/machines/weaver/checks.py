@@ -6,7 +6,6 @@ from dataclasses import replace
 from ilmek.cams.loaded_plate_cam import PRESSURE_LIMIT, STEEL
 from ilmek.elements.belts import MESHING
 from ilmek.elements.duty import MARGIN
-from ilmek.loom.production import HAND_KNOT
 from ilmek.machines.weaver.bracket_strength import bracket_checks
 from ilmek.machines.weaver.cam_belt import PROFILE
 from ilmek.machines.weaver.design import Weaver, head_relations
@@ -33,6 +32,9 @@ from ilmek.units import format_quantity
 LONGER = "set a longer knot_cycle"
 SAME = 1e-9
 """Relative difference of times that is rounding."""
+
+HAND_KNOT = 2.4
+"""Time of the best hand weaver per knot [s]: 25 knots a minute."""
 
 
 def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:

@@ -10,7 +10,7 @@ from ilmek.machines.weaver.motions import CENTRE_MOTION, SIDE_MOTION
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingDot, MovingStroke, Reading, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import mm, turn
-from ilmek.weaving.knots.led_yarn import evenly
+from ilmek.weaving.knots.led_yarn import yarn_over_time
 
 FRAMES = 90
 ALONG, EACH = 90, 41
@@ -47,8 +47,7 @@ def animation(weaver: Weaver) -> Animation:
     centre = sample(weaver.cyclogram.track(CENTRE_MOTION), angle).position
     bars, tip = _bent(by, side), by.centre(centre)
     at, points = _led(weaver)
-    known = np.maximum(np.searchsorted(at, angle, side="right"), 1)
-    yarn = np.stack([evenly(_both(points[:until]), ALONG) for until in known])
+    yarn = yarn_over_time(((at, points), (at, _mirrored(points))), angle, ALONG)
     strokes = (
         *_warps(weaver, side),
         MovingStroke(yarn, "outline", "yarn"),
@@ -75,12 +74,8 @@ def _mirrored(points: ComplexArray) -> ComplexArray:
 
 
 def _yarn(weaver: Weaver) -> ComplexArray:
-    """The whole path of both ends: the knot as it lies."""
-    return _both(led(weaver.cyclogram, weaver.grippers, EACH).points)
-
-
-def _both(left: ComplexArray) -> ComplexArray:
-    """The path of the left end backwards, then its mirror image."""
+    """The whole path of both ends, the left one backwards: the knot as it lies."""
+    left = led(weaver.cyclogram, weaver.grippers, EACH).points
     return np.concatenate([left[::-1], _mirrored(left)])
 
 

@@ -73,6 +73,23 @@ def evenly(path: Complex[np.ndarray, " points"], samples: int) -> Complex[np.nda
     return np.asarray(np.interp(even, length, path.real) + 1j * np.interp(even, length, path.imag))
 
 
+def yarn_over_time(
+    ends: Sequence[tuple[FloatArray, ComplexArray]], times: FloatArray, samples: int
+) -> Complex[np.ndarray, "times samples"]:
+    """The yarn at some times, not yet tightened: the first end's path until then backwards, then the second's [m].
+
+    ends  of each the times at which it is led, in order, and its positions then [m]; it begins at the first
+    """
+
+    def until(end: tuple[FloatArray, ComplexArray], time: float) -> ComplexArray:
+        return end[1][: max(int(np.searchsorted(end[0], time, side="right")), 1)]
+
+    first, second = ends
+    return np.stack(
+        [evenly(np.concatenate([until(first, one)[::-1], until(second, one)]), samples) for one in times.tolist()]
+    )
+
+
 def knot_of_ends(
     ends: Callable[[int], tuple[SampledPath, SampledPath]],
     warps: Complex[np.ndarray, " warps"],

@@ -18,7 +18,7 @@ from ilmek.part.projection import PieceOutline, View, moving_outlines, outlines
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import Track, sample
 from ilmek.units import mm, turn
-from ilmek.weaving.knots.led_yarn import evenly
+from ilmek.weaving.knots.led_yarn import yarn_over_time
 
 FRAMES = 90
 DRIVE = Axis("cam angle", "deg")
@@ -127,5 +127,4 @@ def _yarn(weaver: Weaver, tied: float, angle: FloatArray) -> Complex[np.ndarray,
     side = sample(cyclogram.track(SIDE_MOTION), at).position
     by_centre = 1j * (tied + by.height)
     ends = [np.where(at <= taken, _arm(by, side, tied, hand)[:, 1], by_centre) for hand in (-1, 1)]
-    known = np.maximum(np.searchsorted(at, angle, side="right"), 2)
-    return np.stack([evenly(np.concatenate([ends[0][:k][::-1], ends[1][:k]]), _ALONG) for k in known])
+    return yarn_over_time([(at, points) for points in ends], angle, _ALONG)
