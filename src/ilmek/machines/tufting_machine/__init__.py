@@ -10,6 +10,7 @@ from ilmek.machines.tufting_machine.cyclogram import cyclogram
 from ilmek.machines.tufting_machine.design import TuftingMachine, design
 from ilmek.machines.tufting_machine.figures import figures
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
+from ilmek.machines.tufting_machine.price import TuftingPrice, tufting_price
 from ilmek.machines.tufting_machine.report import TuftingVerdict, checks, self_tests, tables
 from ilmek.machines.tufting_machine.tree import tree
 
@@ -21,7 +22,8 @@ MACHINE: Component[TuftingMachineParams, TuftingMachine, TuftingMachine] = Compo
     params=TuftingMachineParams,
     design=design,
     analysis=itself,
-    reported=(TuftingVerdict, TuftingMachine),
+    results=lambda machine: (machine, tufting_price(machine)),
+    reported=(TuftingVerdict, TuftingMachine, TuftingPrice),
     checks=checks,
     self_tests=self_tests,
     tables=tables,
