@@ -96,7 +96,9 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"motor_torque": "1Nm"},
         {"slot_width": "0.5mm"},
     ),
-    "motion-four-bar": ({"transmission_min": "10deg"}, {"transmission_min": "60deg"}),
+    "motion-four-bar": ({"transmission_min": "10deg"}, {"transmission_min": "60deg"}, {"link_width": "60mm"}),
+    "path-four-bar": ({"link_width": "20mm"},),
+    "function-four-bar": ({"link_width": "60mm"},),
     "weaver": (
         {"head_mass": "500kg", "carriage_acceleration": "100m/s^2"},
         {"relation_gap": "4deg"},
