@@ -84,6 +84,8 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"looper.strength.pin_diameter": "30mm"},
         {"needle_bar.needle_length": "20mm"},
         {"shift": "2"},
+        {"drives": "40"},
+        {"needle.phase": "36deg", "needle_bar.joint": "20mm"},
         {"needle.needle_distance": "110mm"},
         {"needle.crank": "20mm"},
         {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},

@@ -6,12 +6,15 @@ the hooks', several sets of both along the width.
 """
 
 from ilmek.machines.component import Component, itself
+from ilmek.machines.tufting_machine.assembly import TuftingAssembly, assembly
 from ilmek.machines.tufting_machine.cyclogram import cyclogram
 from ilmek.machines.tufting_machine.design import TuftingMachine, design
 from ilmek.machines.tufting_machine.figures import figures
 from ilmek.machines.tufting_machine.params import TuftingMachineParams
+from ilmek.machines.tufting_machine.price import TuftingPrice, tufting_price
 from ilmek.machines.tufting_machine.report import TuftingVerdict, checks, self_tests, tables
 from ilmek.machines.tufting_machine.tree import tree
+from ilmek.report import BUILDABLE
 
 __all__ = ["MACHINE", "TuftingMachine", "TuftingMachineParams", "design"]
 
@@ -21,7 +24,8 @@ MACHINE: Component[TuftingMachineParams, TuftingMachine, TuftingMachine] = Compo
     params=TuftingMachineParams,
     design=design,
     analysis=itself,
-    reported=(TuftingVerdict, TuftingMachine),
+    results=lambda machine: (machine, tufting_price(machine)),
+    reported=(TuftingVerdict, TuftingMachine, TuftingPrice, TuftingAssembly),
     checks=checks,
     self_tests=self_tests,
     tables=tables,
@@ -29,5 +33,6 @@ MACHINE: Component[TuftingMachineParams, TuftingMachine, TuftingMachine] = Compo
     tree=tree,
     cyclograms=lambda machine: (cyclogram(machine),),
     verdict=TuftingVerdict,
-    headline=("tufts", "loop_formed"),
+    assembly=assembly,
+    headline=("tufts", "loop_formed", BUILDABLE),
 )

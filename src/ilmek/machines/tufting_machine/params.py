@@ -172,6 +172,7 @@ class TuftingMachineParams(TuftedCarpetParams):
     needle_bar: NeedleBarParams = nested(NeedleBarParams, doc="the bar that carries the needles")
     shafts: TuftingShaftParams = nested(TuftingShaftParams, doc="shafts along the width")
     feed: TuftingFeedParams = nested(TuftingFeedParams, doc="rollers of yarn and backing")
+    prices: str | None = kind.text(None, doc="prices other than those of the table")
     drives: int = kind.count(10, at_least=2, at_most=64, doc="needle drives along the width")
     lift: float = kind.length(
         8 * mm, at_least=1 * mm, at_most=0.2, doc="needle's point over the backing where it is highest, at least"

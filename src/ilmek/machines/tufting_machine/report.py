@@ -13,6 +13,7 @@ from ilmek.machines.tufting_machine.frame import presser_thickness
 from ilmek.machines.tufting_machine.layout import CLEAR, looper_bearing
 from ilmek.machines.tufting_machine.looper_parts import NAME, ROCKER
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
+from ilmek.machines.tufting_machine.price import tufting_price
 from ilmek.machines.tufting_machine.shafts import MAIN_SHAFT
 from ilmek.records import computed, record
 from ilmek.report import Check, Json, Report, Table, at_least, at_most, columns, reason_json
@@ -107,6 +108,7 @@ def tables(machine: TuftingMachine) -> tuple[Table, ...]:
     timing = Table("tufting-machine-timing", "Timing of the looper", heads, rows)
     return (
         timing,
+        tufting_price(machine).table,
         *needle_report.tables(_drive(machine)),
         *strength_table(machine.looper_forces.strength, "tufting-machine-looper"),
     )

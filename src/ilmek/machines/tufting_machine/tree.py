@@ -228,9 +228,9 @@ def _belt(laid: TuftingLayout) -> Occurrence:
     """The belt from the main to the looper crank shaft."""
     away, radius = laid.crank_shaft, PULLEY / 2
     inner, outer = (eyed_link(abs(away), size, size) for size in (radius, radius + BELT))
-    shape = Prism(Profile(outer, (inner,)), BELT_WIDTH)
+    shape = Prism(Profile(outer, (inner,)), BELT_WIDTH - CLEAR / 2)
     length = 2 * abs(away) + math.pi * PULLEY
     bought = Bought("toothed belt", length=length)
     belt = bought_part(f"{NAME}/belt", "belt of the loopers", "belt", shape, bought, size=format_quantity(length, "mm"))
-    z = laid.ends[1] + END_PLATE + CLEAR
+    z = laid.ends[1] + END_PLATE + 1.25 * CLEAR
     return Occurrence(belt, (placement(z=z, about=(0.0, 0.0, 1.0), angle=float(np.angle(away))),))

@@ -1,0 +1,44 @@
+"""Price of a tufting machine, by its parts list and the rates of the workshop, as a loom's is."""
+
+from functools import lru_cache
+
+from ilmek.elements.prices import price_of, read_prices
+from ilmek.machines.automated_loom.cost_rates import CostRates
+from ilmek.machines.automated_loom.machine_cost import machine_cost, price_shares
+from ilmek.machines.tufting_machine.design import TuftingMachine
+from ilmek.machines.tufting_machine.tree import tree
+from ilmek.part.bill import bill
+from ilmek.records import computed, record
+from ilmek.report import BillLine, Table, columns
+
+
+@record
+class TuftingPrice:
+    """The parts of a machine, and its price by cause; control, cabinet and guards are not designed."""
+
+    lines: tuple[BillLine, ...]
+    prices: dict[str, float]
+    shares: dict[str, float]
+
+    mass = computed("kg", "mass of all parts but the reducers", lambda it: sum(line.mass_all for line in it.lines))
+    parts_number = computed("1", "pieces in the parts list", lambda it: sum(line.number for line in it.lines))
+    price = computed("", "price of the machine as sold, without control", lambda it: sum(it.shares.values()))
+    price_shares = computed("", "the same by cause", lambda it: it.shares)
+
+    @property
+    def table(self) -> Table:
+        """The parts list with masses and prices."""
+        rows = tuple(
+            (line.name, line.number, line.description, line.mass, line.mass_all, self.prices[line.part])
+            for line in self.lines
+        )
+        heads = columns("part | number | description | mass of one [kg] 3 | mass of all [kg] | price of all")
+        return Table("tufting-machine-parts", "Parts of the machine", heads, rows)
+
+
+@lru_cache(maxsize=8)
+def tufting_price(machine: TuftingMachine) -> TuftingPrice:
+    """The price of a machine. Raises ParameterError for unreadable prices."""
+    lines, prices = bill(tree(machine)), read_prices(machine.params.prices)
+    shares = price_shares(lines, prices, CostRates(), machine_cost(lines, prices))
+    return TuftingPrice(lines, {line.part: price_of(line, prices) for line in lines}, shares)
