@@ -28,7 +28,7 @@ _LETTERS = "ZYXWVUTS"
 
 
 @record
-class Detail:
+class DetailCircle:
     """A detail: its letter, and the circle that it shows [m]; scale  in mm of the paper per m."""
 
     letter: str
@@ -41,7 +41,7 @@ class Detail:
         return abs(point - self.centre) < self.radius
 
 
-def details_for(features: Sequence[tuple[complex, float]], scale: float) -> tuple[Detail, ...]:
+def details_for(features: Sequence[tuple[complex, float]], scale: float) -> tuple[DetailCircle, ...]:
     """The details of features by middle and width [m] in a view at a scale [mm of the paper per m]."""
     groups: list[list[tuple[complex, float]]] = []
     for at, width in features:
@@ -54,24 +54,24 @@ def details_for(features: Sequence[tuple[complex, float]], scale: float) -> tupl
     return tuple(_detail(letter, group, scale) for letter, group in zip(_LETTERS, groups, strict=False))
 
 
-def _detail(letter: str, group: list[tuple[complex, float]], scale: float) -> Detail:
+def _detail(letter: str, group: list[tuple[complex, float]], scale: float) -> DetailCircle:
     middles = np.array([at for at, _ in group])
     centre = complex(middles.real.min() + middles.real.max(), middles.imag.min() + middles.imag.max()) / 2
     least = min(width for _, width in group)
     radius = max(abs(at - centre) + width / 2 for at, width in group) + _AROUND / scale
     offered = [1e3 / one for one in reversed(SCALES) if 1e3 / one > scale and 2 * radius * 1e3 / one <= WIDEST]
     enlarged = next((one for one in offered if least * one >= CLEAR), max(offered, default=2 * scale))
-    return Detail(letter, centre, radius, enlarged)
+    return DetailCircle(letter, centre, radius, enlarged)
 
 
-def mark_detail(view: DrawnView, detail: Detail) -> None:
+def mark_detail(view: DrawnView, detail: DetailCircle) -> None:
     """The circle of a detail in the main view, with its letter."""
     ring = along(circle(detail.centre, detail.radius), 0.02 / view.scale)
     view.line(LineKind.DIMENSION, np.append(ring, ring[:1]), body=False)
     view.leader(detail.letter, detail.centre * view.scale, detail.radius * view.scale, kind=None)
 
 
-def detail_view(detail: Detail, curves: Sequence[Contour]) -> DrawnView:
+def detail_view(detail: DetailCircle, curves: Sequence[Contour]) -> DrawnView:
     """What closed curves have in the circle of a detail, enlarged about its centre, below letter and scale."""
     view = DrawnView(detail.scale)
     for curve in curves:
@@ -124,7 +124,7 @@ def step_detail(view: DrawnView, contour: Contour) -> SheetPicture | None:
     first = int(np.flatnonzero(sizes < sizes.min() + SAME)[0])
     centre, width = complex(starts[first] + ends[first]) / 2, float(sizes[first])
     least = next((1e3 / one for one in reversed(SCALES) if width * 1e3 / one >= CLEAR), 1e3 / SCALES[0])
-    detail = Detail(_LETTERS[0], centre, 4 * width, least)
+    detail = DetailCircle(_LETTERS[0], centre, 4 * width, least)
     far = centre.real - float(starts.real.min()) > whole / 2  # a shortened view keeps distances from its ends
     shift = view.body[2] / view.scale - float(starts.real.max()) if far else 0.0
     mark_detail(view, replace(detail, centre=centre + shift, radius=max(detail.radius, _AROUND / 2 / view.scale)))

@@ -15,7 +15,7 @@ from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
-from ilmek.viz.drawings.details import Detail, detail_view, details_for, mark_detail
+from ilmek.viz.drawings.details import DetailCircle, detail_view, details_for, mark_detail
 from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import (
     SAME,
@@ -175,7 +175,7 @@ def outline_view(
     return view, (*tables, *(_enlarged(detail, flat, fits).picture for detail in details))
 
 
-def _enlarged(detail: Detail, flat: FlatPart, fits: Fits) -> DrawnView:
+def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits) -> DrawnView:
     """A detail with the labels of the holes and squares that are all in it."""
     view = detail_view(detail, flat.contours)
     for group in flat.groups:
@@ -265,7 +265,7 @@ def _patterns(view: DrawnView, flat: FlatPart) -> None:
             view.contour(LineKind.CENTRE, _circle(Hole(group.centre, group.pitch)))
 
 
-def _labels(view: DrawnView, flat: FlatPart, fits: Fits, details: Sequence[Detail]) -> None:
+def _labels(view: DrawnView, flat: FlatPart, fits: Fits, details: Sequence[DetailCircle]) -> None:
     """Diameters of holes and bores, radii, widths of keyways; but what is all in a detail."""
     if flat.round_outline is not None:
         ring = flat.round_outline
