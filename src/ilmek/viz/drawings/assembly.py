@@ -58,12 +58,12 @@ drawn in true size or larger."""
 HEADER = tuple(
     map(
         Sentence,
-        ("sheet.item", "sheet.quantity", "sheet.designation", "sheet.material-type", "sheet.list-drawing",
+        ("sheet.list-number", "sheet.list-quantity", "sheet.list-part", "sheet.list-material", "sheet.list-drawing",
          "sheet.mass"),
     )
 )  # fmt: skip
-WIDTHS = {"A3": (9.0, 9.0, 54.0, 42.0, 52.0, 14.0)}
-WIDE = (10.0, 10.0, 74.0, 62.0, 58.0, 16.0)
+WIDTHS = {"A3": (9.0, 11.0, 52.0, 42.0, 52.0, 14.0)}
+WIDE = (10.0, 12.0, 73.0, 61.0, 58.0, 16.0)
 """Widths of the columns of the list [mm], on A3 and on larger papers."""
 
 VIEW_SIDES = {"front": ("left", "top"), "right": ("top", "right"), "below": ("left", "bottom", "right")}
@@ -106,9 +106,9 @@ class _Titles:
         stamp = status_of(issue) if issue.unreleased else ""
         title = own.title[:1].upper() + own.title[1:]
         facts = TitleFacts(
-            own.drawing, title, Sentence("sheet.assembly"), Sentence("sheet.see-list"),
-            format_quantity(self.mass, "kg", 3), "—", str(own.count), "—", "", "—", (), status_of(issue), issue.owner,
-            issue.date, issue.revision,
+            own.drawing, title, Sentence("sheet.assembly-drawing"), Sentence("sheet.see-list"),
+            format_quantity(self.mass, "kg", 3), "—",
+            str(own.count), "—", "", "—", (), status_of(issue), issue.owner, issue.date, issue.revision,
         )  # fmt: skip
         whole = merged([frame(paper), title_block(facts, paper, scale, page, self.pages), *drawn])
         width, height = PAPERS[paper]
@@ -258,8 +258,7 @@ def _drawn_exploded(
         *view.strokes(LineKind.CENTRE, view.picture.unhidden(axes)),
         *dashed,
     ]
-    words = Sentence("sheet.exploded")
-    caption = SheetText(complex(LEFT + _PAD, PAPERS[paper][1] - EDGE - _PAD - 3.5), words, 3.5)
+    caption = SheetText(complex(LEFT + _PAD, PAPERS[paper][1] - EDGE - _PAD - 3.5), Sentence("sheet.exploded"), 3.5)
     drawn = [SheetPicture(tuple(lines), (caption,), ()), *(balloon.picture for balloon in balloons)]
     return AssemblySheet(titles.sheet(paper, scale, drawn, 2), balloons)
 
@@ -290,7 +289,7 @@ def _cells(item: AssemblyItem) -> Cells:
     mass = "—" if math.isnan(item.mass) else format_quantity(item.mass, "kg" if item.mass >= 0.1 else "g", 3)
     title = own.title[:1].upper() + own.title[1:]
     if isinstance(own, AssemblyUnit):
-        return item.name, str(item.quantity), title, "assembly", own.drawing, mass
+        return item.name, str(item.quantity), title, Sentence("sheet.assembly"), own.drawing, mass
     if own.purchase is not None:
         return item.name, str(item.quantity), title, own.purchase.row or own.process, "—", mass
     assert own.material is not None
