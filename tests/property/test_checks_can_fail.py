@@ -78,6 +78,16 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"rate_share": "1e-3"},
     ),
     "tufting": ({"entry": "200deg", "exit": "300deg"}, {"speed": "20000rpm"}),
+    "tufting-machine": (
+        {"looper.late": "60deg"},
+        {"looper.transmission": "85deg"},
+        {"looper.strength.pin_diameter": "30mm"},
+        {"needle_bar.needle_length": "20mm"},
+        {"shift": "2"},
+        {"needle.needle_distance": "110mm"},
+        {"needle.crank": "20mm"},
+        {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},
+    ),
     "warp-tension": (
         {"cloth.yarns.warp_diameter": "1.5mm", "cloth.tension": "20N"},
         {"efficiency": "0.6"},

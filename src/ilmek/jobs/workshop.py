@@ -75,11 +75,13 @@ class Workshop:
 
     entries   of the index, one per file: part, error, number of points
     left_out  warnings of parts whose files cannot be made
+    judged_for_papers  checks of the papers
     """
 
     folder: Path
     entries: tuple[JsonObject, ...]
     left_out: tuple[str, ...] = ()
+    judged_for_papers: tuple[Check, ...] = ()
 
     @property
     def files(self) -> list[str]:
@@ -94,8 +96,8 @@ class Workshop:
         drawn = [f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds]
         more = {
             "cam table": sum(kind in FORMATS for kind in kinds),
-            "sheet": kinds.count("sheet"),
-            "assembly file": kinds.count("assembly"),
+            "sheet": kinds.count("sheet") + kinds.count("assembly"),
+            "file in space": kinds.count("space"),
             "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
         }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
@@ -108,7 +110,9 @@ class Workshop:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss."""
+        """Whether every part has its files, and every cam table its tolerance: that of the worst, and all that miss;
+        the checks of the papers.
+        """
         cure = "see the notes: change the part, or order it otherwise"
         complete = at_most("parts without files", len(self.left_out), 0, "1", "plates and motions").with_cure(cure)
         tables = sorted(
@@ -117,7 +121,7 @@ class Workshop:
             reverse=True,
         )
         missed = sum(not entry["kept"] for entry in tables)
-        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]))
+        return (complete, *(_table_check(entry) for entry in tables[: max(missed, 1)]), *self.judged_for_papers)
 
     def judged(self, report: Report) -> Report:
         """A report with the checks of the files that were written for it."""
@@ -196,13 +200,14 @@ def write_workshop(
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
-        files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
-        judged = Workshop(folder, tuple(files), tuple(left_out)).judged(report)
+        drawn = progress.part(0.5, 1.0, "drawings")
+        files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
+        judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
         files += _in_space(tree, report, work) if tree is not None else ()
-        files += write_papers(papers, judged, work)
+        files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
-    return Workshop(folder, tuple(files), tuple(left_out))
+    return Workshop(folder, tuple(files), tuple(left_out), papers.checks)
 
 
 def _files(
@@ -299,7 +304,7 @@ def _in_space(tree: Tree, report: Report, work: Path) -> Iterator[dict[str, Json
     for option, (file, words) in kinds.items():
         content = machine_file(option, tree, report)
         (work / file).write_bytes(content.encode() if isinstance(content, str) else content)
-        yield {"file": file, "kind": "assembly", "of": report.machine, "title": report.title, "format": words}
+        yield {"file": file, "kind": "space", "of": report.machine, "title": report.title, "format": words}
 
 
 def _step() -> ModuleType | None:
