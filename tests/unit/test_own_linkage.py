@@ -12,7 +12,7 @@ from own_linkages import meeting_parts, toml_text
 
 from ilmek.cli import main
 from ilmek.errors import MechanismError, ParameterError
-from ilmek.io.mechanism_file import parse_mechanism
+from ilmek.io.mechanism_file import parse_mechanism, read_mechanism
 from ilmek.jobs.mechanism.making import MadeMechanism, made_mechanism
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import run
@@ -21,6 +21,7 @@ from ilmek.machines.own_linkage.forms import Eye, link_layer
 from ilmek.machines.own_linkage.layers import RingSide
 from ilmek.machines.own_linkage.report import made_inertias
 from ilmek.machines.own_linkage.tree import own_tree
+from ilmek.part.mobility import TreeMobility
 from ilmek.plane.contours import area, rounded_hull
 
 FOUR_BAR = """\
@@ -202,3 +203,11 @@ def test_a_slide_has_a_rail_as_long_as_its_travel_and_a_carriage_on_it() -> None
     guide = mechanism.built.guides["C"]
     assert 0 <= rail.purchase.length - (0.08 + guide.block_length + 0.01) <= 0.001
     assert meeting_parts(mechanism.tree, 12) == set()
+
+
+@pytest.mark.parametrize("name", ["quick_return", "slider_crank_press", "jansen_leg", "geared_five_bar", "class_three"])
+def test_the_bodies_of_a_tree_are_as_free_as_they_are_driven(name: str) -> None:
+    """By the rank of what its joints and closures require, which knows nothing of the mechanism's own."""
+    file = read_mechanism(Path(__file__).parents[2] / "examples" / f"{name}.toml")
+    mobility = TreeMobility(made_mechanism(run(file, MotionRequest({}))).tree)
+    assert mobility.degrees_of_freedom == len(mobility.driven) == 1

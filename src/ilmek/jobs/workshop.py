@@ -96,7 +96,7 @@ class Workshop:
         more = {
             "cam table": sum(kind in FORMATS for kind in kinds),
             "sheet": kinds.count("sheet") + kinds.count("assembly"),
-            "file in space": kinds.count("space"),
+            "space file": kinds.count("space"),
             "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
         }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))

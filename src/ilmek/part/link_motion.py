@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.model import GROUND, Mechanism, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tree import Closure, JointKind
@@ -24,17 +24,19 @@ _ROUNDING = 1e-9
 def carriers(mechanism: Mechanism) -> dict[str, tuple[str, int]]:
     """Of each moving body, nearest to the ground first, the body that carries it, and the number of their joint.
 
-    Joints that close a loop carry nothing. Bodies that no chain of joints carries are left out.
+    Joints that close a loop carry nothing; of two that could carry a body, a slide does, so that pins close the loops.
+    Bodies that no chain of joints carries are left out.
 
     >>> from ilmek import four_bar
     >>> carriers(four_bar(0.300, 0.060, 0.200, 0.230))
     {'crank': ('ground', 0), 'rocker': ('ground', 3), 'coupler': ('crank', 1)}
     """
     carried: dict[str, tuple[str, int]] = {}
+    joints = sorted(enumerate(mechanism.joints), key=lambda one: not isinstance(one[1], Slide))
     level = {GROUND}
     while level:
         reached: dict[str, tuple[str, int]] = {}
-        for number, joint in enumerate(mechanism.joints):
+        for number, joint in joints:
             for body, parent in (joint.bodies, joint.bodies[::-1]):
                 if parent in level and body != GROUND and body not in carried:
                     reached.setdefault(body, (parent, number))

@@ -43,8 +43,8 @@ class MadeMechanism:
 
     @property
     def papers(self) -> Papers:
-        """The lists of its parts."""
-        return Papers(lists=part_lists(self.tree, PRICES))
+        """The lists of its parts, and what its assembly drawing is made of."""
+        return Papers(lists=part_lists(self.tree, PRICES), tree=self.tree)
 
 
 def made_mechanism(run: MechanismRun, progress: Progress = SILENT, *, drawn: bool = False) -> MadeMechanism:
