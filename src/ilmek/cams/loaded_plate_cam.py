@@ -129,6 +129,15 @@ class LoadedPlateCam:
         return -1 / hollow if hollow < 0 else math.inf
 
     @property
+    def spare_acceleration(self) -> float:
+        """Acceleration of the follower that errors of the profile may add [m/s²]: it stays on, within the pressure."""
+        forward, back = self.mass_moved
+        mass = np.where(self.motion.ds >= 0, forward, back)
+        more = self.contact * ((PRESSURE_LIMIT / self.pressure) ** 2 - 1) * np.cos(self.trace.pressure_angle)
+        room = np.minimum(self.force, more) if self.preload > 0 else more
+        return max(0.0, float(np.min(room / mass)))
+
+    @property
     def undercut(self) -> bool:
         """Whether no surface can guide the roller."""
         return self.convex_radius <= self.cam.roller_radius

@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments, together
-from ilmek.part.part import Part, Seat
+from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
@@ -205,11 +205,6 @@ class Tree:
                 yield body
             else:
                 yield replace(body, parent=parent, positions=tuple(position.after(own) for own in body.positions))
-
-
-def mated(own: Seat, other: Seat) -> Placement:
-    """Where a part lies in another's frame when a seat of it meets a seat of the other: origins and axes as one."""
-    return other.position.after(own.position.inverse)
 
 
 def in_line(parts: Sequence[Part], begin: float, at: complex = 0j) -> tuple[Occurrence, ...]:
