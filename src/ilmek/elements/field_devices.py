@@ -15,6 +15,9 @@ class FieldDevice:
 
     kind   by which it is priced       size  width, height, length of its room [m]       mass  [kg]
     source of its sizes, its mass and its response
+    failures  dangerous ones in an hour of a device with electronics [1/h]; classes of catalogue parts
+    b10d      operations after which a tenth of its contacts failed dangerously: of an emergency stop ISO 13849-1,
+              table C.1; of a button with positive opening that of makers
     """
 
     name: str
@@ -23,6 +26,8 @@ class FieldDevice:
     mass: float
     source: str
     response: float = 0.0
+    failures: float = 0.0
+    b10d: float = 0.0
 
 
 def _size(width: float, height: float, length: float) -> tuple[float, float, float]:
@@ -30,6 +35,8 @@ def _size(width: float, height: float, length: float) -> tuple[float, float, flo
 
 
 _CLASS = "class of catalogue parts; makers differ by some millimetres"
+
+_SAFE, _GRID, _LOCK, _STOP = "ISO 13849-1", "IEC 61496-2", "ISO 14119, type 4", "ISO 13850"
 
 ROWS = (
     FieldDevice("absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3),
@@ -39,12 +46,12 @@ ROWS = (
     FieldDevice("photoelectric yarn sensor", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3),
     FieldDevice("disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS),
     FieldDevice("laser light barrier, receiver or sender", "light barrier", _size(15, 50, 40), 60 * g, _CLASS, 10e-3),
-    FieldDevice("RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, "ISO 14119, type 4", 0.1),
-    FieldDevice("actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, "ISO 14119, type 4"),
-    FieldDevice("emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 250 * g, "ISO 13850"),
-    FieldDevice("button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS),
-    FieldDevice("safety relay, 2 channels, PL e", "safety relay", _size(22.5, 100, 115), 250 * g, "ISO 13849-1", 0.02),
-    FieldDevice("light grid, 4 beams, sender or receiver", "light grid", _size(40, 1000, 50), 1.4, "IEC 61496-2", 0.02),
+    FieldDevice("RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9),
+    FieldDevice("actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, _LOCK),
+    FieldDevice("emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 0.25, _STOP, b10d=1e5),
+    FieldDevice("button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS, b10d=2e6),
+    FieldDevice("safety relay, 2 channels, PL e", "safety relay", _size(22.5, 100, 115), 250 * g, _SAFE, 0.02, 3e-9),
+    FieldDevice("light grid, 4 beams, sender or receiver", "light grid", _size(40, 1000, 50), 1.4, _GRID, 0.02, 1e-8),
     FieldDevice("motion controller with PLC", "motion controller", _size(100, 120, 100), 900 * g, _CLASS, 0.01),
     FieldDevice("power supply 24 V, 10 A", "power supply", _size(60, 120, 115), 900 * g, _CLASS),
     FieldDevice("terminal, two levels", "terminal", _size(5.2, 100, 48), 15 * g, "IEC 60947-7-1"),
@@ -52,6 +59,12 @@ ROWS = (
 
 ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, GRID, \
     CONTROLLER, SUPPLY, TERMINAL = ROWS  # fmt: skip
+
+AMPLIFIER_FAILURES = 1e-9
+"""Dangerous failures in an hour of an amplifier that takes the torque from its motor (STO of IEC 61800-5-2) [1/h]."""
+
+AMPLIFIERS = (1.0, 1.6, 2.5, 4.0, 6.3, 10.0, 16.0, 25.0, 40.0)
+"""Rated currents of amplifiers [A]: ISO 3, R5."""
 
 REPEATED = 0.1 * 1.5 * mm
 """Repeat accuracy of the inductive sensor [m]: a tenth of its operating distance, IEC 60947-5-2."""

@@ -1,38 +1,49 @@
 """Write the papers of a machine into its folder: pages in each language, lists as CSV, and the index of all files."""
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from ilmek.elements.prices import PRICES
+from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.table_csv import rows_csv
 from ilmek.machines.component import AnyComponent
 from ilmek.part.part_lists import part_lists
 from ilmek.records import JsonObject
 from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
+from ilmek.report.sheet import Issue
 from ilmek.sentences import LANGUAGES, Sentence
-from ilmek.viz.document_page import INDEX_PAGE, document_page, index_page, page_file
+from ilmek.viz.document_page import INDEX_PAGE, document_page, index_page, page_file, printed
 from ilmek.viz.drawings.paper import scale_words
 
 PAPER_KINDS = ("page", "list")
 """Kinds of entries of papers: a page for people in a language, a list as CSV."""
+
+DRAWING_KINDS = ("drawings", "assembly", "sheet")
+"""Kinds of entries of drawings, in the order of the index."""
 
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
     """The papers of a design of a machine with its report; none of a machine without parts."""
     if machine.papers is not None:
         return machine.papers(design, report)
-    return NO_PAPERS if machine.tree is None else Papers(lists=part_lists(machine.tree(design), PRICES))
+    if machine.tree is None:
+        return NO_PAPERS
+    tree = machine.tree(design)
+    return Papers(lists=part_lists(tree, PRICES), tree=tree)
 
 
-def write_papers(papers: Papers, report: Report, work: Path) -> Iterator[JsonObject]:
-    """Write the pages and lists; an entry for each file."""
+def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:
+    """Write the pages as HTML and as PDF, and the lists; an entry for each file. Raises OSError."""
+    issue = replace(issue, unreleased=bool(report.failed))
     for paper in papers.pages:
         for language in LANGUAGES:
-            file = page_file(paper.name, language)
-            text = document_page(paper, report.title, language, released=not report.failed)
-            (work / file).write_text(text, encoding="utf-8")
-            yield _entry(report, file, "page", paper.title) | {"language": language}
+            shown = printed(paper, report.title, language, issue)
+            page, leaf = (page_file(paper.name, language, ending) for ending in ("html", "pdf"))
+            (work / page).write_text(document_page(shown, paper.name), encoding="utf-8")
+            write_paper_pdf(work / leaf, shown)
+            yield from (_entry(report, file, "page", paper.title) | {"language": language} for file in (page, leaf))
     for table in papers.lists:
         file = f"{table.name}.csv"
         (work / file).write_text(rows_csv(table), encoding="utf-8")
@@ -45,17 +56,22 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
     for language in LANGUAGES:
         groups: dict[str, list[IndexEntry]] = {
             Sentence("paper.pages"): [
-                IndexEntry(paper.title, page_file(paper.name, language), paper.lead) for paper in papers.pages
+                IndexEntry(paper.title, page_file(paper.name, language, ending), paper.lead)
+                for paper in papers.pages
+                for ending in ("html", "pdf")
             ],
             Sentence("paper.lists"): [
                 IndexEntry(table.title, f"{table.name}.csv", Sentence("paper.rows", count=len(table.rows)))
                 for table in papers.lists
             ],
             Sentence("paper.drawings"): [
-                _drawing(entry) for kind in ("drawings", "sheet") for entry in files if entry["kind"] == kind
+                _drawing(entry)
+                for kind in DRAWING_KINDS
+                for entry in files
+                if entry["kind"] == kind and entry.get("language", language) == language
             ],
-            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
-            Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
+            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("space", "dxf", "step")],
+            Sentence("paper.motions"): [_file(entry) for entry in files if "points" in entry and "format" in entry],
         }
         text = index_page(report.title, groups, report.reasons, language)
         file = page_file(INDEX_PAGE, language)

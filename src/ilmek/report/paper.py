@@ -4,8 +4,10 @@ Titles, headings and paragraphs are sentences of the catalogue, so that a paper 
 """
 
 from ilmek.records import record
+from ilmek.report.check import Check
 from ilmek.report.figure import Drawing
-from ilmek.report.table import Table
+from ilmek.report.sheet import Schematic
+from ilmek.report.table import Cell, Table
 
 
 @record
@@ -19,7 +21,7 @@ class PaperSection:
     paragraphs: tuple[str, ...] = ()
     table: Table | None = None
     boxes: bool = False
-    figure: Drawing | None = None
+    figure: Drawing | Schematic | None = None
 
 
 @record
@@ -32,12 +34,59 @@ class Paper:
     sections: tuple[PaperSection, ...]
 
 
+BOX = "☐"
+"""A box to tick."""
+
+
+@record
+class PrintedSection:
+    """A section in a language, its numbers as they are printed; `measured`: head of the field; "": no boxes.
+
+    picture  its figure as SVG; "": none
+    """
+
+    title: str
+    paragraphs: tuple[str, ...]
+    heads: tuple[str, ...] = ()
+    rows: tuple[tuple[Cell, ...], ...] = ()
+    measured: str = ""
+    picture: str = ""
+
+
+@record
+class PrintedPaper:
+    """A paper in a language, of which its HTML and its PDF are made.
+
+    issue    revision and date; "": none         warning  head and reason where it is not released
+    footer   who made it
+    """
+
+    language: str
+    title: str
+    lead: str
+    issue: str
+    warning: tuple[str, ...]
+    sections: tuple[PrintedSection, ...]
+    footer: str
+
+    @property
+    def stamp(self) -> str:
+        """Across each page of a paper that is not released."""
+        return self.warning[0] if self.warning else ""
+
+
 @record
 class Papers:
-    """The papers of a machine: pages for people, in each language, and lists for other programs."""
+    """The papers of a machine: pages for people, in each language, and lists for other programs.
+
+    checks  what was judged for them, beside the checks of the report
+    tree  of the package `part`, of which the assemblies are drawn; None: none
+    """
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
+    checks: tuple[Check, ...] = ()
+    tree: object = None
 
 
 NO_PAPERS = Papers()

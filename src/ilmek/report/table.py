@@ -15,6 +15,14 @@ class Column:
     digits: int = 4
 
 
+@dataclass(frozen=True, slots=True)
+class Cell:
+    """A table's cell as it is printed, and whether it is a number."""
+
+    text: str
+    is_number: bool
+
+
 @value_record
 class Table:
     """Rows of SI numbers and texts under columns.

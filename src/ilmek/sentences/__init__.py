@@ -98,6 +98,21 @@ def translated(text: str) -> str:
     return template.format(**{name: translated(value) for name, value in text.values.items()})
 
 
+def spoken(text: str) -> tuple[str, ...]:
+    """A text in each language; of one that is no sentence itself alone.
+
+    >>> spoken("120cm"), len(spoken(Sentence("sheet.mass"))) == len(LANGUAGES)
+    (('120cm',), True)
+    """
+    if not isinstance(text, Sentence):
+        return (text,)
+    texts = []
+    for language in LANGUAGES:
+        with in_language(language):
+            texts.append(translated(text))
+    return tuple(texts)
+
+
 def catalogue_of(language: str) -> Mapping[str, str]:
     """The sentences of a language by their keys."""
     name = LANGUAGES[language]

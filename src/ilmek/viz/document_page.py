@@ -3,50 +3,68 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from markupsafe import Markup
-
-from ilmek.report import Check, Drawing, IndexEntry, Paper, Table
+import ilmek
+from ilmek.report import Check, Drawing, IndexEntry, Paper, PaperSection, Table
+from ilmek.report.paper import BOX, PrintedPaper, PrintedSection
+from ilmek.report.sheet import Issue, Schematic
 from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, in_language, translated
-from ilmek.viz.page import render
+from ilmek.viz.number_format import cells
+from ilmek.viz.page import render, sentence
+from ilmek.viz.schematic import draw_schematic
+from ilmek.viz.style import FONTS, with_unit
 from ilmek.viz.svg import svg
 
 INDEX_PAGE = "index"
 """Name of the index."""
 
 
-def page_file(name: str, language: str) -> str:
+def page_file(name: str, language: str, ending: str = "html") -> str:
     """The file of a page in a language.
 
-    >>> page_file("index", "en"), page_file("index", "tr")
-    ('index.html', 'index.tr.html')
+    >>> page_file("index", "en"), page_file("risks", "tr", "pdf")
+    ('index.html', 'risks.tr.pdf')
     """
-    return f"{name}.html" if language == DEFAULT else f"{name}.{language}.html"
+    return f"{name}.{ending}" if language == DEFAULT else f"{name}.{language}.{ending}"
 
 
-def document_page(paper: Paper, machine: str, language: str, *, released: bool) -> str:
-    """A paper of a machine as self-contained HTML.
-
-    released  False: across its head stands that the machine must not be made
-    """
+def printed(paper: Paper, machine: str, language: str, issue: Issue) -> PrintedPaper:
+    """A paper of a machine in a language, with all that its page and its PDF have in common."""
     with in_language(language):
-        sections = [
-            {
-                "title": translated(section.title),
-                "paragraphs": [translated(text) for text in section.paragraphs],
-                "table": None if section.table is None else _translated(section.table),
-                "boxes": section.boxes,
-                "figure": None if section.figure is None else Markup(_drawn(section.figure)),
-            }
-            for section in paper.sections
-        ]
+        why = ("paper.not-released", "paper.not-released-why") if issue.unreleased else ()
+        return PrintedPaper(
+            language,
+            f"{translated(paper.title)}: {machine}",
+            translated(paper.lead),
+            sentence("paper.issue", revision=issue.revision, date=issue.date),
+            tuple(map(sentence, why)),
+            tuple(_section(section) for section in paper.sections),
+            sentence("paper.made-by", version=ilmek.__version__),
+        )
+
+
+def _section(section: PaperSection) -> PrintedSection:
+    table = None if section.table is None else _translated(section.table)
+    return PrintedSection(
+        translated(section.title),
+        tuple(map(translated, section.paragraphs)),
+        () if table is None else tuple(with_unit(column.heading, column.unit) for column in table.columns),
+        () if table is None else tuple(map(tuple, cells(table))),
+        sentence("paper.measured") if section.boxes else "",
+        "" if section.figure is None else _drawn(section.figure),
+    )
+
+
+def document_page(paper: PrintedPaper, name: str) -> str:
+    """A paper as self-contained HTML; where it is not released, that stands across its head."""
+    with in_language(paper.language):
         return render(
             "document.html.j2",
-            title=f"{translated(paper.title)}: {machine}",
-            lead=translated(paper.lead),
-            sections=sections,
-            released=released,
-            index=page_file(INDEX_PAGE, language),
-            **_spoken(paper.name, language),
+            title=paper.title,
+            lead=paper.lead,
+            paper=paper,
+            box=BOX,
+            index=page_file(INDEX_PAGE, paper.language),
+            **_spoken(name, paper.language),
         )
 
 
@@ -83,8 +101,12 @@ def _own_name(language: str) -> str:
         return translated(Sentence("paper.language"))
 
 
-def _drawn(figure: Drawing) -> str:
-    return svg(replace(figure, title=translated(figure.title)))
+def _drawn(figure: Drawing | Schematic) -> str:
+    title = translated(figure.title)
+    if isinstance(figure, Drawing):
+        return svg(replace(figure, title=title))
+    texts = tuple(replace(text, words=translated(text.words)) for text in figure.texts)
+    return draw_schematic(replace(figure, texts=texts)).svg(title, FONTS)
 
 
 def _translated(table: Table) -> Table:

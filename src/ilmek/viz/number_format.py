@@ -1,10 +1,10 @@
 """Format of numbers and names on a page."""
 
 import math
-from dataclasses import dataclass
 from typing import TypeGuard
 
 from ilmek.report import Check, Json, Table, in_words, rounded, shown_value
+from ilmek.report.table import Cell
 from ilmek.units import POWERS, format_number, parse_unit
 from ilmek.viz.style import shown_unit
 
@@ -45,14 +45,6 @@ def _printed(value: float, digits: int) -> str:
     if head.lstrip("-").isdigit() and len(head.lstrip("-")) > 4:
         head = f"{int(head):,}".replace(",", NARROW_SPACE)
     return (head + point + tail).translate(_MINUS)
-
-
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """A table's cell as it is printed, and whether it is a number."""
-
-    text: str
-    is_number: bool
 
 
 def cells(table: Table) -> list[list[Cell]]:

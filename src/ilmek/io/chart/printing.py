@@ -1,5 +1,6 @@
 """The PDF files of a chart: how they are opened and closed, and the digits of their numbers."""
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -12,7 +13,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.mounting import Mounting
-from ilmek.io.chart.symbols import register_fonts
+from ilmek.io.chart.symbols import STRONG, register_fonts
 from ilmek.records import record
 
 DIGITS = {"latin": "0123456789", "fa": "۰۱۲۳۴۵۶۷۸۹", "ar": "٠١٢٣٤٥٦٧٨٩"}
@@ -91,3 +92,15 @@ def printed_file(path: Path, title: str, digits: str = "latin", **more: object) 
         canvas.save()
     finally:
         config.useA85 = before
+
+
+def write_stamp(canvas: PrintCanvas, words: str, width: float, height: float) -> None:
+    """Words across a page of a size, in the units of the canvas, pale: below all else if they are written first."""
+    canvas.saveState()
+    size = min(width, height) / 7.5
+    canvas.setFont(STRONG, size)
+    canvas.setFillColorRGB(1.0, 0.82, 0.82)
+    canvas.translate(width / 2, height / 2)
+    canvas.rotate(math.degrees(math.atan2(height, width)))
+    canvas.drawCentredString(0, -size / 3, words)
+    canvas.restoreState()

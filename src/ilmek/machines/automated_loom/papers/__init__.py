@@ -7,7 +7,7 @@ from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
-from ilmek.machines.automated_loom.papers.risks import risks
+from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
@@ -21,4 +21,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
     )
-    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices))
+    tree = loom_tree(loom)
+    return Papers(pages, part_lists(tree, whole_list(loom).prices), safety_checks(loom, report), tree)

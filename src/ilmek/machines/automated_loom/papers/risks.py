@@ -1,41 +1,36 @@
 """The risk file of a loom in the form of ISO 12100: hazards found from its bodies and energies, measures, what remains.
 
-    E = m v² / 2,   J w² / 2,   m g h,   T e l / 2,   F² / 2 k      of what moves, turns, may fall, is strained, springs
-    F = m g / (2 cos 30°)                               of each of two slings, 60° between them
-    tan a = |z| / (h - y)                               slope at which the loom hangs: its mass centre is z before and
-                                                        h - y under the slings
+    E = m g h,   T e l / 2,   F² / 2 k                  of what may fall, is strained, springs; moving [`moving_energy`]
+    F <= P / v            force of a motor of the rated power P that moves a body at the greatest speed v
 A gap that closes below 25, 50, 100, 120, 180, 300 or 500 mm crushes a finger, toes, a hand, an arm, a leg, a head or a
 body [ISO 13854, table 1, formerly EN 349]. The clearances in space report parts nearer than `HORIZON`.
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from ilmek.elements.materials import GRAVITY
+from ilmek.elements.performance_levels import HARMLESS_ENERGY, HARMLESS_FORCE, limit_of, required_level
 from ilmek.elements.safety_distances import through
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.creel_parts import CREEL, YARN_DUCT
-from ilmek.machines.automated_loom.equipment.guards import GUARDS, MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
 from ilmek.machines.automated_loom.equipment.site import site_of
-from ilmek.machines.automated_loom.equipment.surroundings import surroundings
-from ilmek.machines.automated_loom.frame import part_id
-from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
 from ilmek.machines.automated_loom.nearest_parts import HORIZON
 from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.automated_loom.papers.safety_functions import safety_functions
+from ilmek.machines.automated_loom.papers.transport import lifting_of, lifting_picture, lifting_rows
 from ilmek.machines.automated_loom.papers.values import known, value_of
+from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.contacts import TOUCHING
+from ilmek.part.moving_energy import moving_energies
 from ilmek.part.poses import moments_at_rest
 from ilmek.part.tree import Tree
-from ilmek.report import Column, Paper, PaperSection, Report, Table
+from ilmek.records import record
+from ilmek.report import Check, Column, Paper, PaperSection, Report, Table, at_most
 from ilmek.sentences import Sentence
-from ilmek.units import deg, format_quantity, in_mm, mm
-
-SLINGS = 60 * deg
-"""Angle between two slings [rad]: the usual limit."""
-
-_TILT = 3 * deg
-"""Slope of the hanging loom above which it needs a third sling [rad]; assumed by this project."""
+from ilmek.units import format_quantity, in_mm, mm
 
 
 def endangered(gap: float) -> str:
@@ -57,51 +52,151 @@ def endangered(gap: float) -> str:
 
 
 def risks(loom: LoomDesign, report: Report) -> Paper:
-    """Hazards of moving bodies, stored energies, other hazards, transport."""
+    """Hazards of moving bodies, stored energies, other hazards, the safety functions, transport."""
+    hazards = moving_hazards(loom)
     return Paper(
         "risks",
         Sentence("risk.title"),
         Sentence("risk.lead"),
-        (_moving(loom), _energies(loom, report), _others(loom, report), _transport(loom)),
+        (
+            _moving(loom, hazards),
+            _energies(loom, report),
+            _others(loom, report),
+            _functions(loom, report, hazards),
+            _transport(loom),
+        ),
     )
 
 
-def _moving(loom: LoomDesign) -> PaperSection:
+_MOST_FORCE = 10e3
+"""Above it the rated power over the speed says nothing: the motor turns far below its rated speed [N]."""
+
+
+@record
+class MovingHazard:
+    """A body that moves [SI]: its mass with what it carries, speed and energy, force of its own motor (nan: none), gap.
+
+    gap   least distance from what it moves against, at most `HORIZON`        often  F2 of ISO 13849-1
+    """
+
+    body: str
+    mass: float
+    speed: float
+    energy: float
+    force: float
+    gap: float
+    often: bool
+
+    @property
+    def level(self) -> str:
+        """The performance level that what keeps people from it requires; what is not known to be harmless is not."""
+        harmless = self.energy <= HARMLESS_ENERGY and self.force <= HARMLESS_FORCE
+        return required_level(lasting=not harmless, often=self.often, avoidable=False)
+
+
+def moving_hazards(loom: LoomDesign) -> tuple[MovingHazard, ...]:
+    """The bodies that move, those of the highest energy first."""
+    tree, near, energies = loom_tree(loom), _nearest(loom), moving_energies(loom_tree(loom), periods_of(loom))
+    counts, motors = tree.counts(), {part.id: (part.purchase, number) for part, number in tree.occurrences()}
+    hazards = []
+    for name, own in energies.items():
+        mass, speed, energy = _carried(tree, name), own.speed, own.energy
+        if loom.heads and name == HEAD:  # along the row, which no turn of a drive shows
+            speed = max(speed, loom.weaver.params.carriage_speed)
+            energy = max(energy, mass * speed**2 / 2)
+        bought, number = motors.get(tree.body(name).joint.motor, (None, 0))
+        force = math.nan if bought is None else bought.power * number / counts[name] / speed
+        force = force if force <= _MOST_FORCE else math.nan
+        hazards.append(MovingHazard(name, mass, speed, energy, force, near.get(name, HORIZON), not loom.heads))
+    return tuple(sorted(hazards, key=lambda own: -own.energy))
+
+
+def required_of(hazards: Iterable[MovingHazard]) -> str:
+    """The performance level that the worst of hazards requires."""
+    return max(own.level for own in hazards)
+
+
+def _moving(loom: LoomDesign, hazards: Iterable[MovingHazard]) -> PaperSection:
     fence, tree = fence_of(site_of(loom)), loom_tree(loom)
-    near = _nearest(loom)
+    swept = {hazard.body: hazard for hazard in fence.hazards}
     rows = []
-    for hazard in fence.hazards:
-        gap = near.get(hazard.body)
-        mass = _carried(tree, hazard.body)
-        needed = max(fence.needed(hazard), through(MESH - WIRE))
-        far = fence.distance(hazard)
+    for own in hazards:
+        carrier = own.body
+        while carrier not in swept:  # the equipment on a body sweeps what the body does
+            carrier = tree.body(carrier).parent
+        far, needed = fence.distance(swept[carrier]), max(fence.needed(swept[carrier]), through(MESH - WIRE))
         rows.append(
             (
-                hazard.body.replace("/", ": "),
-                mass,
-                f"> {in_mm(HORIZON)}" if gap is None else in_mm(gap),
-                Sentence("risk.from", part=endangered(HORIZON if gap is None else gap)),
+                own.body.replace("/", ": "),
+                own.mass,
+                own.speed,
+                own.energy,
+                own.force,
+                f"{own.gap / mm:.3g}" if own.gap < HORIZON else f"> {HORIZON / mm:g}",
+                endangered(own.gap),
+                own.level,
                 far,
                 needed,
-                Sentence("risk.no") if far >= needed - 1e-6 else Sentence("risk.yes"),
+                Sentence("risk.yes") if far < needed - 1e-6 else Sentence("risk.no"),
             )
         )
     heads = (
         Column(Sentence("risk.body-moves")),
         Column(Sentence("risk.mass"), "kg", 3),
+        Column(Sentence("risk.speed"), "m/s", 3),
+        Column(Sentence("risk.energy"), "J", 3),
+        Column(Sentence("risk.force"), "N", 3),
         Column(Sentence("risk.gap")),
         Column(Sentence("risk.crushed")),
+        Column(Sentence("risk.level-of")),
         Column(Sentence("risk.fence"), "mm"),
         Column(Sentence("risk.needed"), "mm"),
         Column(Sentence("risk.reached")),
     )
     guard = Sentence("risk.doors") if loom.heads else Sentence("risk.grid")
-    level = Sentence("risk.level", level="d" if loom.heads else "e", frequency="F1" if loom.heads else "F2")
     height = format_quantity(fence.height, "m", 3)
     measure = Sentence("risk.measure", height=height, guard=guard, stop=format_quantity(fence.stopping.whole, "s", 3))
+    harmless = Sentence("risk.harmless", energy=f"{HARMLESS_ENERGY:g} J", force=f"{HARMLESS_FORCE:g} N")
+    texts = (Sentence("risk.moving-how"), harmless, measure, Sentence("risk.remains"))
     title = Sentence("risk.moving")
-    texts = (Sentence("risk.moving-how"), measure, level, Sentence("risk.remains"))
     return PaperSection(title, texts, Table("moving", title, heads, tuple(rows)))
+
+
+def _functions(loom: LoomDesign, report: Report, hazards: Iterable[MovingHazard]) -> PaperSection:
+    """What each safety function reaches, against what the hazards require."""
+    required = required_of(hazards)
+    rows = tuple(
+        (own.title, own.number, own.failures, own.level or "–", required, own.failures < limit_of(required))
+        for own in safety_functions(loom, report)
+    )
+    heads = (
+        Column(Sentence("risk.function")),
+        Column(Sentence("electric.pieces")),
+        Column(Sentence("risk.failures"), "", 3),
+        Column(Sentence("risk.reaches")),
+        Column(Sentence("risk.requires")),
+        Column(Sentence("risk.enough")),
+    )
+    words = {True: Sentence("risk.yes"), False: Sentence("risk.no")}
+    table = Table("functions", Sentence("risk.functions"), heads, tuple((*row[:-1], words[row[-1]]) for row in rows))
+    frequency = "F1" if loom.heads else "F2"
+    return PaperSection(
+        table.title,
+        (Sentence("risk.level", level=required, frequency=frequency), Sentence("risk.functions-how")),
+        table,
+    )
+
+
+def safety_checks(loom: LoomDesign, report: Report) -> tuple[Check, ...]:
+    """Whether each safety function reaches what the hazards require."""
+    limit = limit_of(required_of(moving_hazards(loom)))
+    cure = "order safety devices and amplifiers with fewer dangerous failures, or replace contacts more often"
+    return tuple(
+        at_most(
+            f"dangerous failures in an hour: {own.title}", own.failures, limit, "1", "ISO 13849-1, table 2"
+        ).with_cure(cure, own.part)
+        for own in safety_functions(loom, report)
+    )
 
 
 def _carried(tree: Tree, name: str) -> float:
@@ -122,15 +217,7 @@ def _nearest(loom: LoomDesign) -> dict[str, float]:
 
 def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str]]:
     """What stores energy, how much [J], and the measure."""
-    stands = Sentence("risk.stops", stop=format_quantity(fence_of(site_of(loom)).stopping.whole, "s", 3))
-    cams = 0.5 * value_of(report, "shedding.inertia") * loom.shedding.params.speed**2
-    yield Sentence("risk.cams-turn"), cams, stands
-    carrier = known(report, "weft.moving_mass"), known(report, "weft.speed_max")
-    if None not in carrier:
-        yield Sentence("risk.carrier-runs"), 0.5 * carrier[0] * carrier[1] ** 2, stands
     if known(report, "hammer.weight_carried") is not None:
-        comb, speed = value_of(report, "hammer.moving_mass"), value_of(report, "hammer.speed_max")
-        yield Sentence("risk.comb-moves"), 0.5 * comb * speed**2, stands
         brake = Sentence("risk.brake", torque=format_quantity(value_of(report, "hammer.brake_torque"), "Nm", 3))
         yield (
             Sentence("risk.comb-falls"),
@@ -146,8 +233,6 @@ def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str
         )
         yield Sentence("risk.springs"), math.prod(number) * force**2 / (2 * rate), Sentence("risk.slacken")
     if loom.heads:
-        turned = 0.5 * value_of(report, "weaver.cam_inertia") * value_of(report, "weaver.cam_speed") ** 2
-        yield Sentence("risk.head-turns"), loom.heads * turned, stands
         tree = loom_tree(loom)
         rail, motion = tree.body(RAIL), tree.body(RAIL).joint.motion
         carried = _carried(tree, rail.id)
@@ -177,29 +262,26 @@ def _others(loom: LoomDesign, report: Report) -> PaperSection:
 
 
 def _transport(loom: LoomDesign) -> PaperSection:
-    """Mass and mass centre of the loom without guards and creel, and how it hangs on slings at its upper beam."""
-    tree, near = loom_tree(loom), surroundings(loom)
-    apart = frozenset((*GUARDS, CREEL, YARN_DUCT))
-    left = frozenset(name for own in apart if own in {body.id for body in tree.bodies} for name in tree.carried_by(own))
-    moved = moments_at_rest(tree, left)
-    columns = near.of(part_id("column"))
-    top, axis = (float(value) for value in (columns[0].high[1], (columns[0].low[2] + columns[0].high[2]) / 2))
-    x, y, z = (float(value) for value in moved.centre)
-    tilt = math.atan2(abs(z - axis), top - y)
+    """Mass and mass centre of the loom without guards and creel, its lifting points and their loads."""
+    tree, lifting = loom_tree(loom), lifting_of(loom)
+    x, y, z = lifting.moments.centre.tolist()
     not_weighed = sum(number for part, number in tree.occurrences() if math.isnan(part.mass))
-    rows = (
-        (Sentence("risk.whole"), format_quantity(moments_at_rest(tree).zeroth, "kg")),
-        (Sentence("risk.transported"), format_quantity(moved.zeroth, "kg")),
-        (Sentence("risk.not-weighed"), str(not_weighed)),
-        (Sentence("risk.centre-height"), in_mm(y - loom.side.floor)),
-        (Sentence("risk.centre-across"), in_mm(x)),
-        (Sentence("risk.centre-front"), in_mm(z - axis)),
-        (Sentence("risk.sling"), format_quantity(moved.zeroth * GRAVITY / (2 * math.cos(SLINGS / 2)), "kN", 3)),
-        (Sentence("risk.tilt"), format_quantity(tilt, "deg", 3)),
+    text = Sentence(
+        "lift.masses",
+        whole=format_quantity(moments_at_rest(tree).zeroth, "kg"),
+        lifted=format_quantity(lifting.moments.zeroth, "kg"),
+        parts=str(not_weighed),
     )
-    texts = [Sentence("risk.transport-how")]
-    if tilt > _TILT:
-        texts.append(Sentence("risk.third-sling"))
-    heads = Column(Sentence("electric.what")), Column(Sentence("electric.value"))
+    centre = Sentence("lift.centre", x=in_mm(x), y=in_mm(y - loom.side.floor), z=in_mm(-z))
+    heads = (
+        Column(Sentence("lift.point")),
+        Column(Sentence("lift.x"), "mm"),
+        Column(Sentence("lift.y"), "mm"),
+        Column(Sentence("lift.z"), "mm"),
+        Column(Sentence("lift.load"), "kN", 3),
+        Column(Sentence("lift.sling"), "kg", 3),
+    )
+    rows = tuple(lifting_rows(lifting, loom.side.floor))
     title = Sentence("risk.transport")
-    return PaperSection(title, tuple(texts), Table("transport", title, heads, rows))
+    table, picture = Table("transport", title, heads, rows), lifting_picture(loom, lifting)
+    return PaperSection(title, (Sentence("lift.how"), text, centre), table, figure=picture)
