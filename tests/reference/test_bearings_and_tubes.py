@@ -19,7 +19,7 @@ from ilmek.elements.bearings import (
     smallest_bearing,
     static_load,
 )
-from ilmek.elements.tubes import TUBES, find_tube, lightest_tube
+from ilmek.elements.tubes import TUBES, find_tube
 from ilmek.errors import ParameterError
 from ilmek.units import kN, mm, rpm
 
@@ -137,11 +137,3 @@ def test_tube_not_in_stock_names_the_nearest() -> None:
     with pytest.raises(ParameterError, match="write it like 140x5"):
         find_tube("round")
     assert find_tube("140 mm × 5 mm") is TUBES["140x5"]
-
-
-def test_lightest_tube_is_enough_and_none_lighter_is() -> None:
-    taken = lightest_tube(1000e-8, modulus=100e-6, inner_radius=60 * mm)
-    assert taken is not None
-    enough = [t for t in TUBES.values() if t.inertia >= 1000e-8 and t.modulus >= 100e-6 and t.inner_radius >= 60 * mm]
-    assert taken.area == min(tube.area for tube in enough)
-    assert lightest_tube(1.0) is None

@@ -113,24 +113,6 @@ def find_tube(name: str) -> Tube:
     return nearest
 
 
-def lightest_tube(inertia: float, *, modulus: float = 0.0, inner_radius: float = 0.0, wall: float = 0.0) -> Tube | None:
-    """The lightest stock tube with a second moment of area [m⁴]; None beyond the largest.
-
-    modulus  least section modulus [m³]      inner_radius  least [m]      wall  least [m]
-    >>> lightest_tube(480e-8, inner_radius=0.065, wall=0.005).name
-    '140x5'
-    """
-
-    def is_sufficient(tube: Tube) -> bool:
-        wide = tube.inner_radius >= inner_radius * _LEAST and tube.wall >= wall * _LEAST
-        return wide and tube.inertia >= inertia * _LEAST and tube.modulus >= modulus * _LEAST
-
-    return min(filter(is_sufficient, TUBES.values()), key=lambda tube: tube.area, default=None)
-
-
-_LEAST = 1 - 1e-9
-
-
 def _size_difference(tube: Tube, outer: float, wall: float) -> float:
     """Relative difference of a size from a stock tube's; the diameter has weight 2, the wall 1."""
     return 2 * abs(outer / tube.outer - 1) + abs(wall / tube.wall - 1)
