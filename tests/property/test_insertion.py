@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from manifold3d import Manifold, Mesh
 
 from ilmek.elements.materials import MATERIALS
-from ilmek.part.assembly_units import AssemblyUnit, units_of
 from ilmek.part.colliders import collider
 from ilmek.part.insertion import Insertion, insertions
+from ilmek.part.insertion_units import InsertedUnit, units_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.shapes import Placed, Shape, Sum, bar, box, tube
@@ -144,7 +144,7 @@ def test_sampled_moves_meet_nothing() -> None:
     ]
     steps = insertions(Tree(tuple(blocks)), UP)
     assert sorted(names(steps)) == sorted(one.id for one in blocks)
-    standing: list[AssemblyUnit] = [*steps[0].units]
+    standing: list[InsertedUnit] = [*steps[0].units]
     for step in steps[1:]:
         assert not step.blocking
         (unit,) = step.units

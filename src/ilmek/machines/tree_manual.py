@@ -11,9 +11,9 @@ from itertools import groupby
 import numpy as np
 
 from ilmek.elements.hexagon_screws import screw_of
-from ilmek.part.assembly_units import AssemblyUnit, Direction
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion
+from ilmek.part.insertion_units import Direction, InsertedUnit
 from ilmek.part.part import Part
 from ilmek.part.part_lists import FASTENER
 from ilmek.part.projection import PieceOutline, View, outlines
@@ -65,7 +65,7 @@ def assembly_check(steps: Sequence[Insertion]) -> Check:
     return check.with_cure("leave room for it, or bolt what blocks it", *dict.fromkeys(parts))
 
 
-def _names(units: Sequence[AssemblyUnit]) -> str:
+def _names(units: Sequence[InsertedUnit]) -> str:
     return " and ".join(dict.fromkeys(unit.pieces[0].part.title for unit in units[:3]))
 
 

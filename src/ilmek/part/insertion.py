@@ -16,7 +16,7 @@ from itertools import chain
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.part.assembly_units import MAIN, AssemblyUnit, Direction, units_of
+from ilmek.part.insertion_units import MAIN, Direction, InsertedUnit, units_of
 from ilmek.part.straight_moves import FIT, Vector, meets, swept_box, through
 from ilmek.part.tree import Tree
 from ilmek.records import record
@@ -47,10 +47,10 @@ class Insertion:
     bench     the steps by which what comes was put together before
     """
 
-    units: tuple[AssemblyUnit, ...]
+    units: tuple[InsertedUnit, ...]
     moves: tuple[Vector, ...] = ()
-    onto: tuple[AssemblyUnit, ...] = ()
-    blocking: tuple[AssemblyUnit, ...] = ()
+    onto: tuple[InsertedUnit, ...] = ()
+    blocking: tuple[InsertedUnit, ...] = ()
     bench: tuple["Insertion", ...] = ()
 
 
@@ -69,7 +69,7 @@ class _Plan:
     """
 
     def __init__(
-        self, units: Sequence[AssemblyUnit], up: Vector | None = None, welded: frozenset[str] = frozenset()
+        self, units: Sequence[InsertedUnit], up: Vector | None = None, welded: frozenset[str] = frozenset()
     ) -> None:
         self.welded = welded
         self.units = sorted(units, key=lambda unit: unit.number)
@@ -77,12 +77,12 @@ class _Plan:
         self.up = np.zeros(3) if up is None else up
         self.boxes = np.stack([unit.solid.box for unit in self.units])
         self.reach = float(np.linalg.norm(np.ptp(self.boxes.reshape(-1, 3), axis=0)))
-        self.near: dict[tuple[AssemblyUnit, Direction], list[AssemblyUnit]] = {}
-        self.met: dict[tuple[AssemblyUnit, AssemblyUnit, Direction, float], bool] = {}
-        self.known: dict[tuple[AssemblyUnit, Direction, Direction], AssemblyUnit] = {}
-        self.watched: dict[tuple[AssemblyUnit, Direction], AssemblyUnit] = {}
-        self.through: set[frozenset[AssemblyUnit]] = set()
-        self.beside: dict[AssemblyUnit, set[AssemblyUnit]] = {unit: set() for unit in self.units}
+        self.near: dict[tuple[InsertedUnit, Direction], list[InsertedUnit]] = {}
+        self.met: dict[tuple[InsertedUnit, InsertedUnit, Direction, float], bool] = {}
+        self.known: dict[tuple[InsertedUnit, Direction, Direction], InsertedUnit] = {}
+        self.watched: dict[tuple[InsertedUnit, Direction], InsertedUnit] = {}
+        self.through: set[frozenset[InsertedUnit]] = set()
+        self.beside: dict[InsertedUnit, set[InsertedUnit]] = {unit: set() for unit in self.units}
         self.carried = {own: [unit for unit in self.units if own.name in unit.carriers] for own in self.units}
         for first, other in _near(self.boxes):
             pair = self.units[first], self.units[other]
@@ -109,7 +109,7 @@ class _Plan:
 
     def _next(self) -> list[Insertion]:
         """The steps in which a body leaves, the last of the tree first; else a part of one, a group, by two moves."""
-        bodies: dict[str, list[AssemblyUnit]] = defaultdict(list)
+        bodies: dict[str, list[InsertedUnit]] = defaultdict(list)
         for unit in sorted(self.standing, key=lambda unit: -unit.number):
             bodies[unit.name].append(unit)
         for units in bodies.values():
@@ -126,7 +126,7 @@ class _Plan:
         self.standing -= set(step.units)
         return [step]
 
-    def _body(self, units: list[AssemblyUnit]) -> list[Insertion]:
+    def _body(self, units: list[InsertedUnit]) -> list[Insertion]:
         """The steps in which the parts of a body leave, all one after the other, or all at once; none: they cannot."""
         before, steps, left = set(self.standing), list[Insertion](), list(units)
         while left and (step := self._single(left)):
@@ -148,14 +148,14 @@ class _Plan:
         """Whether a direction does not lead into the floor."""
         return float(self.up @ np.array(direction)) > -_LEVEL
 
-    def _single(self, units: Iterable[AssemblyUnit]) -> Insertion | None:
+    def _single(self, units: Iterable[InsertedUnit]) -> Insertion | None:
         for unit in units:
             for direction in filter(self._open, unit.directions):
                 if self._in_the_way(unit, direction) is None and self._may_leave({unit}):
                     return self._step({unit}, (self._far(direction),))
         return None
 
-    def _in_the_way(self, unit: AssemblyUnit, direction: Direction) -> AssemblyUnit | None:
+    def _in_the_way(self, unit: InsertedUnit, direction: Direction) -> InsertedUnit | None:
         """Something that stands in the way of a unit to the outside."""
         known = self.watched.get((unit, direction))
         if known not in self.standing:
@@ -165,7 +165,7 @@ class _Plan:
                 self.watched[unit, direction] = known
         return known
 
-    def _before(self, unit: AssemblyUnit, direction: Direction) -> Iterator[AssemblyUnit]:
+    def _before(self, unit: InsertedUnit, direction: Direction) -> Iterator[InsertedUnit]:
         """What stands and may be in the way of a unit by their boxes, what touches it first."""
         key = unit, direction
         if key not in self.near:
@@ -175,7 +175,7 @@ class _Plan:
             self.near[key] = sorted(others, key=lambda other: other not in self.beside[unit])
         return (other for other in self.near[key] if other in self.standing)
 
-    def _meets(self, unit: AssemblyUnit, other: AssemblyUnit, direction: Direction, length: float = 0.0) -> bool:
+    def _meets(self, unit: InsertedUnit, other: InsertedUnit, direction: Direction, length: float = 0.0) -> bool:
         key = unit, other, direction, length
         if key not in self.met:
             move = length * np.array(direction) if length else self._far(direction)
@@ -186,7 +186,7 @@ class _Plan:
     def _far(self, direction: Direction) -> Vector:
         return self.reach * np.array(direction)
 
-    def _may_leave(self, leaving: set[AssemblyUnit]) -> bool:
+    def _may_leave(self, leaving: set[InsertedUnit]) -> bool:
         """Whether what touched what leaves still hangs together, and nothing that it carries stays."""
         rest = self.standing - leaving
         if any(unit in rest for own in leaving for unit in self.carried[own]):
@@ -202,7 +202,7 @@ class _Plan:
                 reached += near
         return not around
 
-    def _whole(self, group: set[AssemblyUnit]) -> bool:
+    def _whole(self, group: set[InsertedUnit]) -> bool:
         """Whether the units of a group touch, leave no part of their bodies behind but screws, and are not the most."""
         names = {unit.name for unit in group}
         rest = self.standing - group
@@ -210,7 +210,7 @@ class _Plan:
         least = bool(self.welded) or sum(len(unit.pieces) for unit in group) <= sum(len(unit.pieces) for unit in rest)
         return least and not left and _groups(group, self.beside) == 1
 
-    def _group(self, units: Sequence[AssemblyUnit]) -> Insertion | None:
+    def _group(self, units: Sequence[InsertedUnit]) -> Insertion | None:
         """Of some units one leaves together with those that hold it, a small group first."""
         for most in _SIZES:
             for unit in units:
@@ -221,8 +221,8 @@ class _Plan:
         return None
 
     def _held_along(
-        self, units: Sequence[AssemblyUnit], direction: Direction, most: int, length: float = 0.0
-    ) -> set[AssemblyUnit] | None:
+        self, units: Sequence[InsertedUnit], direction: Direction, most: int, length: float = 0.0
+    ) -> set[InsertedUnit] | None:
         """Some units and all that must move along with them in a direction; None: more than a number, or everything.
 
         length  of the move [m]; default: to the outside
@@ -239,9 +239,9 @@ class _Plan:
                     rest.append(other)
         return group
 
-    def _by_moves(self, units: Sequence[AssemblyUnit]) -> Insertion | None:
+    def _by_moves(self, units: Sequence[InsertedUnit]) -> Insertion | None:
         """Of some units one leaves, alone or with those that hold it, by several moves."""
-        tried: set[frozenset[AssemblyUnit]] = set()
+        tried: set[frozenset[InsertedUnit]] = set()
         for unit in units:
             held = (self._held_along([unit], way, _SIZES[1], _SHORT) for way in unit.directions)
             for group in ({unit}, *(own for own in held if own is not None and len(own) > 1 and self._whole(own))):
@@ -252,7 +252,7 @@ class _Plan:
                         return self._step(group, moves)
         return None
 
-    def _path(self, group: set[AssemblyUnit], unit: AssemblyUnit) -> tuple[Vector, ...]:
+    def _path(self, group: set[InsertedUnit], unit: InsertedUnit) -> tuple[Vector, ...]:
         """Moves by which a group of which a unit is one comes to the outside: the fewest, `MOST_MOVES` at most."""
         ends: list[tuple[Vector, ...]] = [()]
         lengths = (*unit.first_moves, *MOVES)
@@ -276,7 +276,7 @@ class _Plan:
             ends = longer
         return ()
 
-    def _clear(self, group: set[AssemblyUnit], move: Vector, start: Vector) -> bool:
+    def _clear(self, group: set[InsertedUnit], move: Vector, start: Vector) -> bool:
         """Whether a group meets nothing that stands by a move from a distance to its seat [m]."""
         for unit in group:
             key = unit, tuple(move.tolist()), tuple(start.tolist())
@@ -302,14 +302,14 @@ class _Plan:
         blocking, unit, way = min(ways, key=lambda own: len(own[0]))
         return replace(self._step({unit}, (self._far(way),)), blocking=tuple(blocking))
 
-    def _step(self, leaving: set[AssemblyUnit], moves: Sequence[Vector]) -> Insertion:
+    def _step(self, leaving: set[InsertedUnit], moves: Sequence[Vector]) -> Insertion:
         units = tuple(sorted(leaving, key=lambda unit: unit.number))
         touched = {other for unit in units for other in self.beside[unit]} & (self.standing - leaving)
         onto = tuple(sorted(touched, key=lambda unit: unit.number))
         return Insertion(units, tuple(0.0 - move for move in reversed(moves)), onto, bench=_bench(units))
 
 
-def _bench(units: tuple[AssemblyUnit, ...]) -> tuple[Insertion, ...]:
+def _bench(units: tuple[InsertedUnit, ...]) -> tuple[Insertion, ...]:
     """The steps by which some units are put together before they come."""
     if len(units) > 1 and len({unit.name for unit in units}) > 1:
         return _Plan(units).steps()
@@ -324,7 +324,7 @@ def _near(boxes: Float[np.ndarray, "units 2 3"]) -> Iterator[tuple[int, int]]:
         yield from ((int(other), number) for other in np.flatnonzero(apart < 4 * FIT))
 
 
-def _groups(units: Iterable[AssemblyUnit], beside: Mapping[AssemblyUnit, set[AssemblyUnit]]) -> int:
+def _groups(units: Iterable[InsertedUnit], beside: Mapping[InsertedUnit, set[InsertedUnit]]) -> int:
     """Number of groups of units that touch."""
     left, number = set(units), 0
     while left:

@@ -39,7 +39,7 @@ Axes: TypeAlias = tuple[Direction, ...]
 
 
 @record
-class PlacedPart:
+class StandingPart:
     """A part where it stands in the tree, of the body with this id."""
 
     part: Part
@@ -48,7 +48,7 @@ class PlacedPart:
 
 
 @dataclass(frozen=True, eq=False)
-class AssemblyUnit:
+class InsertedUnit:
     """What is put in as one.
 
     number  in the order of the tree      name  of its body      pieces  its parts
@@ -59,10 +59,10 @@ class AssemblyUnit:
 
     number: int
     name: str
-    pieces: tuple[PlacedPart, ...]
+    pieces: tuple[StandingPart, ...]
     directions: Axes
     carriers: frozenset[str] = frozenset()
-    inner: tuple["AssemblyUnit", ...] = ()
+    inner: tuple["InsertedUnit", ...] = ()
 
     @property
     def parts(self) -> Mapping[Part, int]:
@@ -92,9 +92,9 @@ class AssemblyUnit:
         return _placed(self.pieces, FIT)
 
 
-def _placed(pieces: Sequence[PlacedPart], by: float) -> MovedSolids:
+def _placed(pieces: Sequence[StandingPart], by: float) -> MovedSolids:
     """Parts, their faces moved outwards by a length [m]; `MANY` like ones among others by the hull of all."""
-    alike: dict[str, list[PlacedPart]] = defaultdict(list)
+    alike: dict[str, list[StandingPart]] = defaultdict(list)
     for piece in pieces:
         alike[piece.part.id].append(piece)
     solids: list[tuple[FittedSolid, Placement]] = []
@@ -126,12 +126,12 @@ def _hull(points: Float[np.ndarray, "points 3"]) -> Solid:
     return Solid(points, triangles)
 
 
-def units_of(tree: Tree) -> tuple[AssemblyUnit, ...]:
+def units_of(tree: Tree) -> tuple[InsertedUnit, ...]:
     """The units of a tree with every drive at angle 0; parts without a shape are left out."""
     return tuple(_units(list(chains(tree)), 0, count()))
 
 
-def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterator[AssemblyUnit]:
+def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterator[InsertedUnit]:
     """The units of chains beyond their first links, which carry all of them."""
     grouped: dict[Chain, list[Chain]] = defaultdict(list)
     for links in every:
@@ -143,7 +143,7 @@ def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterat
         pieces = tuple(piece for links in own for piece in _pieces(links))
         if pieces and len(prefix) > depth and len(link.body.positions) > 1:
             inner = tuple(_units(own, len(prefix), numbers)) if link.index == 0 else ()
-            yield AssemblyUnit(next(numbers), link.name, pieces, axes, carriers, inner)
+            yield InsertedUnit(next(numbers), link.name, pieces, axes, carriers, inner)
             continue
         single = tuple(_of_body(pieces, axes, carriers, numbers))
         if len(prefix) <= depth or link.body.joint.kind in _STANDING:
@@ -152,26 +152,26 @@ def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterat
         kept = tuple(unit for unit in single if not unit.fastens)
         if kept:
             whole = tuple(piece for unit in kept for piece in unit.pieces)
-            yield AssemblyUnit(next(numbers), link.name, whole, axes, carriers, kept if len(kept) > 1 else ())
+            yield InsertedUnit(next(numbers), link.name, whole, axes, carriers, kept if len(kept) > 1 else ())
         yield from (unit for unit in single if unit.fastens)
 
 
 _STANDING = {JointKind.FIXED, JointKind.MISSING}
 
 
-def _pieces(links: Chain) -> Iterator[PlacedPart]:
+def _pieces(links: Chain) -> Iterator[StandingPart]:
     """The parts of the last body of a chain where they stand."""
     here = poses(links, "", np.zeros(1))
     body = Placement(here.origin[0], here.rotation[0])
     for occurrence in links[-1].body.occurrences:
         if occurrence.part.shape is not None:
             for position in occurrence.positions:
-                yield PlacedPart(occurrence.part, links[-1].name, body.after(position))
+                yield StandingPart(occurrence.part, links[-1].name, body.after(position))
 
 
 def _of_body(
-    pieces: Sequence[PlacedPart], axes: Axes, carriers: frozenset[str], numbers: Iterator[int]
-) -> Iterator[AssemblyUnit]:
+    pieces: Sequence[StandingPart], axes: Axes, carriers: frozenset[str], numbers: Iterator[int]
+) -> Iterator[InsertedUnit]:
     """The parts of a body, each as a unit; `MANY` like ones as one."""
     for _, same in groupby(pieces, key=lambda piece: piece.part.id):
         alike = tuple(same)
@@ -179,7 +179,7 @@ def _of_body(
             part, along = own[0].part, own[0].position.rotation[:, 2]
             screwed = part.purchase is not None and screw_of(part.purchase.row) is not None
             ends = _both(along)[1:] if screwed else (*axes, *_both(along))
-            yield AssemblyUnit(next(numbers), own[0].body, own, tuple(dict.fromkeys(ends)), carriers)
+            yield InsertedUnit(next(numbers), own[0].body, own, tuple(dict.fromkeys(ends)), carriers)
 
 
 def _axes(links: Chain) -> Axes:
