@@ -95,7 +95,7 @@ unit: venv
 	$(BIN)/pytest -n 2 --dist worksteal --ignore tests/browser
 
 shapes: venv
-	$(BIN)/pytest -n 2 --dist worksteal --jaxtyping-packages=ilmek,typecheck.checker $$($(BIN)/python tests/support/engine_paths.py)
+	$(BIN)/pytest -n 2 --dist worksteal $$($(BIN)/python tests/support/engine_paths.py)
 
 # Without PARTS all of them, in a share two that follow from SEED; without SEED it is the number of the commit.
 campaigns: venv

@@ -5,11 +5,35 @@ into `ilmek.synthesis.alt_burmester.start_sets`.
 """
 
 import hashlib
+import io
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
-from ilmek.synthesis.alt_burmester.start_sets import CLASSES, SEED, computed_start_set, written
+import numpy as np
+
+from benchmarks.monodromy import all_solutions, task_with_solution
+from ilmek.synthesis.alt_burmester.homotopy import SolvedTask
+from ilmek.synthesis.alt_burmester.start_sets import CLASSES, pose_mask
+
+SEED = 1
+"""Of the random tasks that the shipped solutions belong to."""
+
+
+def computed_start_set(poses: int, seed: int = SEED) -> SolvedTask:
+    """The solutions for a number of poses, computed anew: 1 to 40 s."""
+    pose = pose_mask(poses)
+    return all_solutions(task_with_solution(np.random.default_rng([seed, poses]), pose), seed)
+
+
+def written(sets: dict[int, SolvedTask]) -> bytes:
+    """The file of the solutions, by the number of poses."""
+    arrays: dict[str, Any] = {f"task{poses}": one.task for poses, one in sets.items()}
+    arrays |= {f"unknowns{poses}": one.unknowns.astype(np.complex64) for poses, one in sets.items()}
+    stream = io.BytesIO()
+    np.savez(stream, **arrays)
+    return stream.getvalue()
 
 
 def run(target: str = "", seed: int = SEED) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from benchmarks.random_mechanisms import random_inertias, random_mechanism
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.friction import AngleRange, Friction
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, PointForce, Torque
 from ilmek.linkage.model import GROUND, Pin
@@ -20,7 +21,7 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import plan
-from ilmek.machines.tufting.model import friction, inertias, mechanism, move
+from ilmek.machines.tufting.model import inertias, mechanism, move
 from ilmek.machines.tufting.params import TuftingParams
 
 SAMPLES = 200_000
@@ -28,7 +29,8 @@ CAMPAIGN = 100_000
 STATES = 5
 BLOCK = 2048
 PARAMS = TuftingParams()
-LOADS = (Gravity(-1j * PARAMS.gravity), friction(PARAMS, 1.0))
+PIERCING = AngleRange(PARAMS.entry, PARAMS.exit)
+LOADS = (Gravity(-1j * PARAMS.gravity), Friction("needle", "F", PARAMS.friction_force, "crank", PIERCING, 1.0))
 
 
 def by_numpy(motion: Motion) -> FloatArray:

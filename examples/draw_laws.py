@@ -3,12 +3,13 @@
 Run it as `python examples/draw_laws.py`; it ends with the least time ratio for 1 % of residual vibration by 4-5-6-7.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
-from ilmek.cams.laws import LAWS
-from ilmek.cams.vibration import least_ratio, spectrum_plot
+from ilmek.cams.laws import LAWS, Law
+from ilmek.cams.vibration import least_ratio, residual
 from ilmek.report import Axis, Plot, Series
 from ilmek.viz.svg import svg
 
@@ -17,6 +18,25 @@ OUT = Path(__file__).parents[1] / "docs" / "_static"
 DRAWN = ("parabolic", "cubic", "harmonic", "cycloidal", "3-4-5", "4-5-6-7", "modified-sine", "modified-trapezoid")
 COMPARED = ("harmonic", "modified-sine", "3-4-5", "cycloidal", "4-5-6-7")
 WIDE, HIGH, GAP = 420, 229, 12
+
+
+def spectrum_plot(
+    laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601, *, decibels: bool = False
+) -> Plot:
+    """Plot of the residual amplitude over the time ratio [-] up to `most`, for laws by name.
+
+    count     of points      damping  ratio to the critical damping [-]
+    decibels  plot 20 log10 of the amplitude over the lift, at least -100, to show small lobes
+    """
+    ratios = np.linspace(most / count, most, count)
+    sizes = {name: residual(law, ratios, damping) for name, law in laws.items()}
+    if decibels:
+        sizes = {name: 20 * np.log10(np.maximum(size, 1e-5)) for name, size in sizes.items()}
+    series = tuple(Series(name, ratios, size) for name, size in sizes.items())
+    x = Axis("time of the rise over natural period of the follower")
+    y = Axis("amplitude over lift, dB" if decibels else "amplitude over lift")
+    note = f"damping {100 * damping:g} % of the critical" if damping else "without damping"
+    return Plot("residual-vibration", "Residual vibration after the rise", x, y, series, (), note)
 
 
 def curves() -> tuple[Plot, ...]:

@@ -26,7 +26,7 @@ import typing
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache
-from typing import Any, Generic, TypeAlias, TypeVar, dataclass_transform, overload
+from typing import Any, Generic, TypeAlias, TypedDict, TypeVar, Unpack, dataclass_transform, overload
 
 T = TypeVar("T")
 
@@ -54,17 +54,17 @@ class DeclaredResult:
     least: float | None = None
 
 
-def result(
-    unit: str,
-    doc: str,
-    *,
-    name: str = "",
-    shown: bool = True,
-    optional: bool = False,
-    absent: str = "",
-    least: float | None = None,
-    default: Any = ...,
-) -> Any:
+class Stated(TypedDict, total=False):
+    """What a declaration may state of a result beside its unit and its meaning, as in `DeclaredResult`."""
+
+    name: str
+    shown: bool
+    optional: bool
+    absent: str
+    least: float | None
+
+
+def result(unit: str, doc: str, *, default: Any = ..., **more: Unpack[Stated]) -> Any:
     """Declare a field of a record as a result.
 
     unit   in which it is shown, "" for texts and groups of values     doc       meaning, a phrase
@@ -72,15 +72,13 @@ def result(
     optional  left out where the value is None                         default   of the field, if any
     absent    when the value is None and reported as null, a phrase    least     bound of every value [SI], -inf: none
     """
-    declaration = _declared(name, unit, doc, shown, optional, absent, least)
     given = {} if default is ... else {"default": default}
-    return field(metadata={"result": declaration}, **given)
+    return field(metadata={"result": _declared(unit, doc, more)}, **given)
 
 
-def _declared(  # noqa: PLR0917
-    name: str, unit: str, doc: str, shown: bool, optional: bool, absent: str, least: float | None
-) -> DeclaredResult:
-    return DeclaredResult(name, unit, f"{doc}; null: {absent}" if absent else doc, shown, optional, absent, least)
+def _declared(unit: str, doc: str, more: Stated) -> DeclaredResult:
+    meaning = f"{doc}; null: {more['absent']}" if more.get("absent") else doc
+    return replace(DeclaredResult("", unit, meaning), **more)
 
 
 def group(prefix: str = "") -> Any:
@@ -181,39 +179,10 @@ class Computed(Generic[T]):
 
 
 @overload
-def computed(
-    unit: str,
-    doc: str,
-    function: Callable[[Any], T],
-    *,
-    name: str = ...,
-    shown: bool = ...,
-    optional: bool = ...,
-    absent: str = ...,
-    least: float | None = ...,
-) -> Computed[T]: ...
+def computed(unit: str, doc: str, function: Callable[[Any], T], **more: Unpack[Stated]) -> Computed[T]: ...
 @overload
-def computed(
-    unit: str,
-    doc: str,
-    *,
-    name: str = ...,
-    shown: bool = ...,
-    optional: bool = ...,
-    absent: str = ...,
-    least: float | None = ...,
-) -> Callable[[Callable[[Any], T]], Computed[T]]: ...
-def computed(
-    unit: str,
-    doc: str,
-    function: Callable[[Any], Any] | None = None,
-    *,
-    name: str = "",
-    shown: bool = True,
-    optional: bool = False,
-    absent: str = "",
-    least: float | None = None,
-) -> Any:
+def computed(unit: str, doc: str, **more: Unpack[Stated]) -> Callable[[Callable[[Any], T]], Computed[T]]: ...
+def computed(unit: str, doc: str, function: Callable[[Any], Any] | None = None, **more: Unpack[Stated]) -> Any:
     """Declare a result that is computed from its record when it is read; other arguments as of `result`.
 
     On one line with a function of the record, or as the decorator of a method without arguments:
@@ -223,7 +192,7 @@ def computed(
         @computed("mm", "chord of the beater's path")
         def stroke(self) -> float: ...
     """
-    declaration = _declared(name, unit, doc, shown, optional, absent, least)
+    declaration = _declared(unit, doc, more)
     return Computed(function, declaration) if function else lambda method: Computed(method, declaration)
 
 

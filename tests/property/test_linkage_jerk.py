@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from periodic_samples import periodic_derivative
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
@@ -11,7 +12,6 @@ from ilmek.linkage.model import GROUND, Body, Coupling, Displacement, Mechanism,
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.num.periodic import periodic_derivative
 
 TIME = np.arange(256) * (2 * np.pi / 256)
 

@@ -7,6 +7,7 @@ from effort import examples
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mechanisms import check_newton
+from periodic_samples import periodic_derivative
 
 from ilmek.linkage.fourbar import four_bar, slider_crank
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
@@ -14,7 +15,6 @@ from ilmek.linkage.motion import Motion
 from ilmek.linkage.quality import grashof, input_range
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.num.periodic import periodic_derivative
 
 TURN = np.arange(512) * (2 * np.pi / 512)
 SIGN = st.sampled_from([+1, -1])

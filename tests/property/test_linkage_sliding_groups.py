@@ -6,12 +6,12 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from mechanisms import check_newton
+from periodic_samples import periodic_derivative
 
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.num.periodic import periodic_derivative
 
 TURN = np.arange(512) * (2 * np.pi / 512)
 SIGN = st.sampled_from([+1, -1])

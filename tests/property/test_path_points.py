@@ -8,14 +8,13 @@ from hypothesis import strategies as st
 from ilmek.errors import ParameterError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.synthesis.burmester.links import GuideKind, arms_through_five_poses
+from ilmek.synthesis.burmester.links import GuideKind
 from ilmek.synthesis.dyad import RootKind, TwoLinkArm, arms_through_points, dyads_through_points
 from ilmek.synthesis.four_bar import FourBar
 from ilmek.synthesis.path.points import (
     CrankKind,
     TimedCrank,
     cranks_through_five_points,
-    second_arms,
     timed_curve,
     timed_four_bars,
 )
@@ -127,18 +126,6 @@ def test_three_timed_points_and_two_pivots_are_one_four_bar(task) -> None:
     assert spread(found.crank, points, angles) < EXACT
     assert found.four_bar is not None
     assert off(found.four_bar, drawn) < 1e-5
-
-
-def test_a_crank_carries_its_coupler_along() -> None:
-    """The poses of the coupler have the crank among their links, so that it is left out of the second ones."""
-    angles = np.array([0.2, 0.7, 1.3, 1.8, 2.4])
-    points = np.array([0.0, 0.3 + 0.4j, 0.9 + 0.5j, 1.4 + 0.3j, 1.6 - 0.2j])
-    for crank in cranks_through_five_points(points, angles):
-        all_of_them = arms_through_five_poses(points, crank.coupler_angles(points, angles))
-        others = second_arms(crank, points, angles)
-        (left_out,) = set(all_of_them) - set(others)
-        assert left_out.pivot == pytest.approx(crank.pivot, rel=1e-7)
-        assert left_out.pin == pytest.approx(crank.pin, rel=1e-7)
 
 
 TURNS = np.array([0.1, 0.6, 1.1, 1.7, 2.4])
@@ -253,11 +240,3 @@ FIVE = np.array([0, 1, 1 + 1j, 2j, 3 + 1j])
 def test_what_is_no_timed_path(method, points, angles, said: str) -> None:
     with pytest.raises(ParameterError, match=said):
         method(points, angles)
-
-
-def test_a_crank_whose_coupler_does_not_turn_says_so() -> None:
-    """A parallelogram's tracer: the crank is found, its coupler's poses leave the second link free."""
-    crank = TimedCrank(CrankKind.CRANK, 0j, 0.7 + 0j)
-    shifted = 2 + 0.7 * np.exp(1j * (TURNS - TURNS[0]))
-    with pytest.raises(ParameterError, match="same angle at all poses"):
-        second_arms(crank, shifted, TURNS)

@@ -54,6 +54,7 @@ def seat(tree: Tree, body: str, name: str) -> ComplexArray:
         ("knotting-four-bar", {"poses": POSES_OF_HAND, "sides": "2"}, "O2'", ("coupler-*", "rocker-*")),
         ("tufting", {}, "B", ("coupler", "rocker")),
         ("tufting", {"bars": "2", "phase": "70deg"}, "D", ("arm 2", "rod 2")),
+        ("tufting-machine", {"needle.phase": "36deg"}, "B", ("looper-coupler 3", "looper-rocker 3")),
     ],
 )
 def test_loops_close_at_every_pose(machine: str, settings: dict[str, str], pin: str, bodies: tuple[str, str]) -> None:

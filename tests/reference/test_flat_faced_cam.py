@@ -60,11 +60,6 @@ def test_an_offset_stem_shifts_the_reach_alone() -> None:
     assert face_span(shifted) == pytest.approx((-14 * mm, 6 * mm), rel=1e-13)
 
 
-def test_a_cutter_rolls_round_at_its_radius() -> None:
-    cam = FlatCam(there_and_back(20 * mm, "harmonic"), 30 * mm)
-    np.testing.assert_allclose(np.abs(cam.cutter_path(ANGLE, 6 * mm) + 10 * mm), 46 * mm, rtol=1e-13)
-
-
 def test_no_base_circle_is_refused() -> None:
     with pytest.raises(ParameterError, match="prime_radius=0 mm is too small; above 0 mm"):
         FlatCam(there_and_back(20 * mm, "harmonic"), 0.0)

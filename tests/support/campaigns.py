@@ -19,7 +19,7 @@ from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
 
-from engine_paths import engine_paths
+from engine_paths import CHECKED, engine_paths
 from sources import tree_of
 
 ROOT = Path(__file__).parents[2]
@@ -77,7 +77,7 @@ def lawful(tests: Path) -> tuple[Path, ...]:
 
 def _shapes(seed: int, share: bool) -> Run:
     paths = rotated(list(engine_paths()), seed, share)
-    return Run((*PYTEST, "--jaxtyping-packages=ilmek,typecheck.checker", *paths))
+    return Run((*PYTEST, *CHECKED, *paths))
 
 
 def _browser(seed: int, share: bool) -> Run:

@@ -1,4 +1,4 @@
-"""The paths that `make shapes` runs: unit and property tests of the engine, and the engine's doctests.
+"""The options and the paths that `make shapes` runs: unit and property tests of the engine.
 
 A test is one of the engine's where it imports one of its packages, and nothing of the machines, files and commands.
 """
@@ -13,6 +13,11 @@ from sources import tree_of
 ROOT = Path(__file__).parents[2]
 ENGINE = ("linkage", "plane", "num", "dynamics", "cams", "carpet", "weaving")
 BEYOND = {"machines", "verification", "jobs", "io", "viz", "cli"}
+# Packages above and below the engine have protocols that cannot be checked while it runs.
+CHECKED = (
+    "--jaxtyping-packages=" + ",".join((*(f"ilmek.{package}" for package in ENGINE), "typecheck.checker")),
+    "-W=ignore::hypothesis.errors.HypothesisDeprecationWarning",  # the checker tries random items of a list
+)
 
 
 def imported_packages(path: Path) -> set[str]:
@@ -29,8 +34,7 @@ def engine_paths() -> Iterator[str]:
             packages = imported_packages(path)
             if packages & set(ENGINE) and not packages & BEYOND:
                 yield str(path.relative_to(ROOT))
-    yield from (f"src/ilmek/{package}" for package in ENGINE)
 
 
 if __name__ == "__main__":
-    sys.stdout.write(" ".join(engine_paths()))
+    sys.stdout.write(" ".join((*CHECKED, *engine_paths())))

@@ -193,7 +193,7 @@ def _of_follower(design: Any, tree: Tree) -> float:
 
 
 QUICK = ("cam", "function-four-bar", "knotting-four-bar", "tufting", "knotting-dyad")
-OTHERS = ("beat-up", "hammer", "shedding", "tension-compensator", "warp-tension", "weaver", "weft")
+OTHERS = ("beat-up", "hammer", "shedding", "tension-compensator", "warp-tension", "weaver", "weft", "tufting-machine")
 
 EVERY = 10
 """Cases after which the largest deviations so far are printed."""

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
+from benchmarks.monodromy import all_solutions, task_with_solution
 
 from ilmek.errors import ParameterError
 from ilmek.synthesis.alt_burmester import start_sets
 from ilmek.synthesis.alt_burmester.equations import linearised, products
 from ilmek.synthesis.alt_burmester.homotopy import random_task, repeated, solution_keys, track
-from ilmek.synthesis.alt_burmester.monodromy import all_solutions, task_with_solution
 from ilmek.synthesis.alt_burmester.start_sets import CLASSES, pose_mask, start_set
 from ilmek.synthesis.alt_burmester.task import FOUR_BARS, PosesAndPoints
 

@@ -11,17 +11,15 @@ from ilmek.cams.conjugate import (
     conjugate_faces,
     conjugate_swinging_faces,
     remaining_rise,
-    smallest_conjugate,
 )
 from ilmek.cams.flat import FlatCam
 from ilmek.cams.groove import Groove
 from ilmek.cams.laws import LAWS
-from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cutter, pressure_angle_max, undercut
+from ilmek.cams.limits import concave_radius_min, convex_radius_min, largest_cutter, undercut
 from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
-from ilmek.cams.sizing import CamLimits
 from ilmek.errors import ParameterError
 from ilmek.units import deg, mm
 
@@ -57,13 +55,6 @@ def test_both_rollers_of_a_slide_touch_their_plates_all_round(offset) -> None:
     np.testing.assert_allclose(gaps(second.pitch, pair.second.surface(FINE)), 8 * mm, rtol=1e-5)
     line = pair.between(ANGLE) * np.exp(1j * ANGLE)
     np.testing.assert_allclose(line, -130 * mm, atol=1e-12)
-
-
-def test_the_smallest_pair_uses_the_limit_up_on_both_ways() -> None:
-    pair = smallest_conjugate(PlateCam(motion(25 * mm), 1.0, 5 * mm, 8 * mm), CamLimits(rise=32 * deg))
-    for cam in (pair.first, pair.second):
-        assert pressure_angle_max(cam, "rise").value == pytest.approx(32 * deg, rel=1e-9)
-    np.testing.assert_allclose(np.abs(pair.between(ANGLE)), abs(pair.between(ANGLE)[0]), rtol=1e-12)
 
 
 @pytest.mark.parametrize("side", [1, -1])

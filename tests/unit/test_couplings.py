@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 from mechanisms import two_motors
+from periodic_samples import periodic_derivative
 
 from ilmek.errors import MechanismError
 from ilmek.linkage.fourbar import four_bar, slider_crank
@@ -21,7 +22,6 @@ from ilmek.linkage.model import (
 )
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.num.periodic import periodic_derivative
 
 TURN = np.arange(128) * (2 * np.pi / 128)
 

@@ -4,10 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from examples.draw_gears import OUT, pair
+from examples.draw_gears import OUT, gear_drawing, pair
 
-from ilmek.elements.beam.uniform import Beam, LineLoad, PointLoad, bend
-from ilmek.elements.figures import beam_plots, gear_drawing
 from ilmek.elements.involute import outline
 
 
@@ -34,15 +32,3 @@ def test_gears_of_the_drawing_stand_at_their_distance() -> None:
     assert [abs(dot.at) for dot in drawn.dots] == pytest.approx([0, 0.070])
     assert f"contact ratio {gears.contact_ratio:.3f}" in drawn.note
     assert (OUT / "gear-pair.svg").exists()
-
-
-def test_beam_is_drawn_in_each_plane_and_together() -> None:
-    weight, pull = LineLoad(0.0, 1.6, 400.0), LineLoad(0.2, 1.4, 7500j)
-    bent = bend(Beam(1.6, (0.2, 1.4), (weight, pull, PointLoad(0.0, 900.0))))
-    for plot, most in zip(beam_plots(bent, 2e6), (bent.moment_max, bent.deflection_max(2e6)), strict=True):
-        vertical, horizontal, together = plot.series
-        np.testing.assert_allclose(np.hypot(vertical.y, horizontal.y), together.y)
-        assert np.max(together.y) == pytest.approx(most.size, rel=1e-3)
-        assert plot.marks[0].x == most.at
-    alone = beam_plots(bend(Beam(1.6, (0.2, 1.4), (weight,))), 2e6)[0]
-    assert [series.label for series in alone.series] == ["vertical"]

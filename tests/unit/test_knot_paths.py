@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from examples.draw_knots import knot_drawing
 
 from ilmek.carpet.pile import PileParams, knot_length, leg_length
 from ilmek.carpet.quality import Quality
@@ -9,7 +10,6 @@ from ilmek.elements.carpet_yarns import usual_warp
 from ilmek.elements.yarns import WOOL
 from ilmek.errors import CarpetError
 from ilmek.units import mm
-from ilmek.weaving.knots.drawing import knot_drawing
 from ilmek.weaving.knots.path import KnotDimensions, KnotPath, knot_path
 from ilmek.weaving.knots.word import SINGLE, Knot, knot, mirrored
 

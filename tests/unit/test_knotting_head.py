@@ -7,7 +7,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from ilmek.linkage.swivelled_arm import mirrored_path
 from ilmek.machines.knotting_dyad import MACHINE, KnottingDyad, KnottingDyadParams, design
 from ilmek.machines.knotting_dyad.clearance import arm_bars, mirrored_bars, to_warps
 from ilmek.machines.knotting_dyad.head import Head
@@ -96,17 +95,6 @@ def test_no_point_of_an_arm_is_faster_than_its_bound_and_no_pose_nearer_to_strai
         assert fastest <= arm.speed_bound < 3 * fastest
         theta = arm.path(s).theta
         assert np.abs(np.sin(theta[:, 1] - theta[:, 0])).min() == pytest.approx(arm.bend, rel=1e-9)
-
-
-def test_the_right_arms_way_is_the_mirror_image() -> None:
-    one = head()
-    way = mirrored_path(one.path)
-    twice, arm = 2 * one.section.middle, one.arm
-    elbow = twice - np.conj(arm.pivot) + arm.first * np.exp(1j * way.theta[:, 0])
-    tip = elbow + arm.second * np.exp(1j * way.theta[:, 1])
-    assert tip == pytest.approx(twice - np.conj(arm.tip(one.path.s)), abs=1e-15)
-    step = np.diff(way.theta, axis=0) / np.diff(way.s)[:, None]
-    assert step == pytest.approx((way.first[1:] + way.first[:-1]) / 2, rel=1e-2, abs=1e-3)
 
 
 @pytest.mark.parametrize("settings", SECTIONS[:4])

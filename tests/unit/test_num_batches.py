@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from periodic_samples import periodic_derivative, periodic_mean
 
 from ilmek.errors import IlmekError
 from ilmek.num.linear import reciprocal_condition, solve_many
 from ilmek.num.newton import newton
-from ilmek.num.periodic import periodic_derivative, periodic_mean
 
 
 def test_singular_and_nan_systems_are_nan_and_the_rest_solved():

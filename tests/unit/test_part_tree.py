@@ -17,11 +17,11 @@ from ilmek.machines.tension_compensator import MACHINE, TensionCompensatorParams
 from ilmek.machines.tension_compensator.parts import sprung_bar
 from ilmek.machines.tension_compensator.tree import tree
 from ilmek.part.bill import bill
-from ilmek.part.part import Bought, Part, Seat
+from ilmek.part.part import Bought, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import Prism, bar, box, disc, tube
 from ilmek.part.space import frames_of, parts_of
-from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree, mated
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle
 from ilmek.plane.solids import is_closed, volume
 from ilmek.report.scene import SceneMotion
@@ -86,16 +86,6 @@ def test_the_axis_of_a_joint_turns_with_the_place_of_its_body() -> None:
     assert frame.axis == pytest.approx((1.0, 0.0, 0.0), abs=1e-12)
     assert frame.motion is not None
     assert frame.motion.shift[1] == pytest.approx([1.0, 0.0, 0.0], abs=1e-12)
-
-
-def test_two_seats_meet() -> None:
-    own, other = (
-        Seat(placement(0.1, about=(0, 0, 1), angle=0.3), 0.02),
-        Seat(placement(1.0, 2.0, about=(1, 0, 0), angle=0.5), 0.02),
-    )
-    position = mated(own, other)
-    assert position.after(own.position).origin == pytest.approx(other.position.origin)
-    assert position.after(own.position).rotation == pytest.approx(other.position.rotation)
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,7 @@ from ilmek.sentences import LANGUAGES, Sentence, catalogue_of, in_language
 from ilmek.sentences.english import ENGLISH
 
 SOURCES = Path(ilmek.__file__).parent
-FAMILIES = ("place.", "check.paper-", "yarn.count-allowed")
+FAMILIES = ("place.", "check.paper-", "yarn.count-allowed", "sheet.kind-", "sheet.duty-", "sheet.process-")
 """Begins of keys that are put together."""
 
 

@@ -8,7 +8,7 @@ import pytest
 from cloths import cloth
 from scipy.linalg import eigvalsh_tridiagonal
 
-from ilmek.elements.nose_buckling import least_nose_thickness, nose_buckling
+from ilmek.elements.nose_buckling import nose_buckling
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as LOOM
 from ilmek.machines.automated_loom import AutomatedLoomParams
@@ -50,12 +50,6 @@ def test_nose_buckles_at_the_least_eigenvalue_of_the_wedge(thickness, height, co
     below[-1] *= 2
     least = eigvalsh_tridiagonal(2 * bend / step**2, np.sqrt(above * below), select="i", select_range=(0, 0))[0]
     assert nose_buckling(thickness, height, cosine, modulus) == pytest.approx(least, rel=2e-3)
-
-
-def test_least_thickness_is_where_the_nose_buckles() -> None:
-    least = least_nose_thickness(12.0, 0.06, 0.87, 200e9)
-    assert nose_buckling(least, 0.06, 0.87, 200e9) == pytest.approx(12.0)
-    assert nose_buckling(2 * least, 0.06, 0.87, 200e9) == pytest.approx(8 * 12.0)
 
 
 @pytest.mark.parametrize(("shafts", "guides"), list(itertools.product((1, 2, 3, 4), ("cams", "reed"))))

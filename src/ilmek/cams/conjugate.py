@@ -22,7 +22,6 @@ from ilmek.cams.oscillating import OscillatingCam
 from ilmek.cams.oscillating_flat import OscillatingFlatCam
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme
-from ilmek.cams.sizing import CamLimits, smallest_prime
 from ilmek.cams.trace import CamTrace
 from ilmek.errors import ParameterError
 from ilmek.records import value_record
@@ -84,19 +83,6 @@ def conjugate(cam: PlateCam, distance: float, roller_radius: float | None = None
         roller_radius=cam.roller_radius if roller_radius is None else roller_radius,
     )
     return ConjugatePair(cam, second, math.pi)
-
-
-def smallest_conjugate(cam: PlateCam, limits: CamLimits) -> ConjugatePair:
-    """The pair whose plates are both as small as the limits allow; the given prime radius does not matter.
-
-    Each plate drives where its own roller moves out, so the second plate keeps the limit of the rise on the return.
-    Raises ParameterError where a plate cannot keep the limits.
-    """
-    first = cam.resized(smallest_prime(cam, limits).prime_radius)
-    rest = replace(cam, programme=remaining_rise(cam.programme), offset=-cam.offset)
-    second = smallest_prime(rest, limits).prime_radius
-    reaches = [math.sqrt(radius**2 - cam.offset**2) for radius in (first.prime_radius, second)]
-    return conjugate(first, sum(reaches) + _top(cam.programme))
 
 
 def conjugate_faces(cam: FlatCam, distance: float) -> ConjugatePair:

@@ -18,7 +18,7 @@ the cam's velocity adds an impulse. The periodic motion follows from the conditi
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,7 +29,6 @@ from ilmek.cams.laws import Law
 from ilmek.cams.programme import TURN, CamProgramme, FollowerMotion, jumps
 from ilmek.errors import ParameterError
 from ilmek.records import record
-from ilmek.report import Axis, Plot, Series
 
 __all__ = [
     "FollowerModel",
@@ -37,7 +36,6 @@ __all__ = [
     "Stage",
     "one_mass",
     "residual_of",
-    "response_plot",
     "rise_response",
     "steady_response",
 ]
@@ -112,13 +110,6 @@ def residual_of(follower: FollowerModel, law: Law, time: float) -> FloatArray:
     swing = states[:, -1] + modes.driven @ np.array([1.0, 0.0]) / modes.rates
     oscillates = np.abs(modes.rates.imag) > _BESIDE * np.abs(modes.rates)
     return np.asarray(np.abs(modes.shapes[: follower.masses.size] * (swing * oscillates)).sum(axis=1))
-
-
-def response_plot(responses: Mapping[str, Response], *, over_a_turn: bool = False) -> Plot:
-    """Plot of the last mass's deviation, for responses by name, over the time of a rise or the cam angle of a turn."""
-    series = tuple(Series(name, response.at, response.lag[-1]) for name, response in responses.items())
-    x = Axis("cam angle", "deg") if over_a_turn else Axis("time", "ms")
-    return Plot("follower", "Mass less cam: behind it below 0, beyond it above", x, Axis("mass less cam", "mm"), series)
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,6 @@ from ilmek.cams.trace import CamTrace
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import MATERIALS, hertz_limit
 from ilmek.elements.motors import NO_MOTOR
-from ilmek.elements.reducers import DIRECT, PLANETARY
 from ilmek.plane.contours import polygon_moments
 from ilmek.records import computed, record, result
 from ilmek.units import mm, turn
@@ -128,6 +127,15 @@ class LoadedPlateCam:
         """Least radius of curvature of the pitch curve where it is concave [m]; inf where it is convex all round."""
         hollow = float(np.min(self.trace.curvature))
         return -1 / hollow if hollow < 0 else math.inf
+
+    @property
+    def spare_acceleration(self) -> float:
+        """Acceleration of the follower that errors of the profile may add [m/s²]: it stays on, within the pressure."""
+        forward, back = self.mass_moved
+        mass = np.where(self.motion.ds >= 0, forward, back)
+        more = self.contact * ((PRESSURE_LIMIT / self.pressure) ** 2 - 1) * np.cos(self.trace.pressure_angle)
+        room = np.minimum(self.force, more) if self.preload > 0 else more
+        return max(0.0, float(np.min(room / mass)))
 
     @property
     def undercut(self) -> bool:
@@ -301,6 +309,4 @@ def drive_for(cams: Sequence[LoadedPlateCam], speed: float, belt: float = 1.0) -
 
 def _smallest(cycle: LoadCycle) -> ServoDrive | None:
     """The motor of least power, with the least ratio at which it bears the cycle."""
-    ratios = sorted((DIRECT, *PLANETARY), key=lambda reducer: reducer.ratio)
-    found = [size_motor(cycle, (reducer,)) for reducer in ratios]
-    return min((one for one in found if one), key=lambda one: one.motor.power, default=None)
+    return size_motor(cycle, best=lambda drive: drive.reducer.ratio)

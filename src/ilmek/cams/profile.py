@@ -40,14 +40,6 @@ def normal(angle: RealField, s: RealField, ds: RealField, prime_radius: float, o
     return unit
 
 
-def profile_point(
-    angle: RealField, s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0, *, roller_radius: float
-) -> ComplexField:
-    """Point of the cam's surface under the roller, in the cam's frame [m]: a roller radius inside the pitch curve."""
-    inwards = -roller_radius * normal(angle, s, ds, prime_radius, offset)
-    return pitch_point(angle, s, prime_radius, offset) + inwards
-
-
 def pressure_angle(s: RealField, ds: RealField, prime_radius: float, offset: float = 0.0) -> RealField:
     """Pressure angle [rad] from the follower's direction to the contact normal: tan mu = (s' - e) / r."""
     return np.arctan2(ds - offset, reach(s, prime_radius, offset))

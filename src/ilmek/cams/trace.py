@@ -144,11 +144,6 @@ class CamCurves(ABC):
         """Cam surface at cam angles [rad], in the cam's frame [m]."""
         return self.trace(angle).surface
 
-    def cutter_path(self, angle: Quantities, radius: float) -> ComplexArray:
-        """Path of the centre of a cutter of a radius [m], at cam angles [rad], in the cam's frame [m]."""
-        trace = self.trace(angle)
-        return trace.parallel(radius - trace.roller_radius)
-
     def pressure_angle(self, angle: Quantities) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""
         return self.trace(angle).pressure_angle

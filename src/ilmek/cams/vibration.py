@@ -18,7 +18,6 @@ W. In closed form, n = T/tau, zeta = 0:
 
 import itertools
 import math
-from collections.abc import Mapping
 
 import numpy as np
 
@@ -27,7 +26,6 @@ from ilmek.cams.laws import Law
 from ilmek.errors import ParameterError
 from ilmek.num.brackets import bracketed_roots
 from ilmek.num.piecewise import supremum
-from ilmek.report import Axis, Plot, Series
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _BLOCK = 64
@@ -133,22 +131,3 @@ def _bounded(law: Law, share: float) -> float:
         jerk = np.sum(np.abs(np.diff(np.concatenate([[0.0], np.asarray(law.j(u)), [0.0]]))))
         ratio = min(ratio, (float(jerk) / share) ** (1 / 3) / (2 * math.pi))
     return 1.05 * ratio + 1.0
-
-
-def spectrum_plot(
-    laws: Mapping[str, Law], most: float = 6.0, damping: float = 0.0, count: int = 601, *, decibels: bool = False
-) -> Plot:
-    """Plot of the residual amplitude over the time ratio [-] up to `most`, for laws by name.
-
-    count     of points      damping  ratio to the critical damping [-]
-    decibels  plot 20 log10 of the amplitude over the lift, at least -100, to show small lobes
-    """
-    ratios = np.linspace(most / count, most, count)
-    sizes = {name: residual(law, ratios, damping) for name, law in laws.items()}
-    if decibels:
-        sizes = {name: 20 * np.log10(np.maximum(size, 1e-5)) for name, size in sizes.items()}
-    series = tuple(Series(name, ratios, size) for name, size in sizes.items())
-    x = Axis("time of the rise over natural period of the follower")
-    y = Axis("amplitude over lift, dB" if decibels else "amplitude over lift")
-    note = f"damping {100 * damping:g} % of the critical" if damping else "without damping"
-    return Plot("residual-vibration", "Residual vibration after the rise", x, y, series, (), note)

@@ -10,7 +10,7 @@ of one of the eight knots around it. Such mixtures are smoothed edges and thin l
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, FloatArray, Indices, IntArray, Rgb
+from ilmek.arrays import BoolArray, FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import LINEAR, RGB_TO_XYZ, srgb_to_lab, xyz_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.design import resampled, resampled_band
@@ -78,7 +78,7 @@ def reading_loss(design: Rgb, averages: Averages | None, knots: Indices, yarn_la
     return float(np.sum(delta_e_2000(labs[0], tied) - delta_e_2000(labs[1], tied)) / changed.size)
 
 
-def _around(design: Rgb, y: IntArray, x: IntArray) -> Rgb:
+def _around(design: Rgb, y: IntArray, x: IntArray) -> UInt8[np.ndarray, "8 knots 3"]:
     """The colours of the eight knots around each knot (8, knots, 3); beyond the edge those at it."""
     steps = [(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if i or j]
     last = np.array(design.shape[:2]) - 1

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb
+from ilmek.arrays import Float, FloatArray, Indices, IntArray, Rgb, UInt8
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.design import resampled_band
 from ilmek.num.threads import in_threads
@@ -83,7 +83,7 @@ def detail_of(picture: Rgb, grid: tuple[int, int]) -> Detail | None:
     tops, lefts = np.arange(1, rows - SIDE, step), np.arange(1, columns - SIDE, step)
     points, fine = lefts[:, None] * FINE + np.arange(-1, SIDE * FINE + 1), (FINE * rows, FINE * columns)
 
-    def windows(top: int) -> Rgb:
+    def windows(top: int) -> UInt8[np.ndarray, "windows height width 3"]:
         band = slice(FINE * top - 1, FINE * (top + SIDE) + 1)
         return resampled_band(picture, fine, band)[:, points].swapaxes(0, 1)
 

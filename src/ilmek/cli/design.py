@@ -6,7 +6,16 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import CallOutputs, call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option, motion_option, rates_option
+from ilmek.cli.issue import issue_of
+from ilmek.cli.options import (
+    animation_option,
+    force_option,
+    issue_option,
+    json_option,
+    motion_option,
+    rates_option,
+    require_options,
+)
 from ilmek.cli.report import headline_of, show_report, show_report_table, tables_named
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say
@@ -23,7 +32,6 @@ from ilmek.jobs.design import (
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.workshop_order import WorkshopOrder
 from ilmek.report import Table
-from ilmek.report.sheet import Issue
 
 EXAMPLES = """\b
 Examples:
@@ -100,7 +108,7 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
     help="Write the bodies with joints, inertia, contacts and servos for MuJoCo (MJCF).",
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
-@click.option("--issue", "issued", metavar="REVISION,DATE", help="Revision and date of issue on the drawings.")
+@issue_option
 @force_option
 def command(  # noqa: PLR0917 - click calls it by name
     name: str,
@@ -127,7 +135,7 @@ def command(  # noqa: PLR0917 - click calls it by name
 
     FILE.toml has the machine and settings; --set wins over the settings of the file.
     """
-    _require(
+    require_options(
         ("--tolerance", tolerance, "--workshop DIR", parts_to),
         ("--issue", issued, "--workshop DIR", parts_to),
         ("--motion", motion, "--animation FILE", animation_to),
@@ -144,7 +152,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     with call_outputs(files, force=force, inputs=read | setting_files(given)) as call:
         made = design_machine(
             *(order.machine, order.settings),
-            WorkshopOrder(parts_to, tolerance, _issue(issued)) if parts_to else None,
+            WorkshopOrder(parts_to, tolerance, issue_of(issued)) if parts_to else None,
             outputs=call.outputs,
             progress=call.progress,
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
@@ -204,16 +212,3 @@ def _show(
         note(f"{parts_to} was not written: there are no links")
     for warning in made.warnings:
         note(warning)
-
-
-def _issue(words: str | None) -> Issue:
-    """Revision and date of drawings, as given."""
-    revision, _, date = (words or "").partition(",")
-    return Issue(date=date.strip() or "—", revision=revision.strip() or "—")
-
-
-def _require(*options: tuple[str, str | None, str, Path | None]) -> None:
-    """Raise UsageError for an option without the output that it belongs to: option, value, that output, its path."""
-    for option, given, needed, path in options:
-        if given is not None and path is None:
-            raise click.UsageError(f"{option} needs {needed}")

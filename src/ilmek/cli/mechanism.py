@@ -1,26 +1,40 @@
 """`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
+from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option
+from ilmek.cli.call_outputs import CallOutputs, call_outputs
+from ilmek.cli.issue import issue_of
+from ilmek.cli.options import (
+    animation_option,
+    force_option,
+    issue_option,
+    json_option,
+    require_options,
+)
 from ilmek.cli.report import cell_text, show_self_tests
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import MechanismError, printable
 from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
-from ilmek.jobs.mechanism.analysis import analysis
+from ilmek.jobs.design import DesignResult
+from ilmek.jobs.mechanism.analysis import Analysis, analysis
 from ilmek.jobs.mechanism.data import as_json, columns
-from ilmek.jobs.mechanism.report import report, with_parts
+from ilmek.jobs.mechanism.making import MadeMechanism, made_mechanism
+from ilmek.jobs.mechanism.report import report
 from ilmek.jobs.mechanism.request import STEPS, MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer
-from ilmek.report import Report, rounded
+from ilmek.report import Json, Report, rounded
 from ilmek.units import format_quantity
+
+if TYPE_CHECKING:
+    from ilmek.jobs.workshop import Workshop
 
 EXAMPLES = """\b
 Examples:
@@ -70,8 +84,12 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     "parts_to",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write the links (DXF, STEP) and the inputs' laws as cam tables.",
+    help="Write the parts (drawings, DXF, STEP, lists) and the inputs' laws as cam tables.",
 )
+@click.option(
+    "--glb", "space_to", type=click.Path(path_type=Path), metavar="FILE.glb", help="Write the parts in space."
+)
+@issue_option
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")
 @force_option
@@ -87,6 +105,8 @@ def command(
     page_to: Path | None,
     animation_to: Path | None,
     parts_to: Path | None,
+    space_to: Path | None,
+    issued: str | None,
     tolerance: str | None,
     kind: str | None,
     force: bool,
@@ -96,39 +116,58 @@ def command(
 
     Ends with 3 where a check fails.
     """
-    if parts_to is None and tolerance is not None:
-        raise click.UsageError("--tolerance needs --workshop DIR")
+    require_options(
+        ("--tolerance", tolerance, "--workshop DIR", parts_to), ("--issue", issued, "--workshop DIR", parts_to)
+    )
     if kind is not None:
         given = read_mechanism(file)
         write = mechanism_toml if kind == "toml" else mechanism_json
         click.echo(given.text if kind == "toml" and given.text else write(given.machine), nl=False)
         return 0
-    files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--animation": animation_to}
+    files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--animation": animation_to, "--glb": space_to}
+    order = None if parts_to is None else WorkshopOrder(parts_to, tolerance, issue_of(issued))
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
-        write_parts = workshop_writer(None if parts_to is None else WorkshopOrder(parts_to, tolerance), call.outputs)
+        write_parts = workshop_writer(order, call.outputs)
         moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
-        found = analysis(moved, call.progress)
-        found_report = report(found, drawn=not (page_to is None and animation_to is None))
-        if write_parts is not None:
-            found_report = with_parts(found_report, moved.machine)
-        workshop = None if write_parts is None else write_parts(found_report)
-        if workshop is not None:
-            found_report = workshop.judged(found_report)
-        call.give_page("--report", found_report)
-        call.give_animation("--animation", found_report)
-        files_of = {} if workshop is None else {"files": workshop.files}
-        call.give_json(lambda: {**as_json(found, found_report), **files_of})
-        call.give("--csv", lambda: csv_text(columns(found), call.progress.part(0.0, 1.0, "table")))
+        drawn = not (page_to is None and animation_to is None)
+        if order is None and space_to is None:
+            found = analysis(moved, call.progress)
+            made, shown = None, report(found, drawn=drawn)
+        else:
+            made = made_mechanism(moved, call.progress, drawn=drawn)
+            found, shown = made.analysis, made.report
+        workshop = None
+        if write_parts is not None and made is not None:
+            workshop = write_parts(shown, made.papers, tree=made.tree, progress=call.progress)
+            shown = workshop.judged(shown)
+        _give(call, found, shown, made, {} if workshop is None else {"files": workshop.files})
+    _show(call, shown, workshop)
+    return exit_code(shown.all_checks)
+
+
+def _give(
+    call: CallOutputs, found: Analysis, shown: Report, made: MadeMechanism | None, files: Mapping[str, Json]
+) -> None:
+    """Stage the files."""
+    call.give_page("--report", shown)
+    call.give_animation("--animation", shown)
+    call.give_json(lambda: {**as_json(found, shown), **files})
+    call.give("--csv", lambda: csv_text(columns(found), call.progress.part(0.0, 1.0, "table")))
+    if made is not None:
+        call.give_scene("--glb", DesignResult(shown, tree=made.tree))
+
+
+def _show(call: CallOutputs, shown: Report, workshop: "Workshop | None") -> None:
+    """The report and the files on the terminal."""
     if call.quiet:
-        note_verdict(found_report.all_checks)
+        note_verdict(shown.all_checks)
     else:
-        show(found_report)
-        call.show_files({"--report": "report", "--animation": "animation", "--csv": "table"})
+        show(shown)
+        call.show_files({"--report": "report", "--animation": "animation", "--glb": "in space", "--csv": "table"})
         if workshop is not None:
             say(f"workshop: {workshop.summary}")
-    for warning in (*found_report.warnings, *(workshop.notes if workshop else ())):
+    for warning in (*shown.warnings, *(workshop.notes if workshop else ())):
         note(warning)
-    return exit_code(found_report.all_checks)
 
 
 def _fixed(texts: tuple[str, ...]) -> dict[str, str]:

@@ -20,6 +20,9 @@ animation_option = click.option(
     callback=lambda _context, _option, path: checked_animation(path),
     help="Write the machine in motion; MP4 needs the extra video.",
 )
+issue_option = click.option(
+    "--issue", "issued", metavar="REVISION,DATE", help="Revision and date of issue on the drawings."
+)
 rates_option = click.option(
     "--rates",
     type=click.Path(path_type=Path),
@@ -44,3 +47,10 @@ picture_option = click.option(
     help="Draw the carpet as far as it is woven, with its faults marked.",
 )
 force_option = click.option("--force", is_flag=True, help="Replace a folder that ilmek wrote, and any file.")
+
+
+def require_options(*options: tuple[str, str | None, str, Path | None]) -> None:
+    """Raise UsageError for an option without the output that it belongs to: option, value, that output, its path."""
+    for option, given, needed, path in options:
+        if given is not None and path is None:
+            raise click.UsageError(f"{option} needs {needed}")

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -41,18 +42,13 @@ Limits: file 1,000 MB; stops file 250 kB; journal 4,000 MB; 10,000 knots of a gr
 def command(
     *,
     programme: Path,
-    speed: str,
-    journal: Path | None,
-    new: bool,
-    commit: int | None,
-    faults: str | None,
     stops: Path | None,
     settings: tuple[str, ...],
-    operator: str,
     picture: Path | None,
     record: Path | None,
     force: bool,
     json_to: str | None,
+    **run_order: Any,
 ) -> int:
     """Weave PROGRAMME on the simulated loom, knot by knot, under the controller with its journal.
 
@@ -62,17 +58,7 @@ def command(
 
     Exit code 0: the carpet is complete and equal to the chart; 3: a knot is wrong, or the run ended before.
     """
-    order = read_run_order(
-        programme,
-        speed,
-        journal,
-        new=new,
-        commit=commit,
-        faults=faults,
-        stops=stops,
-        settings=read_settings(settings),
-        operator=operator,
-    )
+    order = read_run_order(programme, stops=stops, settings=read_settings(settings), **run_order)
     require_png(picture)
     order = replace(order, record=record is not None)
     to = {"--json": json_to, "--picture": picture, "--record": record}

@@ -3,6 +3,7 @@
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -77,18 +78,12 @@ def command(
     key: Path | None,
     anonymous_read: bool,
     start: bool,
-    speed: str,
-    journal: Path | None,
-    new: bool,
-    commit: int | None,
-    faults: str | None,
-    stops: Path | None,
     settings: tuple[str, ...],
-    operator: str,
     add_user_name: str | None,
     right: str,
     nodeset: Path | None,
     force: bool,
+    **run_order: Any,
 ) -> int:
     """Weave PROGRAMME on the simulated loom as `ilmek run` does, with an OPC UA server beside it.
 
@@ -107,18 +102,8 @@ def command(
         with call_outputs({"--nodeset": nodeset}, force=force, inputs={"PROGRAMME": programme}) as call:
             call.give("--nodeset", lambda: nodeset_text(programme))
         return 0
-    run_order = read_run_order(
-        programme,
-        speed,
-        journal,
-        new=new,
-        commit=commit,
-        faults=faults,
-        stops=stops,
-        settings=read_settings(settings),
-        operator=operator,
-    )
-    _serve(replace(run_order, start=start, serves=True), checked_order(order))
+    run = read_run_order(programme, settings=read_settings(settings), **run_order)
+    _serve(replace(run, start=start, serves=True), checked_order(order))
     return 0
 
 

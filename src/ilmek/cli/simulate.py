@@ -1,6 +1,7 @@
 """`ilmek simulate`: a programme woven in time, with stops at stated rates."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -75,21 +76,16 @@ def _show_parameters(context: click.Context, _option: click.Parameter, value: bo
 def command(
     *,
     file: Path,
-    seed: int,
-    seeds: int,
     stops: Path | None,
     settings: tuple[str, ...],
-    without_faults: bool,
-    deadline: str | None,
     loom: Path | None,
     out: Path | None,
     number: int | None,
     animation_to: Path | None,
     shown: str | None,
-    workers: int | None,
-    cluster: str | None,
     force: bool,
     json_to: str | None,
+    **runs: Any,
 ) -> int:
     """Weave a programme, FILE.ilmek or its text, in time, with faults, the operator and planned stops.
 
@@ -103,14 +99,9 @@ def command(
         file,
         stops=stops,
         settings=read_settings(settings),
-        without_faults=without_faults,
-        deadline=deadline,
-        seed=seed,
-        seeds=seeds,
         loom=loom,
-        workers=workers,
-        cluster=cluster,
         row=None if number is None else number - 1,
+        **runs,
     )
     with call_outputs({"--json": json_to, "--animation": animation_to}, force=force, inputs=inputs) as call:
         found = simulate(order, out, rows=shown == "rows", outputs=call.outputs, progress=call.progress)

@@ -47,6 +47,22 @@ class FlatMember:
     safety: float = 2.0
 
 
+@record
+class FlatShape:
+    """A flat piece of a body, as its file describes it: all within a radius of the hull of its points [m].
+
+    points     in the body's frame: one of a disc, two of a bar, the corners of a plate
+    radius     of a disc, half the width of a bar, 0 of a plate      bore  radius of a hole in its middle; 0: none
+    thickness  across the plane of motion [m]      material  name in `ilmek.elements.materials`
+    """
+
+    points: tuple[complex, ...]
+    radius: float
+    thickness: float
+    material: str
+    bore: float = 0.0
+
+
 @dataclass(frozen=True, slots=True)
 class PinMember:
     """A pin as a machine element.
@@ -149,6 +165,8 @@ class OwnMachine:
     servo      input for which a motor of the catalogue is chosen; None: none
     paths      (body, point) of each point whose path is drawn and listed; (): all points that are no joints
     transmission  pins at which the transmission angle is listed; (): every free pin of a dyad
+    shapes     body -> the pieces whose inertia it has, where its file gives them with thickness and material
+    open_masses  moving bodies whose mass the file does not give: that of their parts, once they are made
 
     Raises MechanismError for a value of another kind.
 
@@ -170,6 +188,8 @@ class OwnMachine:
     servo: str | None = None
     paths: tuple[tuple[str, str], ...] = ()
     transmission: tuple[str, ...] = ()
+    shapes: Mapping[str, tuple[FlatShape, ...]] = field(default_factory=dict)
+    open_masses: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         given = Arguments("a machine", MechanismError)

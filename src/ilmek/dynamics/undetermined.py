@@ -193,6 +193,6 @@ class _Response:
     def _responds(self, pull: ForceAndMoment) -> bool:
         return self._any((np.abs(pull.force) > RESPONSE) | (np.abs(pull.moment) > RESPONSE * self.poses.length))
 
-    def _any(self, samples: BoolArray) -> bool:
+    def _any(self, samples: BoolArray | np.bool_) -> bool:
         """Whether a comparison holds at any sample that is solved."""
         return bool(np.any(np.asarray(samples) & (self.poses.motion.status == Status.OK)))

@@ -11,7 +11,6 @@ pretension of each side: at the least pretension the slack side has no force, th
 import math
 from dataclasses import dataclass
 
-from ilmek.elements.catalogue import pick
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity, mm
 
@@ -178,11 +177,6 @@ class BeltDrive:
         return sum(self.radii)
 
 
-def find_belt(name: str) -> BeltType:
-    """The profile of a name. Raises ParameterError with the nearest name for an unknown one."""
-    return pick(BELTS, name, "belt")
-
-
 def belt_length(belt: BeltType, small: int, large: int, distance: float) -> float:
     """Length [m] of a belt on two pulleys, by their teeth, at a distance of axes [m].
 
@@ -197,12 +191,3 @@ def belt_length(belt: BeltType, small: int, large: int, distance: float) -> floa
         )
     angle = math.asin((second - first) / distance)
     return 2 * distance * math.cos(angle) + math.pi * (first + second) + 2 * angle * (second - first)
-
-
-def belt_at(belt: BeltType, small: int, large: int, distance: float) -> BeltDrive:
-    """The drive with the whole number of teeth nearest to a required distance of axes [m]; the exact one is `distance`.
-
-    >>> round(belt_at(BELTS["HTD 5M"], 20, 40, 0.2).distance, 5)
-    0.19936
-    """
-    return BeltDrive(belt, small, large, round(belt_length(belt, small, large, distance) / belt.pitch))

@@ -7,7 +7,7 @@ its ratio, Jm the rotor's inertia; the reducer's inertia is neglected. The heati
 M², the drive's current the largest M.                                      [derived here from the equation of motion]
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -136,11 +136,12 @@ def size_motor(
     *,
     margin: float = MARGIN,
     inertia_ratio: float = INERTIA_RATIO,
+    best: Callable[[ServoDrive], float] = lambda drive: drive.duty.rms,
 ) -> ServoDrive | None:
     """The motor of least power in `MOTORS` that is sufficient with one of the reducers; None if none is.
 
     kind  "stepper" or "servo"; default: either      margin, inertia_ratio  as for `bears`
-    Of several sufficient reducers the one with the least rms torque is chosen.
+    best  what is least of the chosen one of several sufficient reducers; default: the rms torque
     """
     ratios = np.array([reducer.ratio for reducer in reducers])[:, None]
     loads = np.stack([reducer.input_torque(cycle.effort, cycle.speed) for reducer in reducers])
@@ -157,7 +158,7 @@ def size_motor(
             ]
             able = [one for one in drives if bears(motor, one.duty, margin=margin, inertia_ratio=inertia_ratio)]
             if able:
-                return min(able, key=lambda one: one.duty.rms)
+                return min(able, key=best)
     return None
 
 

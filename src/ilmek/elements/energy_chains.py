@@ -94,9 +94,14 @@ def _rows(line: str) -> list[EnergyChain]:
     ]
 
 
-ENERGY_CHAINS = tuple(row for line in _ROWS.strip().split("\n") for row in _rows(line))
-"""Inner height and width, outer ones, and pitch that makers have in common, within some millimetres; mass and free
-length within a fifth."""
+ENERGY_CHAINS = tuple(
+    sorted(
+        (row for line in _ROWS.strip().split("\n") for row in _rows(line)),
+        key=lambda row: (row.loop[0], row.line_mass),
+    )
+)
+"""The least loop first, then the lightest. Inner height and width, outer ones, and pitch that makers have in common,
+within some millimetres; mass and free length within a fifth."""
 
 
 def width_needed(row: EnergyChain, lines: Sequence[ChainLines]) -> float:
@@ -114,9 +119,8 @@ def chain_for(lines: Sequence[ChainLines], widest: float = math.inf) -> EnergyCh
     largest that has room where none does.
     """
     offered, bend = [row for row in ENERGY_CHAINS if row.outer[0] <= widest * (1 + 1e-9)], bend_needed(lines)
-    offered = offered or [*ENERGY_CHAINS[:1]]
-    enough = [row for row in offered if bend <= row.radius and width_needed(row, lines) <= row.inner[0]]
-    return min(enough, key=lambda row: (row.loop[0], row.line_mass), default=max(offered, key=_capacity))
+    enough = (row for row in offered if bend <= row.radius and width_needed(row, lines) <= row.inner[0])
+    return next(enough, None) or max(offered or ENERGY_CHAINS[:1], key=_capacity)
 
 
 def _capacity(row: EnergyChain) -> tuple[float, float]:

@@ -33,13 +33,3 @@ def nose_buckling(thickness: RealField, height: RealField, cosine: RealField, mo
     21.69
     """
     return WEDGE * modulus * thickness**3 * cosine / (6 * height)
-
-
-def least_nose_thickness(force: float, height: float, cosine: float, modulus: float) -> float:
-    """Least thickness [m] of a nose that does not buckle under a force [N]; arguments as in `nose_buckling`.
-
-    >>> t = least_nose_thickness(10.0, 0.06, 0.9, 200e9)
-    >>> round(float(nose_buckling(t, 0.06, 0.9, 200e9)), 9)
-    10.0
-    """
-    return float((6 * force * height / (WEDGE * modulus * cosine)) ** (1 / 3))

@@ -41,7 +41,7 @@ from ilmek.errors import MechanismError
 from ilmek.io.data_text import DataText, parse_data, plain_data, read_data
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
-from ilmek.io.mechanism.masses import check_link, flat_member, inertia_of, pin_members, sections_of
+from ilmek.io.mechanism.masses import STATED, check_link, flat_member, inertia_of, pin_members, sections_of, shapes_of
 from ilmek.io.mechanism.mechanism import mechanism_of
 from ilmek.io.mechanism.motions import motions_of
 from ilmek.io.mechanism.names import parts_of
@@ -161,6 +161,8 @@ def _machine(data: Table, source: SourceText) -> OwnMachine:
         servo_of(data.get("servo"), mechanism, source),
         paths_of(data.get("paths", ()), mechanism, source),
         transmission_of(data.get("transmission", ()), parts, source),
+        {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
+        frozenset(name for name in mechanism.moving if not data["bodies"][name].keys() & STATED),
     )
 
 

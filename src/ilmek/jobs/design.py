@@ -119,10 +119,10 @@ def design_machine(
         linkage = None if machine.mechanism is None else machine.mechanism(designed)
         made_of_links = machine.mechanism is None or linkage is not None  # without a solution there is nothing to make
         loom = designed if machine.name == LOOM else None
-        files = None
+        files, tree = None, None if machine.tree is None else machine.tree(designed)
         if write is not None and made_of_links:
-            files = write(report, _papers(machine, designed, report), progress=files_progress)
-        tree = None if machine.tree is None else machine.tree(designed)
+            together = tree if linkage is not None else None
+            files = write(report, _papers(machine, designed, report), tree=together, progress=files_progress)
         return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
 
 

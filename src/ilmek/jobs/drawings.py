@@ -1,4 +1,4 @@
-"""The book of drawings of a design: a sheet for every made part, and the list of all parts before them."""
+"""The book of drawings of a design: the list of all parts, the assemblies, and a sheet for every made part."""
 
 import importlib
 from collections.abc import Mapping
@@ -8,24 +8,30 @@ from pathlib import Path
 
 from ilmek.io.drawings.dxf import write_sheet_dxf
 from ilmek.io.drawings.pdf import write_sheets_pdf
+from ilmek.part.assemblies import AssemblyUnit, assembly_of
+from ilmek.part.tree import Tree
 from ilmek.progress import Progress
 from ilmek.records import JsonObject
 from ilmek.report import Plate, Report, WorkPiece
 from ilmek.report.left_out import made_or_left_out
 from ilmek.report.sheet import DrawingSheet, Issue
+from ilmek.sentences import DEFAULT, LANGUAGES, Sentence, in_language, translated
 from ilmek.units import counted
+from ilmek.viz.drawings.assembly import assembly_sheets
 from ilmek.viz.drawings.compose import sheets_of
-from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
+from ilmek.viz.drawings.drawn_part import drawn_piece, drawn_plate
 from ilmek.viz.drawings.index import index_sheets, part_rows
 from ilmek.viz.drawings.projector import Projector
 
-BOOK = "drawings.pdf"
+BOOK, ASSEMBLY = "drawings.pdf", "assembly"
+"""File of the book; kind of entries of sheets of assemblies."""
 
 
 def write_drawings(  # noqa: PLR0917
     report: Report,
     plates: Mapping[str, Plate],
     pieces: Mapping[str, WorkPiece],
+    tree: object,
     work: Path,
     left_out: list[str],
     issue: Issue,
@@ -33,21 +39,30 @@ def write_drawings(  # noqa: PLR0917
 ) -> list[JsonObject]:
     """Write the sheets of plates and pieces by the names of their files, and the book. Returns entries of the index.
 
+    tree  of which the assemblies are drawn; None: of none
     Parts whose sheet needs the CAD kernel are left out without it, with one note. Raises OSError, Cancelled.
     """
     parts = [drawn_plate(plate, report.machine, name) for name, plate in plates.items()]
     parts += [drawn_piece(piece, report.machine, name) for name, piece in pieces.items()]
-    if not parts:
+    assembled = tree if isinstance(tree, Tree) else Tree()
+    if not (parts or assembled.bodies):
         return []
     issue = replace(issue, unreleased=bool(report.failed))
     project, entries, book = _projector(), list[JsonObject](), list[DrawingSheet]()
     without = 0
+    assemblies = tuple(assembly_of(assembled, report.title).every) if assembled.bodies else ()
+    for number, assembly in enumerate(assemblies):
+        progress(0.3 * number / len(assemblies))
+        drawn = partial(_assembly_sheets, assembled, assembly, issue)
+        for sheet in made_or_left_out(f"assembly {assembly.drawing!r}", drawn, left_out) or ():
+            entries.append(_sheet(sheet, f"assembly-{assembly.number}", work) | {"kind": ASSEMBLY})
+            book.append(sheet)
     for number, part in enumerate(parts):
-        progress(number / len(parts))
+        progress(0.3 + 0.7 * number / len(parts))
         sheets = made_or_left_out(f"sheet of {part.number!r}", partial(sheets_of, part, issue, project), left_out)
         without += sheets == ()
         for sheet in sheets or ():
-            entries.append(_sheet(sheet, part, work))
+            entries.append(_sheet(sheet, part.name, work))
             book.append(sheet)
     if without:
         sheets_of_sums = counted(
@@ -55,19 +70,36 @@ def write_drawings(  # noqa: PLR0917
         )
         left_out.append(f"{sheets_of_sums} left out: pip install 'ilmek[step]'")
     first = index_sheets(report, part_rows(report, parts), issue)
-    write_sheets_pdf(work / BOOK, (*first, *book), f"Drawings: {report.title}")
+    whole = {"kind": "drawings", "of": report.machine, "title": report.title, "sheets": len(first) + len(book)}
+    for language in LANGUAGES:
+        with in_language(language):
+            title = translated(Sentence("sheet.book", title=report.title))
+            write_sheets_pdf(work / book_file(language), (*first, *book), title)
+        entries.append({"file": book_file(language), **whole, "language": language})
     progress(1.0)
-    whole = {"file": BOOK, "kind": "drawings", "of": report.machine, "title": report.title}
-    return [*entries, {**whole, "sheets": len(first) + len(book)}]
+    return entries
 
 
-def _sheet(sheet: DrawingSheet, part: DrawnPart, work: Path) -> JsonObject:
-    file = f"{part.name}.sheet.dxf" if sheet.page == 1 else f"{part.name}.sheet-{sheet.page}.dxf"
+def book_file(language: str) -> str:
+    """The book in a language: as pages of papers have it.
+
+    >>> book_file("en"), book_file("tr")
+    ('drawings.pdf', 'drawings.tr.pdf')
+    """
+    return BOOK if language == DEFAULT else f"{Path(BOOK).stem}.{language}.pdf"
+
+
+def _assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> tuple[DrawingSheet, ...]:
+    return tuple(drawn.sheet for drawn in assembly_sheets(tree, assembly, issue))
+
+
+def _sheet(sheet: DrawingSheet, name: str, work: Path) -> JsonObject:
+    file = f"{name}.sheet.dxf" if sheet.page == 1 else f"{name}.sheet-{sheet.page}.dxf"
     write_sheet_dxf(work / file, sheet)
     return {
         "file": file,
         "kind": "sheet",
-        "of": part.name,
+        "of": name,
         "title": sheet.title,
         "drawing": sheet.number,
         "paper": sheet.paper,

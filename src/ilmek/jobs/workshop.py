@@ -18,8 +18,10 @@ from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
 from ilmek.io.schema import Table
 from ilmek.jobs.drawings import write_drawings
+from ilmek.jobs.machine_space import machine_file
 from ilmek.jobs.workshop_papers import PAPER_KINDS, write_index, write_papers
 from ilmek.part.plates import tolerated
+from ilmek.part.tree import Tree
 from ilmek.plane.contours import area
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
@@ -93,7 +95,8 @@ class Workshop:
         drawn = [f"{kinds.count(kind)} {kind.upper()}" for kind in ("dxf", "step") if kind in kinds]
         more = {
             "cam table": sum(kind in FORMATS for kind in kinds),
-            "sheet": kinds.count("sheet"),
+            "sheet": kinds.count("sheet") + kinds.count("assembly"),
+            "file in space": kinds.count("space"),
             "paper": len({entry["title"] for entry in self.entries if entry["kind"] in PAPER_KINDS}),
         }
         parts = ", ".join((*drawn, *(counted(number, what) for what, number in more.items() if number)))
@@ -163,6 +166,7 @@ def write_workshop(
     tolerance: Tolerance | None = None,
     *,
     papers: Papers = NO_PAPERS,
+    tree: Tree | None = None,
     outputs: Outputs | None = None,
     force: bool = False,
     issue: Issue = UNDATED,
@@ -171,6 +175,7 @@ def write_workshop(
     """Write the report's plates, pieces, drawings and cam tables into a folder, with papers and an index.
 
     tolerance  of the cam tables; default: see `SHARE`
+    tree       its parts in space, for one file of them at rest (STEP) and one in motion (GLB); default: none
     outputs    of the caller, who commits them; default: committed here
     force      replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     issue      owner, date and revision on the drawings
@@ -192,8 +197,10 @@ def write_workshop(
             *_files(tables, lambda table, name: tuple(_table_files(table, work, name, allowed)), work, left_out),
         ]
         cut = {name: plate for name, plate in plates.items() if (work / f"{name}.dxf").is_file()}
-        files += write_drawings(report, cut, pieces, work, left_out, issue, progress.part(0.5, 1.0, "drawings"))
+        drawn = progress.part(0.5, 1.0, "drawings")
+        files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
         judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
+        files += _in_space(tree, report, work) if tree is not None else ()
         files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})
@@ -284,6 +291,17 @@ def _piece_files(piece: WorkPiece, work: Path, name: str) -> Iterator[dict[str, 
         "volume": read,
         "volume_error": off,
     }
+
+
+def _in_space(tree: Tree, report: Report, work: Path) -> Iterator[dict[str, Json]]:
+    """The parts of a tree together: in motion as GLB, at rest as a STEP assembly where its writer is installed."""
+    kinds = {"--glb": ("assembly.glb", "GLB, in motion")}
+    if _step() is not None:
+        kinds["--step"] = ("assembly.step", "STEP AP242")
+    for option, (file, words) in kinds.items():
+        content = machine_file(option, tree, report)
+        (work / file).write_bytes(content.encode() if isinstance(content, str) else content)
+        yield {"file": file, "kind": "space", "of": report.machine, "title": report.title, "format": words}
 
 
 def _step() -> ModuleType | None:

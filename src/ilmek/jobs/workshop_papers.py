@@ -23,6 +23,9 @@ from ilmek.viz.drawings.paper import scale_words
 PAPER_KINDS = ("page", "list")
 """Kinds of entries of papers: a page for people in a language, a list as CSV."""
 
+DRAWING_KINDS = ("drawings", "assembly", "sheet")
+"""Kinds of entries of drawings, in the order of the index."""
+
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
     """The papers of a design of a machine with its report; none of a machine without parts.
@@ -35,7 +38,7 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
         return NO_PAPERS
     tree = machine.tree(design)
     pages = tree_manual(tree, widest_view(tree), Sentence("joint.how")), spares_of(tree)
-    return Papers(tuple(page for page in pages if page is not None), part_lists(tree, PRICES))
+    return Papers(tuple(page for page in pages if page is not None), part_lists(tree, PRICES), tree=tree)
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:
@@ -69,10 +72,13 @@ def write_index(report: Report, papers: Papers, entries: Iterable[JsonObject], w
                 for table in papers.lists
             ],
             Sentence("paper.drawings"): [
-                _drawing(entry) for kind in ("drawings", "sheet") for entry in files if entry["kind"] == kind
+                _drawing(entry)
+                for kind in DRAWING_KINDS
+                for entry in files
+                if entry["kind"] == kind and entry.get("language", language) == language
             ],
-            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("dxf", "step")],
-            Sentence("paper.motions"): [_file(entry) for entry in files if "format" in entry],
+            Sentence("paper.shapes"): [_file(entry) for entry in files if entry["kind"] in ("space", "dxf", "step")],
+            Sentence("paper.motions"): [_file(entry) for entry in files if "points" in entry and "format" in entry],
         }
         text = index_page(report.title, groups, report.reasons, language)
         file = page_file(INDEX_PAGE, language)

@@ -155,16 +155,6 @@ class SwivelledArm:
         return _turned(_arccosine(cosine), float(np.angle(self.swivel - self.pivot)), self.side)
 
 
-def mirrored_path(path: ArmPath) -> ArmPath:
-    """The mirror image of a path about an upright line: theta becomes pi - theta.
-
-    >>> zero = np.zeros((1, 2))
-    >>> mirrored_path(ArmPath(np.zeros(1), zero, zero + 1, zero, zero)).theta.round(3).tolist()
-    [[3.142, 3.142]]
-    """
-    return ArmPath(path.s, np.pi - path.theta, -path.first, -path.second, -path.third)
-
-
 def _arccosine(cosine: Jet) -> Jet:
     """The arc cosine of a jet; NaN beyond ±1."""
     c, c1, c2, c3 = cosine

@@ -151,8 +151,12 @@ def row_counts(edges: IntArray, heads: int) -> Int64[np.ndarray, "2 heads phases
 
 def least_row(edges: IntArray, heads: int, times: Times) -> float:
     """Least time of a row [s]: wefts, and the knots of the widest part of each half."""
-    widest = np.diff(edges).reshape(heads, halves(heads)).max(axis=0)
-    return times.weft + float(widest.sum()) * times.knot
+    return times.weft + knots_in_turn(edges, heads) * times.knot
+
+
+def knots_in_turn(edges: IntArray, heads: int) -> float:
+    """Knots of a row that are tied one after the other: those of the widest part of each half."""
+    return float(np.diff(edges).reshape(heads, halves(heads)).max(axis=0).sum())
 
 
 @compiled

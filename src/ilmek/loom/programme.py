@@ -22,7 +22,7 @@ from ilmek.errors import LoomError
 from ilmek.loom.account import HeadWork
 from ilmek.loom.bobbins import Bobbin, stop_time
 from ilmek.loom.operations import Stop
-from ilmek.loom.planner import ROUNDING, CarpetPlanner, least_row
+from ilmek.loom.planner import ROUNDING, CarpetPlanner, knots_in_turn
 from ilmek.loom.sharing import MOST_HEADS, require_whole, share
 from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import TubePlan, YarnSupply, most_colours, plan_tubes
@@ -171,7 +171,15 @@ def weaving_time(
 
 def least_time(rows: int, columns: int, heads: int, times: Times, bobbins: Sequence[Bobbin] = ()) -> float:
     """Weaving time [s] without colour changes and idle travel: the lower bound for a chart of this size."""
-    return rows * least_row(share(columns, heads), heads, times) + stop_time(bobbins, rows)
+    return least_times(rows, columns, heads, (times,), bobbins)[0]
+
+
+def least_times(
+    rows: int, columns: int, heads: int, times: Sequence[Times], bobbins: Sequence[Bobbin] = ()
+) -> list[float]:
+    """The same with each of some times."""
+    knots, stops = knots_in_turn(share(columns, heads), heads), stop_time(bobbins, rows)
+    return [rows * (each.weft + knots * each.knot) + stops for each in times]
 
 
 def least_heads(

@@ -53,6 +53,9 @@ ENTRIES = {
     "tufting": Entry(
         "needle six-bar of a tufting machine: motion, torques of both shafts, forces, friction of the backing"
     ),
+    "tufting-machine": Entry(
+        "tufting machine for a carpet: needle drives, loopers, proof of the loop, torsion of the shafts, production"
+    ),
     "knotting-four-bar": Entry(
         "four-bar with a gripper on its coupler, from links or three poses, one side or two on gears"
     ),

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from ilmek.machines.component import Component, itself
 from ilmek.machines.four_bar_figures import own_machine
-from ilmek.machines.four_bar_tree import four_bar_tree
+from ilmek.machines.four_bar_tree import four_bar_tree, made_checks
 from ilmek.machines.loom_task import P
 from ilmek.progress import Progress
 from ilmek.report import Check, Figure, Table
@@ -39,7 +39,7 @@ def four_bar_machine(
         results=lambda made: (made, made.choice),
         reported=(kind, FourBarSelection),
         headline=("found", "left_out", "candidates"),
-        checks=selection_report.checks,
+        checks=lambda made: (*selection_report.checks(made), *made_checks(name, made)),
         self_tests=self_tests,
         tables=tables,
         figures=figures,

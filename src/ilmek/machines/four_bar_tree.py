@@ -1,4 +1,4 @@
-"""The four-bar that a synthesis draws, as a tree of bodies: crank, coupler and rocker on a plate that stands."""
+"""The four-bar that a synthesis draws, as it is made: its construction and its tree, and whether it can be made."""
 
 from functools import lru_cache
 
@@ -6,49 +6,61 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.animation import frames
-from ilmek.elements.materials import MATERIALS
-from ilmek.elements.plates import PIN_SHARE
-from ilmek.linkage.model import GROUND
+from ilmek.dynamics.own_machine import FlatMember, OwnMachine
+from ilmek.errors import IlmekError
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
 from ilmek.machines.four_bar_figures import crank_range
-from ilmek.machines.link_tree import Levels, LinkSize, linkage_parts, linkage_tree
+from ilmek.machines.own_linkage.construction import Construction, construction
+from ilmek.machines.own_linkage.report import construction_checks
+from ilmek.machines.own_linkage.sizes import MATERIAL, THICKNESS_SHARE, THIN
+from ilmek.machines.own_linkage.tree import own_tree
 from ilmek.part.tree import Tree
+from ilmek.report import Check, at_most
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.four_bar import LinkLengths
 from ilmek.synthesis.selection import FourBarDesign, FourBarTaskParams
-from ilmek.units import mm
-
-WIDTH_SHARE, SLENDER, WIDE = 0.2, 4 * mm, 40 * mm
-"""Width of a link that is not given: a fifth of the shortest one, within these bounds."""
-
-THICKNESS_SHARE = 1 / 3
-"""Thickness of a link that is not given, over its width."""
-
-STEEL = MATERIALS["structural steel"]
-
-LEVELS = ((GROUND,), ("crank", "rocker"), ("coupler",))
 
 
-@lru_cache(maxsize=8)
 def four_bar_tree(machine: str, design: FourBarDesign) -> Tree:
-    """The bodies of the solution that is drawn, at its first position; none without one.
+    """The bodies of the solution that is drawn, at its first position; none without one, or without room for its pins.
 
     machine  first part of the ids
     """
+    built = _built(machine, design)
+    return own_tree(built) if isinstance(built, Construction) else Tree()
+
+
+def made_checks(machine: str, design: FourBarDesign) -> tuple[Check, ...]:
+    """Whether the solution that is drawn can be made: layers in depth, room for its pins; none without one."""
+    built = _built(machine, design)
+    if isinstance(built, Construction):
+        return construction_checks(built)
+    cure = "require longer links, or make them yourself: --to writes the linkage"
+    return (at_most("links too short for their pins", 1, 0, "1", built).with_cure(cure),) if built else ()
+
+
+@lru_cache(maxsize=8)
+def _built(machine: str, design: FourBarDesign) -> Construction | str:
+    """The construction, or why there is none; "" without a solution."""
     if design.best is None:
-        return Tree()
+        return ""
     found = design.best.candidate
-    mechanism, size = found.four_bar.mechanism(), _size(design.params, found.four_bar.lengths)
-    levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
-    return linkage_tree(linkage_parts(machine, mechanism, levels), solve(plan(mechanism), _angles(found)))
+    mechanism = found.four_bar.mechanism()
+    member = _member(design.params)
+    own = OwnMachine(mechanism, members=dict.fromkeys(mechanism.moving, member) if member else {})
+    try:
+        return construction(own, solve(plan(mechanism), _angles(found)), name=machine)
+    except IlmekError as error:
+        return str(error)
 
 
-def _size(params: FourBarTaskParams, lengths: LinkLengths) -> LinkSize:
-    shortest = min(lengths.crank, lengths.coupler, lengths.rocker)
-    width = params.link_width or min(max(WIDTH_SHARE * shortest, SLENDER), WIDE)
-    thickness = params.link_thickness or THICKNESS_SHARE * width
-    return LinkSize(width, thickness, PIN_SHARE * width, STEEL)
+def _member(params: FourBarTaskParams) -> FlatMember | None:
+    """The section of the links; None: by the shortest of them."""
+    width, thickness = params.link_width, params.link_thickness
+    if width is None and thickness is None:
+        return None
+    width = width or (thickness or 0.0) / THICKNESS_SHARE
+    return FlatMember(width, thickness or max(THICKNESS_SHARE * width, THIN), MATERIAL)
 
 
 def _angles(candidate: Candidate) -> FloatArray:

@@ -5,75 +5,51 @@ A kind fixes the dimension and the unit that a value is shown in; `unit` chooses
 
 from collections.abc import Callable
 from dataclasses import field
-from typing import Any, Protocol, runtime_checkable
+from typing import Any, Protocol, TypedDict, Unpack
 
 from ilmek.params.parameter import Value
 from ilmek.units import parse_unit
 
 
-def param(
-    default: Value,
-    *,
-    unit: str = "",
-    above: float | None = None,
-    at_least: float | None = None,
-    below: float | None = None,
-    at_most: float | None = None,
-    choices: tuple[str, ...] = (),
-    doc: str,
-    symbol: str = "",
-    alias: str = "",
-) -> Any:
+class Declared(TypedDict, total=False):
+    """What a declaration may state of a parameter beside its default and its meaning."""
+
+    unit: str
+    above: float | None
+    at_least: float | None
+    below: float | None
+    at_most: float | None
+    choices: tuple[str, ...]
+    symbol: str
+    alias: str
+
+
+def param(default: Value, *, doc: str, **more: Unpack[Declared]) -> Any:
     """Declare a parameter of any kind as the default of a field of `Params`.
 
     default              SI value; None: optional, `doc` then states what holds instead
+    doc                  meaning, a phrase without full stop
     unit                 in which it is shown
     above, below         bounds that are excluded [SI]     at_least, at_most  bounds that are included [SI]
-    choices              allowed texts                     doc      meaning, a phrase without full stop
-    symbol               of the literature                 alias    second name under which it can be set
+    choices              allowed texts                     symbol   of the literature
+    alias                second name under which it can be set
     """
-    return field(
-        default=default,
-        metadata=dict(
-            unit=unit,
-            above=above,
-            at_least=at_least,
-            below=below,
-            at_most=at_most,
-            choices=choices,
-            doc=doc,
-            symbol=symbol,
-            alias=alias,
-        ),
-    )
+    return field(default=default, metadata=dict(doc=doc, **more))
 
 
-@runtime_checkable
 class Kind(Protocol):
     """Declares a parameter of one dimension; arguments as of `param`."""
 
-    def __call__(  # noqa: D102
-        self,
-        default: float | None,
-        *,
-        unit: str = ...,
-        above: float | None = ...,
-        at_least: float | None = ...,
-        below: float | None = ...,
-        at_most: float | None = ...,
-        doc: str,
-        symbol: str = ...,
-        alias: str = ...,
-    ) -> Any: ...
+    def __call__(self, default: float | None, *, doc: str, **more: Unpack[Declared]) -> Any: ...  # noqa: D102
 
 
 def _kind(usual: str) -> Kind:
     dimension = parse_unit(usual).dimension
 
-    def declare(default: float | None, *, unit: str = usual, **more: Any) -> Any:
-        if parse_unit(unit).dimension != dimension:
+    def declare(default: float | None, *, doc: str, **more: Unpack[Declared]) -> Any:
+        if parse_unit(unit := more.setdefault("unit", usual)).dimension != dimension:
             raise TypeError(f"{unit} is not a unit of the same dimension as {usual}")
-        return param(default, unit=unit, **more)
+        return param(default, doc=doc, **more)
 
     return declare
 

@@ -37,15 +37,15 @@ class Parameter:
     name: str
     kind: type
     default: Value
-    unit: str
-    above: float | None
-    at_least: float | None
-    below: float | None
-    at_most: float | None
-    choices: tuple[str, ...]
     doc: str
-    symbol: str
-    alias: str
+    unit: str = ""
+    above: float | None = None
+    at_least: float | None = None
+    below: float | None = None
+    at_most: float | None = None
+    choices: tuple[str, ...] = ()
+    symbol: str = ""
+    alias: str = ""
 
     def read(self, setting: Setting) -> Value:
         """The value of a setting: a number is SI, a text is read with its unit.

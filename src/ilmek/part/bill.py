@@ -1,5 +1,6 @@
 """The parts list of a tree: a line for each part, with the number of its pieces and the joints that they bring."""
 
+from collections.abc import Container
 from dataclasses import replace
 
 from ilmek.part.making import steps_of
@@ -13,10 +14,14 @@ _CONTACT = Joints(contacts=1.0)
 _WITHOUT = (JointKind.FIXED, JointKind.MISSING)
 
 
-def bill(tree: Tree) -> tuple[BillLine, ...]:
-    """The lines of the parts list, in the order of the bodies."""
+def bill(tree: Tree, parts: Container[str] | None = None) -> tuple[BillLine, ...]:
+    """The lines of the parts list, in the order of the bodies; parts: ids of those that are listed, default: all."""
     joints = _joints(tree)
-    return tuple(_with_joints(line_of(part, number), joints.get(part.id)) for part, number in tree.occurrences())
+    return tuple(
+        _with_joints(line_of(part, number), joints.get(part.id))
+        for part, number in tree.occurrences()
+        if parts is None or part.id in parts
+    )
 
 
 def _with_joints(line: BillLine, joints: Joints | None) -> BillLine:

@@ -14,7 +14,7 @@ from ilmek.elements.springs import CompressionSpring
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, shape_box, stepped, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
@@ -93,7 +93,8 @@ def length_of(part: Part) -> float:
 def face_of(part: Part) -> float:
     """Width of a motor or reducer [m]."""
     assert part.shape is not None
-    return float(np.ptp(np.concatenate(part.shape.pieces(1 * mm))[:, 0]))
+    low, high = shape_box(part.shape)
+    return float(high[0] - low[0])
 
 
 def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ...] = ()) -> Part:

@@ -110,6 +110,28 @@ def _apart(own: _Piece, its: _Piece, gap: float) -> float:
     return gap_between(own.collider, its.collider, back @ its.position.rotation, moved, gap)
 
 
+@record
+class Touch:
+    """A contact of two parts that move together: ids, and its middle in the axes of each [m]."""
+
+    part: str
+    other: str
+    middle: Float[np.ndarray, " 3"]
+    other_middle: Float[np.ndarray, " 3"]
+
+
+def touches(tree: Tree, names: frozenset[str]) -> Iterator[Touch]:
+    """The contacts among the pieces of some parts that move together; the middle is that of what their boxes share."""
+    pieces = tuple(piece for piece in _pieces(tree) if piece.part in names)
+    boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
+    for one, two in _near(boxes, TOUCHING).tolist() if pieces else ():
+        own, its = pieces[one], pieces[two]
+        if own.rigid == its.rigid and _apart(own, its, TOUCHING) <= TOUCHING:
+            shared = np.maximum(boxes[one, 0], boxes[two, 0]) + np.minimum(boxes[one, 1], boxes[two, 1])
+            middles = [piece.position.inverse.points(shared / 2) for piece in (own, its)]
+            yield Touch(own.part, its.part, *middles)
+
+
 def open_parts(tree: Tree) -> tuple[str, ...]:
     """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
     shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.elements.making import BENDING, COATING, GRINDING, HARDENING, LASER, MILLING, SAWING, TURNING, WELDING
 from ilmek.elements.materials import Material
 from ilmek.part.part import Part
@@ -132,17 +133,21 @@ def seam_length(shape: Shape) -> float:
     """Length of the joints between the members of a sum [m]: the perimeters of what their boxes share, where it is
     flat.
     """
+    return sum(2 * float(np.sort(high - low)[1:].sum()) for low, high in seams(shape))
+
+
+def seams(shape: Shape) -> Iterator[tuple[FloatArray, FloatArray]]:
+    """What the boxes of two members of a sum share, where it is flat: its least and greatest x, y, z [m]."""
     boxes = [
         shape_box(member) if position is IDENTITY else shape_box(Sum((Placed(member, (position,)),)))
         for members in _members(shape)
         for member, position in members
     ]
-    seams = 0.0
     for (low, high), (other_low, other_high) in combinations(boxes, 2):
-        shared = np.sort(np.minimum(high, other_high) - np.maximum(low, other_low))
+        begin, end = np.maximum(low, other_low), np.minimum(high, other_high)
+        shared = np.sort(end - begin)
         if abs(shared[0]) < _TOUCHES < shared[1]:
-            seams += 2 * float(shared[1] + shared[2])
-    return seams
+            yield begin, end
 
 
 def _milled(shape: Shape, material: Material) -> Steps:

@@ -125,14 +125,17 @@ def _pairs(
 
 def _joint(bore: _Placed, inner: _Placed) -> tuple[JointKind, str]:
     """How two features move in each other, and the id of the body that does; of both where they stand."""
-    common = sum(1 for one, other in zip(bore.chain, inner.chain, strict=False) if one == other)
-    moving = [
-        link for chain in (inner.chain, bore.chain) for link in chain[common:] if link.body.joint.kind not in _STANDING
-    ]
-    if not moving and (bore.turning or inner.turning):
-        return JointKind.PIN, inner.chain[-1].name
+    joint, body = _relative(bore.chain, inner.chain)
+    turning = joint is JointKind.FIXED and (bore.turning or inner.turning)
+    return (JointKind.PIN if turning else joint), body
+
+
+def _relative(chain: Chain, inner: Chain) -> tuple[JointKind, str]:
+    """How the ends of two chains move in each other, and the id of the body that does."""
+    common = sum(1 for one, other in zip(chain, inner, strict=False) if one == other)
+    moving = [link for own in (inner, chain) for link in own[common:] if link.body.joint.kind not in _STANDING]
     if not moving:
-        return JointKind.FIXED, inner.chain[-1].name
+        return JointKind.FIXED, inner[-1].name
     kinds = {link.body.joint.kind for link in moving}
     return JointKind.PIN if kinds & _TURNING else JointKind.SLIDE, moving[-1].name
 
@@ -147,8 +150,9 @@ GUIDES = frozenset({"linear guide", "guide carriage", "linear axis"})
 
 @record
 class GuideSeat:
-    """The face of a made part that a bought guide sits on.
+    """The face of a made part that a bought guide sits on, or that slides on the face of another part.
 
+    guide  the other part      slides  one moves along the other
     position  in the part's own axes: the middle of what both cover, z out of the part      length  of that [m]
     """
 
@@ -157,6 +161,41 @@ class GuideSeat:
     body: str
     position: Placement
     length: float
+    slides: bool = False
+
+
+def slide_seats(tree: Tree) -> tuple[GuideSeat, ...]:
+    """The faces on which made parts of different bodies slide on each other at rest, each once."""
+    stands, seats = _made_once(tree), dict[tuple[str, ...], GuideSeat]()
+    boxes = np.array([_box(part, lies) for part, lies, _ in stands]).reshape(-1, 2, 3)
+    sliding = [k for k, (_, _, chain) in enumerate(stands) if chain[-1].body.joint.kind is JointKind.SLIDE]
+    for k in sliding:
+        near = (boxes[:, 0] <= boxes[k, 1] + _FLUSH).all(1) & (boxes[k, 0] <= boxes[:, 1] + _FLUSH).all(1)
+        for j in np.flatnonzero(near).tolist():
+            if _relative(stands[k][2], stands[j][2])[0] is JointKind.SLIDE:
+                for (part, lies, _), (other, there, _) in ((stands[k], stands[j]), (stands[j], stands[k])):
+                    for middle, length in _covered(part, lies, other, there):
+                        seat = GuideSeat(part, other, stands[k][2][-1].name, middle, length, slides=True)
+                        seats.setdefault((part.id, other.id, str(np.round(middle.origin / SAME))), seat)
+    return tuple(seats.values())
+
+
+def _made_once(tree: Tree) -> list[tuple[Part, Placement, Chain]]:
+    """The made parts of each body with their first positions, where they stand."""
+    stands: list[tuple[Part, Placement, Chain]] = []
+    for chain in chains(tree):
+        here = poses(chain, "", np.zeros(1))
+        body = Placement(here.origin[0], here.rotation[0])
+        still = (own for own in chain[-1].body.occurrences if own.part.material is not None and not own.turning)
+        stands += [(own.part, body.after(own.positions[0]), chain) for own in still]
+    return stands
+
+
+def _box(part: Part, lies: Placement) -> Float[np.ndarray, "2 3"]:
+    """Least and largest x, y, z of the plane faces of a part that stands at a position; of none nowhere."""
+    corners = [face.corners for face in faces_of(part.shape, lies)] if part.shape is not None else []
+    points = np.concatenate(corners) if corners else np.full((1, 3), np.nan)
+    return np.stack([points.min(0), points.max(0)])
 
 
 def guide_seats(tree: Tree) -> tuple[GuideSeat, ...]:

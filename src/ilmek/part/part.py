@@ -15,6 +15,9 @@ from ilmek.part.shapes import Shape
 from ilmek.records import record
 from ilmek.report import Plate
 
+PITCH, CUTTER, ZERO = "pitch curve", "cutter path", "zero"
+"""Names of a cam's paths, of its roller and of the cutter, and of the mark of its angle 0."""
+
 
 @record
 class Bought:
@@ -45,6 +48,22 @@ class Seat:
 
 
 @record
+class CamMaking:
+    """How a disc cam is cut and checked.
+
+    cutter, largest_cutter  radius that its path is for, and least hollow radius of the profile [m]; inf: convex
+    tolerance  of its radii at each degree, ± [m]      spare  acceleration of the follower that it adds at most [m/s²]
+    speed      at which that is so [rad/s]; above 0 the cam turns counter-clockwise about z
+    """
+
+    cutter: float
+    largest_cutter: float
+    tolerance: float
+    spare: float
+    speed: float
+
+
+@record
 class Part:
     """A kind of thing: what it is, how it is made, of what, and where others sit on it.
 
@@ -55,6 +74,8 @@ class Part:
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
     paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
     notes     what else the workshop must know: fits, a keyway's standard
+    cam       how a disc cam is cut; None: it is none
+    throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
@@ -74,6 +95,8 @@ class Part:
     marks: Mapping[str, ComplexArray] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     drawing: Plate | None = None
+    cam: CamMaking | None = None
+    throat: float = 0.0
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

@@ -12,6 +12,7 @@ import numpy as np
 
 from ilmek.elements.hexagon_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
+from ilmek.part.assemblies import drawings_of_parts
 from ilmek.part.bill import line_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.part import Part
@@ -44,18 +45,21 @@ def part_lists(tree: Tree, prices: Mapping[str, PriceRates]) -> tuple[Table, ...
 
 
 def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
-    """A row for each part: its number is its position in the list, its drawing that of its id where it is made."""
+    """A row for each part: its number is its position in the list, its drawing that of its id where it is made, its
+    assemblies the drawings of those that it is put into.
+    """
     heads = columns(
-        "number | id | title | drawing | quantity | make or buy | size | material | process | mass of one [kg] 6"
-        " | price of all | designation"
+        "number | id | title | drawing | assemblies | quantity | make or buy | size | material | process"
+        " | mass of one [kg] 6 | price of all | designation"
     )
-    rows = []
+    rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
         line, bought = line_of(part, number), part.purchase
         source = ("", "make") if bought is None else (bought.row, "buy")
         drawing = part.id if bought is None else ""
         material = part.material.designation if part.material else ""
-        made = position, part.id, part.title, drawing, number, source[1], line.description, material, part.process
+        into = " ".join(assemblies[part.id])
+        made = position, part.id, part.title, drawing, into, number, source[1], line.description, material, part.process
         rows.append((*made, part.mass, price_of(line, prices), source[0]))
     return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 

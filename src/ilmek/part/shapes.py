@@ -305,8 +305,12 @@ def stepped(*steps: tuple[float, float]) -> Turned:
     for diameter, length in steps:
         _require_above_zero("a step's diameter", diameter)
         _require_above_zero("a step's length", length)
-        corners += [z + 0.5j * diameter, z + length + 0.5j * diameter]
+        if corners[-1].imag == diameter / 2:  # it goes on as the step before it
+            del corners[-1]
+        else:
+            corners.append(z + 0.5j * diameter)
         z += length
+        corners.append(z + 0.5j * diameter)
     return Turned(Profile(polygon(np.array([*corners, complex(z)]))))
 
 

@@ -33,6 +33,7 @@ class FitDuty(StrEnum):
     FIXED = "is fixed"
     SCREWED = "takes a screw"
     GUIDING = "seats a guide"
+    SLIDING = "slides on a face"
 
 
 class Characteristic(StrEnum):

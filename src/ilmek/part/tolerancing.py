@@ -11,6 +11,7 @@ which follows from the joint between them [`meetings`]; both parts read it from 
                                        grub screws and of a freewheel h6; housing H7, of a freewheel N7
     end of a screw                     thread 6H
     face under a bought guide          flat
+    faces that slide on each other     flat
 
 Sources: DIN 6885-1 (light fit), ISO 4379 (bushes), ISO 965-1 (threads); rolling bearings of the class Normal under
 normal loads: SKF, Rolling bearings, tables of fits, of roughness and of geometrical tolerances of seats, IT5 / 2 of a
@@ -30,7 +31,7 @@ from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
 from ilmek.elements.keyways import Keyway
 from ilmek.errors import ParameterError
 from ilmek.part.features import FeatureOfSize, features_of_size
-from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings
+from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
@@ -86,7 +87,7 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
         if one.seat.part.material is not None:
             tolerance = journals[key] if key in journals else _bore(one, journals)
             features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
-    for seat in guide_seats(tree):
+    for seat in (*guide_seats(tree), *slide_seats(tree)):
         features[seat.part.id].append(_face(seat))
     return {part: tuple(_related(_named(own))) for part, own in features.items()}
 
@@ -183,6 +184,7 @@ _ROUGH = {
     FitDuty.FIXED: 1.6 * um,
     FitDuty.SCREWED: 3.2 * um,
     FitDuty.GUIDING: 1.6 * um,
+    FitDuty.SLIDING: 0.8 * um,
 }
 """Ra by duty [m]; a bore in which a journal runs is twice as rough."""
 
@@ -224,8 +226,10 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
 
 
 def _face(seat: GuideSeat) -> ToleratedFeature:
-    """The face under a guide."""
-    flat = max(_FLAT * seat.length, _LEAST_FLAT)
+    """The face under a guide, or on which a part slides."""
+    flat = round(max(_FLAT * seat.length, _LEAST_FLAT), 6)
+    duty = FitDuty.SLIDING if seat.slides else FitDuty.GUIDING
+    reason = "what slides bears on all of its face" if seat.slides else "a guide takes the form of its seat"
     return ToleratedFeature(
         part=seat.part.id,
         name="",
@@ -236,9 +240,9 @@ def _face(seat: GuideSeat) -> ToleratedFeature:
         tolerance="",
         lower=0.0,
         upper=0.0,
-        roughness=_ROUGH[FitDuty.GUIDING],
-        duty=FitDuty.GUIDING,
-        geometric=(GeometricTolerance(Characteristic.FLATNESS, flat, reason="a guide takes the form of its seat"),),
+        roughness=_ROUGH[duty],
+        duty=duty,
+        geometric=(GeometricTolerance(Characteristic.FLATNESS, flat, reason=reason),),
         mates=(seat.guide.id,),
         joint=seat.body,
     )

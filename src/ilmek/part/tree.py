@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments, together
-from ilmek.part.part import Part, Seat
+from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion
@@ -137,8 +137,9 @@ class Tree:
             if body.parent not in ids:
                 raise ParameterError(f"body {body.id!r} on {body.parent!r}", allowed="a body before it, or the ground")
             ids.add(body.id)
+        ids.remove(GROUND)
         for name in (name for closure in self.closures for name in closure.bodies):
-            if name not in ids - {GROUND}:
+            if name not in ids:
                 raise ParameterError(f"a loop closed at {name!r}", allowed="bodies of the tree")
         parts: dict[str, Part] = {}
         for body in self.bodies:
@@ -195,18 +196,15 @@ class Tree:
 
     def carrying(self, parent: str, tree: "Tree", position: Placement = IDENTITY) -> "Tree":
         """The tree with another on one of its bodies: the ground of the other at a position in that body's frame."""
-        carried = (
-            replace(body, parent=parent, positions=tuple(position.after(own) for own in body.positions))
-            if body.parent == GROUND
-            else body
-            for body in tree.bodies
-        )
-        return Tree((*self.bodies, *carried), (*self.closures, *tree.closures))
+        return Tree((*self.bodies, *tree.bodies_on(parent, position)), (*self.closures, *tree.closures))
 
-
-def mated(own: Seat, other: Seat) -> Placement:
-    """Where a part lies in another's frame when a seat of it meets a seat of the other: origins and axes as one."""
-    return other.position.after(own.position.inverse)
+    def bodies_on(self, parent: str, position: Placement = IDENTITY) -> Iterator[RigidBody]:
+        """Its bodies with its ground at a position in the frame of a parent."""
+        for body in self.bodies:
+            if body.parent != GROUND or (parent == GROUND and position is IDENTITY):
+                yield body
+            else:
+                yield replace(body, parent=parent, positions=tuple(position.after(own) for own in body.positions))
 
 
 def in_line(parts: Sequence[Part], begin: float, at: complex = 0j) -> tuple[Occurrence, ...]:

@@ -80,11 +80,13 @@ class Papers:
     """The papers of a machine: pages for people, in each language, and lists for other programs.
 
     checks  what was judged for them, beside the checks of the report
+    tree  of the package `part`, of which the assemblies are drawn; None: none
     """
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
     checks: tuple[Check, ...] = ()
+    tree: object = None
 
 
 NO_PAPERS = Papers()

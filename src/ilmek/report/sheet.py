@@ -23,6 +23,11 @@ class LineKind(StrEnum):
     PATH = "path"
     FRAME = "frame"
     BREAK = "break"
+    TOLERANCE = "tolerance"
+    TEXTURE = "texture"
+    WELD = "weld"
+    CONTOUR = "contour"
+    LEADER = "leader"
 
 
 LINE_WIDTHS = {
@@ -34,8 +39,15 @@ LINE_WIDTHS = {
     LineKind.PATH: 0.25,
     LineKind.FRAME: 0.7,
     LineKind.BREAK: 0.25,
+    LineKind.TOLERANCE: 0.25,
+    LineKind.TEXTURE: 0.25,
+    LineKind.WELD: 0.35,
+    LineKind.CONTOUR: 0.35,
+    LineKind.LEADER: 0.18,
 }
-"""Width of each kind of line [mm]; ISO 128-2, group 0.5; of the frame ISO 5457."""
+"""Width of each kind of line [mm]; ISO 128-2, group 0.5, contours and leaders of assemblies 0.35; of the frame ISO
+5457.
+"""
 
 LINE_DASHES: dict[LineKind, tuple[float, ...]] = {
     LineKind.HIDDEN: (3.0, 0.75),

@@ -99,6 +99,19 @@ def translated(text: str) -> str:
     return template.format(**{name: translated(value) for name, value in text.values.items()})
 
 
+def spoken(text: str) -> tuple[str, ...]:
+    """A text in each language, each wording once.
+
+    >>> spoken("120cm"), len(spoken(Sentence("sheet.mass"))) == len(LANGUAGES)
+    (('120cm',), True)
+    """
+    texts = []
+    for language in LANGUAGES:
+        with in_language(language):
+            texts.append(translated(text))
+    return tuple(dict.fromkeys(texts))
+
+
 def catalogue_of(language: str) -> Mapping[str, str]:
     """The sentences of a language by their keys."""
     name = LANGUAGES[language]

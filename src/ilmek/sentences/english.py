@@ -1,6 +1,7 @@
 """The sentences in English."""
 
 from ilmek.sentences.papers_english import PAPERS
+from ilmek.sentences.sheets_english import SHEETS
 
 ENGLISH = {
     "place.file": "{file}",
@@ -195,4 +196,5 @@ ENGLISH = {
     "recipe.give-grid": 'give columns x rows, like grid = "300x450"',
     "hint.did-you-mean": "did you mean {name!r}?",
     **PAPERS,
+    **SHEETS,
 }  # fmt: skip

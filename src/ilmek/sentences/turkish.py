@@ -1,6 +1,7 @@
 """The sentences in Turkish, as the pages of the studio say them: options have the names that the pages give them."""
 
 from ilmek.sentences.papers_turkish import PAPERS
+from ilmek.sentences.sheets_turkish import SHEETS
 
 TURKISH = {
     "place.file": "{file}",
@@ -195,4 +196,5 @@ TURKISH = {
     "recipe.give-grid": 'sütun x satır verin, örneğin grid = "300x450"',
     "hint.did-you-mean": "{name!r} mi demek istediniz?",
     **PAPERS,
+    **SHEETS,
 }  # fmt: skip

@@ -46,9 +46,11 @@ class FourBarTaskParams(Filters):
         1, at_least=1, at_most=1000, doc="number of the solution that is drawn and moved, from 1, the best"
     )
     link_width: float | None = kind.length(
-        None, above=0.0, doc="width of the links' plates; default: a fifth of the shortest link, 4 to 40 mm"
+        None, above=0.0, doc="width of the links' plates; default: a fifth of the shortest link, 6 to 40 mm"
     )
-    link_thickness: float | None = kind.length(None, above=0.0, doc="their thickness; default: a third of the width")
+    link_thickness: float | None = kind.length(
+        None, above=0.0, doc="their thickness; default: a third of the width, at least 3 mm"
+    )
 
     def filters(self) -> Filters:
         """The filters alone."""

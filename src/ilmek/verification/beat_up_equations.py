@@ -24,7 +24,7 @@ from ilmek.synthesis.crank_rocker.dead_centres import (
 )
 from ilmek.units import deg
 from ilmek.verification.beat_up_table import SWING
-from ilmek.verification.claim import RESIDUAL, UNSOUND, Claim, Computation, residual
+from ilmek.verification.claim import RESIDUAL, UNSOUND, Claim, equation, residual
 
 SMALL, LARGE = (105.5, 179.0), (181.0, 284.5)
 """Crank rotations below and above 180 deg that are tested [deg]."""
@@ -65,10 +65,7 @@ def claims() -> tuple[Claim, ...]:
     )
 
 
-def _equation(
-    number: str, printed: str, compute: Computation, note: str = "", mended: Computation | None = None
-) -> Claim:
-    return Claim("beat-up", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended)
+_equation = partial(equation, "beat-up", "Eq {}")
 
 
 def _members(turns: tuple[float, float]) -> tuple[LinkRatios, DeadCentres]:

@@ -84,6 +84,25 @@ class Claim:
         return parse_unit(self.unit.replace(" ", "*")).factor
 
 
+def equation(  # noqa: PLR0917 - a paper's own rows name them by position
+    paper: str,
+    section: str,
+    item: str,
+    printed: str,
+    compute: Computation,
+    note: str = "",
+    mended: Computation | None = None,
+    *,
+    slips: tuple[str, ...] = (),
+) -> Claim:
+    """An equation of a paper by its residual; the section of a numbered one is followed by its number.
+
+    section  its name, or its number, after which `{}` stands for the item: `2.1.3, Eq {}`
+    """
+    name = f"Eq {item}" if "{}" in section else item
+    return Claim(paper, name, printed, RESIDUAL, compute, section.format(item), note, mended=mended, slips=slips)
+
+
 def residual(left: RealField | ComplexField, right: RealField | ComplexField) -> float:
     """Greatest difference of two sides, relative to the larger magnitude; 0 if both vanish, NaN if one is NaN."""
     gap, size = np.max(np.abs(np.subtract(left, right))), np.max(np.maximum(np.abs(left), np.abs(right)))

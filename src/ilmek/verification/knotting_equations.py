@@ -3,7 +3,7 @@
 The ground lies at 180° - theta0; the crank turns at a constant speed.
 """
 
-from functools import cache
+from functools import cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.knotting_four_bar.model import closing_ground, mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.units import deg, mm
-from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import Claim, equation, residual
 
 
 class ReportPoses(NamedTuple):
@@ -66,18 +66,7 @@ def claims() -> tuple[Claim, ...]:
     return (*_diagonal(), *_closure(), *_speed())
 
 
-def _equation(
-    item: str,
-    printed: str,
-    compute: Computation,
-    note: str = "",
-    mended: Computation | None = None,
-    *,
-    slips: tuple[str, ...] = (),
-) -> Claim:
-    return Claim(
-        "knotting", item, printed, RESIDUAL, compute, "3, kinematic analysis", note, mended=mended, slips=slips
-    )
+_equation = partial(equation, "knotting", "3, kinematic analysis")
 
 
 def _diagonal() -> tuple[Claim, ...]:

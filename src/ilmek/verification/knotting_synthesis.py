@@ -13,7 +13,7 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.synthesis.dyad import Lengths, TwoLinkArm, dyads_through_poses, four_bar
 from ilmek.units import deg
-from ilmek.verification.claim import RESIDUAL, UNSOUND, Claim, Computation, Step, residual
+from ilmek.verification.claim import UNSOUND, Claim, Computation, Step, equation, residual
 
 Three: TypeAlias = Float[np.ndarray, "3"]
 
@@ -87,16 +87,7 @@ def _residual_of_poses(F: Three, square: int = -1) -> float:
     return max(worst)
 
 
-def _equation(
-    item: str,
-    printed: str,
-    compute: Computation,
-    note: str = "",
-    mended: Computation | None = None,
-    *,
-    slips: tuple[str, ...] = (),
-) -> Claim:
-    return _claim(item, printed, RESIDUAL, compute, "2, synthesis", note, mended=mended, slips=slips)
+_equation = partial(equation, "knotting", "2, synthesis")
 
 
 def _equations() -> tuple[Claim, ...]:

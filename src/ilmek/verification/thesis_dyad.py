@@ -4,10 +4,12 @@ The thesis mixes two choices of lam1, lam2. With lam1 = P1 P4 and lam2 = P1 P5 i
 printed; the 1/2 of the later ones belongs to lam1 = P2, lam2 = P3.
 """
 
+from functools import partial
+
 import numpy as np
 
 from ilmek.verification import thesis_arm as arm
-from ilmek.verification.claim import COUNT, RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import COUNT, Claim, equation, residual
 from ilmek.verification.thesis_arm import HALF_TOO_MUCH, WHOLE
 
 
@@ -16,18 +18,7 @@ def claims() -> tuple[Claim, ...]:
     return (*_loop(), *_error_function(), *_superposition(), *_elimination())
 
 
-def _equation(
-    number: str,
-    printed: str,
-    compute: Computation,
-    note: str = "",
-    mended: Computation | None = None,
-    *,
-    slips: tuple[str, ...] = (),
-) -> Claim:
-    return Claim(
-        "thesis", f"Eq {number}", printed, RESIDUAL, compute, f"2.1.3, Eq {number}", note, mended=mended, slips=slips
-    )
+_equation = partial(equation, "thesis", "2.1.3, Eq {}")
 
 
 def _loop() -> tuple[Claim, ...]:

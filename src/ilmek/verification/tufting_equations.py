@@ -17,7 +17,7 @@ from ilmek.machines.tufting.model import TuftingState, evaluate, inertias, mecha
 from ilmek.plane.vectors import cross
 from ilmek.records import record
 from ilmek.units import deg
-from ilmek.verification.claim import RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import Claim, equation, residual
 
 ANGLES = np.linspace(0.0, 2 * np.pi, 41)[:-1] + 3 * deg
 BODIES = ("crank", "coupler", "rocker", "arm", "rod")
@@ -42,18 +42,7 @@ def claims() -> tuple[Claim, ...]:
     return (*_kinematics(), *_centres(), *_forces(), *_balances())
 
 
-def _equation(
-    number: str,
-    printed: str,
-    compute: Computation,
-    note: str = "",
-    mended: Computation | None = None,
-    *,
-    slips: tuple[str, ...] = (),
-) -> Claim:
-    return Claim(
-        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
-    )
+_equation = partial(equation, "tufting", "Eq {}")
 
 
 @cache

@@ -15,7 +15,7 @@ from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import TuftingParams
 from ilmek.machines.tufting.model import inertias, mechanism, move
 from ilmek.units import turn
-from ilmek.verification.claim import COUNT, RESIDUAL, Claim, Computation, residual
+from ilmek.verification.claim import COUNT, Claim, equation, residual
 from ilmek.verification.tufting_equations import BODIES, sample
 
 SAMPLES = 128
@@ -27,18 +27,7 @@ def claims() -> tuple[Claim, ...]:
     return (*_inertia(), *_systems(), *_columns())
 
 
-def _equation(
-    number: str,
-    printed: str,
-    compute: Computation,
-    note: str = "",
-    mended: Computation | None = None,
-    *,
-    slips: tuple[str, ...] = (),
-) -> Claim:
-    return Claim(
-        "tufting", f"Eq {number}", printed, RESIDUAL, compute, f"Eq {number}", note, mended=mended, slips=slips
-    )
+_equation = partial(equation, "tufting", "Eq {}")
 
 
 def _inertia() -> tuple[Claim, ...]:

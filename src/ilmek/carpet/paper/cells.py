@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from ilmek.arrays import BoolArray, Complex, Float, FloatArray, Rgb
+from ilmek.arrays import BoolArray, Complex, Float, FloatArray, Rgb, UInt8
 from ilmek.carpet.paper.lattice import SAMPLES, Lattice, divided, rectified, window
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
 from ilmek.carpet.paper.placing import RINGS
@@ -167,7 +167,7 @@ def _whole_grid(rgb: Rgb, energy: LineEnergy, lattice: Lattice) -> tuple[Lattice
     return lattice, lines, seen, rows, columns
 
 
-def _steady(samples: Rgb) -> tuple[FloatArray, FloatArray]:
+def _steady(samples: UInt8[np.ndarray, "rows columns samples 3"]) -> tuple[FloatArray, FloatArray]:
     """Mean and range of lightness of the half of the samples that are nearest together, of each cell."""
     codes = samples.astype(np.float32)
     light = codes @ np.array([0.299, 0.587, 0.114], dtype=np.float32)

@@ -14,7 +14,7 @@ I are the codes of sRGB: a power of the light, so that a product of light is a p
 import numpy as np
 import scipy
 
-from ilmek.arrays import BoolArray, Float, FloatArray, Indices, UInt8
+from ilmek.arrays import BoolArray, Float, FloatArray, Indices, IntArray, UInt8
 from ilmek.carpet.colour import RGB_TO_XYZ, decode, xyz_to_lab
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.records import record
@@ -141,7 +141,7 @@ def _smoothed(off: FloatArray, sure: BoolArray, before: FloatArray) -> FloatArra
     return np.asarray(before + moved / (weight + 0.05))
 
 
-def _grouped(lab: Float[np.ndarray, "cells 3"]) -> tuple[Float[np.ndarray, "colours 3"], Indices]:
+def _grouped(lab: Float[np.ndarray, "cells 3"]) -> tuple[Float[np.ndarray, "colours 3"], IntArray]:
     """The densest colours, most cells first, and the number of the nearest for each cell."""
     keys = np.floor(lab / _BIN).astype(np.int64)
     bins, of_bin, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)

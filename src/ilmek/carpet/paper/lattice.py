@@ -15,7 +15,7 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from ilmek.arrays import Float, FloatArray
+from ilmek.arrays import ComplexArray, Float, FloatArray, Num
 from ilmek.carpet.paper.lines import LineEnergy, levelled, no_grid
 from ilmek.carpet.paper.tiles import SIDE, STEP, Spectra, continued, spectra, tiles
 from ilmek.records import record
@@ -241,7 +241,7 @@ def _corrected(lattice: Lattice, energy: LineEnergy) -> Lattice:
     return replace(lattice, first=first, shift=before + np.clip(added, -0.3, 0.3))
 
 
-def _smooth_phase(blocks: FloatArray, samples: FloatArray) -> FloatArray:
+def _smooth_phase(blocks: ComplexArray, samples: Num[np.ndarray, "..."]) -> FloatArray:
     """The phases [cycles] of blocks of so many samples, those without lines from the blocks nearest to them."""
     clear = np.abs(blocks) > _LEAST_COHERENCE * np.maximum(samples, 1)
     if not clear.any():
@@ -252,7 +252,7 @@ def _smooth_phase(blocks: FloatArray, samples: FloatArray) -> FloatArray:
     return np.asarray(-np.angle(smooth[rows, columns]) / (2 * np.pi))
 
 
-def _blocks(amplitude: FloatArray) -> FloatArray:
+def _blocks(amplitude: Num[np.ndarray, "rows columns"]) -> Num[np.ndarray, "..."]:
     """The sums over blocks of _BLOCK × _BLOCK cells, the last ones as far as they go."""
     rows, columns = amplitude.shape
     padded = np.pad(amplitude, ((0, -rows % _BLOCK), (0, -columns % _BLOCK)))

@@ -11,7 +11,7 @@ halfway between.
 import numpy as np
 import scipy
 
-from ilmek.arrays import Float, Float32, FloatArray, Indices, Rgb
+from ilmek.arrays import Float, Float32, FloatArray, IntArray, Rgb
 from ilmek.errors import PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -109,7 +109,7 @@ def _gradient(rgb: Rgb) -> Energy:
     return made.astype(np.float32)
 
 
-def _reduced(energy: Energy, factor: int) -> Energy:
+def _reduced(energy: Energy, factor: int) -> Float32[np.ndarray, "coarse_height coarse_width"]:
     """The means of blocks of factor × factor."""
     if factor == 1:
         return energy
@@ -206,7 +206,7 @@ def _combs(lags: Float[np.ndarray, " lags"], long: int) -> Float[np.ndarray, "la
     return combs[:, :long]
 
 
-def _first_peaks(scores: Float[np.ndarray, "pieces lags"]) -> Indices:
+def _first_peaks(scores: Float[np.ndarray, "pieces lags"]) -> IntArray:
     """The first local maximum that is nearly the highest: heavy lines repeat at a multiple of the pitch."""
     inner = scores[:, 1:-1]
     high = inner >= _NEARLY * scores.max(axis=1, keepdims=True)

@@ -6,7 +6,7 @@ k parts give the k-th harmonic, over its neighbours: those of the heavy line alo
 
 import numpy as np
 
-from ilmek.arrays import BoolArray, Float, Indices, Rgb
+from ilmek.arrays import BoolArray, Float, IntArray, Rgb
 from ilmek.carpet.paper.lattice import Lattice
 from ilmek.carpet.paper.lines import HEAVY, LEAST_PITCH
 
@@ -29,7 +29,7 @@ def parts(rgb: Rgb, lattice: Lattice, pitch: float) -> int:
     return int(numbers[both.argmax()]) if both.any() else 1
 
 
-def _outstanding(profile: Float[np.ndarray, " samples"], numbers: Indices) -> BoolArray:
+def _outstanding(profile: Float[np.ndarray, " samples"], numbers: IntArray) -> BoolArray:
     """Whether the harmonic of each number stands out."""
     amplitudes = np.abs(np.fft.rfft(profile)) / len(profile)
     own, before, after = amplitudes[numbers], amplitudes[numbers - 1], amplitudes[numbers + 1]

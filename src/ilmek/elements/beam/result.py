@@ -7,7 +7,6 @@ position and extremes are exact: extremes are at ends of pieces or at zeros of t
 All values are complex like the loads (see `model`). [Gere and Goodno, Mechanics of Materials, 9.2 to 9.4]
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -89,17 +88,6 @@ class BeamResult:
     def deflection_max(self, rigidity: float) -> BeamExtreme:
         """Largest deflection [m] for a rigidity E I [N m²]."""
         return self._extreme(_DEFLECTION, 1 / rigidity)
-
-    def rigidity_for(self, *, slope: float = math.inf, deflection: float = math.inf) -> float:
-        """Least E I [N m²] for an allowed slope at the supports [rad] and an allowed deflection [m].
-
-        >>> from ilmek.elements.beam.model import LineLoad
-        >>> from ilmek.elements.beam.solve import bend
-        >>> bent = bend(Beam(2.0, (0.0, 2.0), (LineLoad(0.0, 2.0, 24.0),)))
-        >>> round(bent.rigidity_for(slope=0.008), 6), round(bent.rigidity_for(deflection=0.005), 6)
-        (1000.0, 1000.0)
-        """
-        return max(self.slope_at_supports(1.0).size / slope, self.deflection_max(1.0).size / deflection)
 
     def _at(self, x: RealField, order: int, factor: float) -> ComplexArray:
         x = np.asarray(x, dtype=float)

@@ -14,18 +14,21 @@ from ilmek.io.chart.printing import PrintCanvas, printed_file, write_stamp
 from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.plane.contours import STRAIGHT, arc_centre
 from ilmek.report.sheet import LINE_DASHES, LINE_WIDTHS, DrawingSheet, SheetLine, SheetText, arrowhead
+from ilmek.sentences import translated
 
 CAPITAL = 0.729
 """Height of a capital over the size of DejaVu Sans."""
 
 
 def write_sheets_pdf(path: Path, sheets: Iterable[DrawingSheet], title: str) -> None:
-    """Write sheets as the pages of a file. The same sheets give the same bytes. Raises OSError."""
+    """Write sheets as the pages of a file. Sentences in the language that is spoken. The same sheets give the same
+    bytes. Raises OSError.
+    """
     with printed_file(path, title) as canvas:
         for sheet in sheets:
             canvas.setPageSize((sheet.width * point_per_mm, sheet.height * point_per_mm))
             canvas.bookmarkPage(f"{sheet.number}-{sheet.page}")
-            canvas.addOutlineEntry(f"{sheet.number} {sheet.title}", f"{sheet.number}-{sheet.page}")
+            canvas.addOutlineEntry(f"{sheet.number} {translated(sheet.title)}", f"{sheet.number}-{sheet.page}")
             _draw(canvas, sheet)
             canvas.showPage()
 
@@ -34,7 +37,7 @@ def _draw(canvas: PrintCanvas, sheet: DrawingSheet) -> None:
     canvas.scale(point_per_mm, point_per_mm)
     canvas.setLineJoin(1)
     if sheet.stamp:
-        write_stamp(canvas, sheet.stamp, sheet.width, sheet.height)
+        write_stamp(canvas, translated(sheet.stamp), sheet.width, sheet.height)
     kinds: dict[object, list[SheetLine]] = {}
     for line in (*sheet.lines, *(line for one in sheet.dimensions for line in one.lines)):
         kinds.setdefault(line.kind, []).append(line)
@@ -66,7 +69,7 @@ def _write(canvas: PrintCanvas, text: SheetText) -> None:
     if text.angle:
         canvas.rotate(math.degrees(text.angle))
     draw = {"left": canvas.drawString, "center": canvas.drawCentredString, "right": canvas.drawRightString}
-    draw[text.anchor](0, 0, text.words)
+    draw[text.anchor](0, 0, translated(text.words))
     canvas.restoreState()
 
 

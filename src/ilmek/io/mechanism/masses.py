@@ -7,7 +7,7 @@ from typing import Any
 
 from ilmek.dynamics import shapes
 from ilmek.dynamics.inertia import Inertia, bar, combined, point_mass
-from ilmek.dynamics.own_machine import FlatMember, PinMember
+from ilmek.dynamics.own_machine import FlatMember, FlatShape, PinMember
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.materials import find_material
 from ilmek.errors import MechanismError
@@ -19,6 +19,9 @@ from ilmek.records import JsonObject
 
 LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
 """Bounds of sizes and allowed stresses of sections and pins [SI]."""
+
+STATED = frozenset({"mass", "centre", "moment"})
+"""Keys of a body's inertia."""
 
 Tables = Mapping[str, Table]
 """Name -> table, checked by the schema."""
@@ -65,7 +68,7 @@ def inertia_of(table: Table, body: Body, member: FlatMember | None) -> Inertia |
 
     Raises IlmekError for masses that are negative or given twice, and for shapes that cannot be.
     """
-    stated = table.keys() & {"mass", "centre", "moment"}
+    stated = table.keys() & STATED
     if "shapes" in table:
         if stated:
             raise MechanismError(f"{', '.join(sorted(stated))} and shapes are both given", do="leave one of them")
@@ -124,6 +127,22 @@ def _flat(table: Table, body: Body, thickness: float, density: float) -> Inertia
     if "ring" in table:
         return shapes.ring(table["outer"], table["inner"], thickness, density, at=_at(table["ring"], body))
     return shapes.plate([_at(one, body) for one in table["plate"]], thickness, density)
+
+
+def shapes_of(table: Table, body: Body) -> tuple[FlatShape, ...]:
+    """The shapes of a body that are given with thickness and material, which its parts are made by."""
+    made = (one for one in table.get("shapes", ()) if {"thickness", "material"} <= one.keys())
+    return tuple(_flat_shape(one, body) for one in made)
+
+
+def _flat_shape(table: Table, body: Body) -> FlatShape:
+    thickness, material = table["thickness"], find_material(table["material"]).name
+    if "bar" in table:
+        return FlatShape(tuple(_at(one, body) for one in table["bar"]), table["width"] / 2, thickness, material)
+    if "plate" in table:
+        return FlatShape(tuple(_at(one, body) for one in table["plate"]), 0.0, thickness, material)
+    middle, outer = (table["disc"], table["radius"]) if "disc" in table else (table["ring"], table["outer"])
+    return FlatShape((_at(middle, body),), outer, thickness, material, table.get("inner", 0.0))
 
 
 def _density(table: Table) -> float:

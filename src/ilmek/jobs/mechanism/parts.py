@@ -1,66 +1,47 @@
-"""What a mechanism of a file sends to the workshop and to a controller: its links as plates, its laws as cam tables."""
+"""What the making of a mechanism of a file depends on: its whole way; the laws of its inputs as cam tables."""
 
 from collections.abc import Iterator
 
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.own_machine import FlatMember, GivenMotion, OwnMachine
-from ilmek.elements.plates import PIN_SHARE, link_plate
-from ilmek.errors import ParameterError
-from ilmek.linkage.model import Body, Rotation
-from ilmek.report import CamTable, Plate
+from ilmek.dynamics.own_machine import GivenMotion, OwnMachine
+from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.model import Rotation
+from ilmek.linkage.motion import Motion
+from ilmek.linkage.solve import solve
+from ilmek.report import CamTable
 from ilmek.units import turn
 
-SAME = 1e-9
-"""Distance [m] below which two points of a body are one: several links on one pin."""
+SAMPLES = 360
+"""Steps of the way in which layers are searched."""
+
+BESIDE = 1e-6
+"""Distance of the ends of a way from a dead centre, over its length."""
 
 
-def plates(machine: OwnMachine) -> tuple[tuple[Plate, ...], tuple[str, ...]]:
-    """The links with a section as plates, bored at their points, and a note for each moving body without one.
-
-    A hole has its pin's diameter, or a third of the link's width. A link that is too slender for its holes has a note.
-    """
-    made: list[Plate] = []
-    notes: list[str] = []
-    for body in machine.mechanism.bodies:
-        member = machine.members.get(body.name)
-        if member is None or len(_points(body)) < 2:
-            continue
-        try:
-            made.append(_plate(machine, body, member))
-        except ParameterError as error:
-            notes.append(f"{body.name} has no plate: {error}")
-    without = [name for name in machine.mechanism.moving if name not in machine.members]
-    if without:
-        notes.append(f"no section, no plate: {', '.join(without)}; give width, thickness and material")
-    return tuple(made), tuple(notes)
+def full_travel(run: MechanismRun) -> Motion:
+    """The motion that a mechanism's parts must make: a turn, or its longest range that closes, there and back."""
+    if run.running is None:
+        return run.motion
+    if run.by_time or not run.others_rest:
+        return _closing(run)
+    start, stop = max(run.closing, key=lambda ends: abs(ends[1] - ends[0]))
+    if isinstance(run.running, Rotation) and abs(abs(stop - start) - turn) < BESIDE:
+        return solve(run.plan, run.at(np.linspace(start, stop, SAMPLES + 1)))
+    aside = BESIDE * (stop - start)
+    there = np.linspace(start + aside, stop - aside, SAMPLES // 2 + 1)
+    return solve(run.plan, run.at(np.concatenate([there, there[-2::-1]])))
 
 
-def _plate(machine: OwnMachine, body: Body, member: FlatMember) -> Plate:
-    pins = [(name, point - next(iter(_points(body).values()))) for name, point in _points(body).items()]
-    radii = {
-        name: machine.pins[name].diameter / 2 if name in machine.pins else PIN_SHARE * member.width / 2
-        for name, _ in pins
+def _closing(run: MechanismRun) -> Motion:
+    """The longest run of samples that close, there and back where its ends are apart."""
+    first, last = max(run.samples_that_close, key=lambda ends: ends[1] - ends[0])
+    drives = {
+        name: np.broadcast_to(drive.value, (len(run.motion),))[first : last + 1]
+        for name, drive in run.motion.drives.items()
     }
-    return link_plate(
-        body.name,
-        body.name.replace("_", " ").capitalize(),
-        pins,
-        hole_radius=radii,
-        width=member.width,
-        thickness=member.thickness,
-        material=member.material,
-    )
-
-
-def _points(body: Body) -> dict[str, complex]:
-    """The points of a body, of several at one position the first."""
-    apart: dict[str, complex] = {}
-    for name, point in body.points.items():
-        if all(abs(point - other) > SAME for other in apart.values()):
-            apart[name] = point
-    return apart
+    return solve(run.plan, {name: np.concatenate([values, values[-2::-1]]) for name, values in drives.items()})
 
 
 def cam_tables(machine: OwnMachine) -> tuple[CamTable, ...]:

@@ -1,13 +1,9 @@
 """The report of a mechanism: structure, mobility, motion, forces; checks, and tests of the computation."""
 
-from dataclasses import replace
-
 import numpy as np
 
-from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.figures import figures
-from ilmek.jobs.mechanism.parts import cam_tables, plates
 from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.jobs.mechanism.tables import tables
 from ilmek.linkage.mobility import mobility
@@ -40,12 +36,6 @@ def report(found: Analysis, *, drawn: bool = True) -> Report:
         warnings=found.warnings,
         headline=HEADLINE,
     )
-
-
-def with_parts(report: Report, machine: OwnMachine) -> Report:
-    """The report with the links as plates and the laws of the inputs as cam tables; what has none is a warning."""
-    links, notes = plates(machine)
-    return replace(report, plates=links, cam_tables=cam_tables(machine), warnings=(*report.warnings, *notes))
 
 
 def _structure(run: MechanismRun) -> tuple[Result, ...]:

@@ -22,8 +22,8 @@ from ilmek.jobs.loom_space import loom_glb
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.data import as_json, columns
+from ilmek.jobs.mechanism.making import made_mechanism
 from ilmek.jobs.mechanism.report import report as mechanism_report
-from ilmek.jobs.mechanism.report import with_parts
 from ilmek.jobs.mechanism.request import STEPS, MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.jobs.order import read_order
@@ -118,13 +118,14 @@ def _linkage(path: Path, target: Path, name: str, outputs: Outputs, progress: Pr
     _expect(target, name, outputs)
     write = workshop_writer(WorkshopOrder(target) if name == "parts" else None, outputs)
     moved = run(read_mechanism(path), MotionRequest({}, "", "", STEPS), progress.part(0.0, 0.6, "motion"))
-    found = analysis(moved, progress.part(0.6, 0.8, "report"))
+    reporting = progress.part(0.6, 0.8, "report")
+    if write is not None:
+        parts = made_mechanism(moved, reporting)
+        workshop = write(parts.report, parts.papers, tree=parts.tree)
+        return workshop.judged(parts.report).all_checks, (*parts.report.warnings, *workshop.notes)
+    found = analysis(moved, reporting)
     made = mechanism_report(found, drawn=name in ("page", "animation"))
     notes = list(made.warnings)
-    if write is not None:
-        workshop = write(with_parts(made, moved.machine))
-        notes += workshop.notes
-        made = workshop.judged(made)
     if name == "table":
         outputs.write(target, csv_text(columns(found), progress.part(0.8, 1.0, "table")))
     part = progress.part(0.8, 1.0)

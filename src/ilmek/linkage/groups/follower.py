@@ -8,7 +8,7 @@ within half a turn of `source_at`. [Willis, Principles of Mechanism: relative an
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -113,7 +113,7 @@ class CoupledFollower(Step):
         )
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as one body driven by another through a coupling, or None; None for a driven carrier too."""
         attached = find_attachments(group) if len(group.couplings) == 1 and not group.inputs else None
         if attached is None or len(attached) != 1:

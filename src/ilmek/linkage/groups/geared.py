@@ -6,7 +6,7 @@ Gear trains, belts, racks, planetary gears with any driven member. Angles count 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 from ilmek.linkage.body_jerk import BodyJerk
 from ilmek.linkage.body_motion import BodyMotion
@@ -68,7 +68,7 @@ class Geared(Step):
         return {body: found[body] for body in self.bodies}
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as bodies driven by the inputs through couplings, or None."""
         attached = find_attachments(group) if group.couplings else None
         if attached is None:

@@ -9,7 +9,7 @@ Computer-Aided Analysis of Mechanical Systems, chapter 3].
 
 from collections.abc import Callable, Mapping
 from dataclasses import field, replace
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -246,7 +246,7 @@ class GeneralGroup(Step):
         return body.direction, body.omega, alpha, body.anchor.position, body.anchor.velocity, acceleration
 
     @classmethod
-    def recognise(cls, group: Group) -> Self:
+    def recognise(cls, group: Group) -> Step:
         """Any group as a step for Newton's method, with every body's frame at its anchor."""
         at = anchors(group.mechanism)
         bodies = (

@@ -6,7 +6,7 @@ A module of this package has one kind of group: its formulas, the step that appl
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
@@ -79,7 +79,7 @@ class Step(ABC):
 
     @classmethod
     @abstractmethod
-    def recognise(cls, group: "Group") -> Self | None:
+    def recognise(cls, group: "Group") -> "Step | None":
         """The group as a step of this kind, or None.
 
         Raises MechanismError for a group of this kind that cannot be solved: without its branch, with a link of zero

@@ -10,7 +10,7 @@ guided by two slots. The dyad is at a dead centre where the lines are parallel: 
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
@@ -184,7 +184,7 @@ class CrossedSliders(Step):
         return 0.0 * cross(e, f)
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as a PRP dyad, or None. Raises MechanismError where both lines are parallel lines of one guide."""
         pin, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
         if not isinstance(pin, Pin):

@@ -10,12 +10,12 @@ of the known pin at zero travel of both slides. There is one assembly, and it al
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
 from ilmek.linkage.body_motion import carried_acceleration, carried_velocity
-from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.pairs import SliderPair
 from ilmek.linkage.groups.shift import refuse_parallel, track
 from ilmek.linkage.kernels import (
@@ -149,7 +149,7 @@ class CrossSlide(SliderPair):
         }
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as an RPP dyad, or None. Raises MechanismError where its slides are parallel."""
         between, mechanism = group.inner[0] if group.is_dyad else None, group.mechanism
         slide = next((joint for joint in group.outer if isinstance(joint, Slide)), None)

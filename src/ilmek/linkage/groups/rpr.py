@@ -13,13 +13,13 @@ infinite.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, slid_jerk
-from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.groups.shift import SlideTrack, track
 from ilmek.linkage.kernels import (
@@ -243,7 +243,7 @@ class SlidingDyad(PinnedPair):
         )
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as an RPR dyad, or None; None too for a slide without a branch whose bodies have a pose.
 
         Raises MechanismError for a slide with neither.

@@ -11,14 +11,14 @@ infinite.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk, slid_jerk
 from ilmek.linkage.body_motion import PointMotion
-from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.pairs import SliderPair
 from ilmek.linkage.groups.shift import (
     slid_acceleration,
@@ -256,7 +256,7 @@ class SliderDyad(SliderPair):
         )
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as an RRP dyad, or None; raises as all do."""
         if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
             return None

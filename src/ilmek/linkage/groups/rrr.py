@@ -8,13 +8,13 @@ The dyad is at a dead centre where its links are in line: (C - A) x (C - B) = 0.
 """
 
 from collections.abc import Mapping
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
 from ilmek.linkage.body_jerk import BodyJerk, carried_jerk
-from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks
+from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
 from ilmek.linkage.groups.pairs import PinnedPair
 from ilmek.linkage.kernels import (
     ACCELERATION,
@@ -254,7 +254,7 @@ class RRRDyad(PinnedPair):
         )
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as an RRR dyad, or None; raises as all do."""
         if len(group.bodies) != 2 or group.inputs or len(group.inner) != 1 or len(group.outer) != 2:
             return None

@@ -8,7 +8,7 @@ with the term of Coriolis, 2 i w s' e [Norton, Design of Machinery, sections 6.7
 import cmath
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 import numpy as np
 
@@ -190,7 +190,7 @@ class DrivenSlider(Step):
         return {self.body: self.track.jerk(known[self.on], located[self.body], columns[self.body], third)}
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as a driven slider, or None."""
         if len(group.bodies) != 1 or len(group.joints) != 1:
             return None

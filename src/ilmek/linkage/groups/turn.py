@@ -6,7 +6,7 @@ Machinery, chapters 6 and 7: relative motion].
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Self
+from typing import ClassVar
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.linkage.body_jerk import BodyJerk
@@ -95,7 +95,7 @@ class DrivenCrank(Step):
         return {self.body: BodyJerk(located[self.body], carrier.carry(self.hinge), beta)}
 
     @classmethod
-    def recognise(cls, group: Group) -> Self | None:
+    def recognise(cls, group: Group) -> Step | None:
         """The group as a driven turning body, or None."""
         if len(group.bodies) != 1 or len(group.joints) != 1:
             return None

@@ -8,6 +8,7 @@ The loom tips about the ends of its feet: the weight on its lever there, over th
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.fillet_welds import STRENGTH, RoundSquare, TwoSeams, throat_for
@@ -20,6 +21,7 @@ from ilmek.machines.automated_loom.standing_frame import foot_reach
 from ilmek.machines.automated_loom.steady_posts import steady_post
 from ilmek.machines.automated_loom.supports import beat_beam, supports
 from ilmek.machines.bearing_seats import BRACKET
+from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import format_quantity
@@ -53,6 +55,17 @@ def seams(loom: LoomDesign, frame: LoomFrame) -> tuple[Seam, ...]:
     """The welds of brackets and posts."""
     made = brackets_of(loom)
     return (*(_of_bracket(frame, made.face, plate) for plate in made.plates), *_of_posts(loom, frame))
+
+
+def with_throats(body: RigidBody, made: tuple[Seam, ...]) -> RigidBody:
+    """A body whose parts have the throats of their seams."""
+    throats = {part_id(seam.part): seam.throat for seam in made}
+
+    def held(own: Occurrence) -> Occurrence:
+        throat = throats.get(own.part.id)
+        return own if throat is None else replace(own, part=replace(own.part, throat=throat))
+
+    return replace(body, occurrences=tuple(map(held, body.occurrences)))
 
 
 def _of_bracket(frame: LoomFrame, face: float, bracket: Bracket) -> Seam:

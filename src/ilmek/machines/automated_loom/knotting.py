@@ -21,7 +21,7 @@ import numpy as np
 from ilmek.cams.laws import LAWS
 from ilmek.errors import LoomError
 from ilmek.loom.bobbins import Bobbin
-from ilmek.loom.programme import least_time
+from ilmek.loom.programme import least_times
 from ilmek.loom.sharing import heads_that_fit
 from ilmek.loom.times import Times
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
@@ -48,7 +48,7 @@ from ilmek.machines.knotting_dyad.sequence import CENTRE, LEFT, RIGHT
 from ilmek.machines.loom_task import LoomTask
 from ilmek.machines.weaver import Weaver, WeaverParams
 from ilmek.machines.weaver.cyclogram import arms_window
-from ilmek.machines.weaver.design import stretches
+from ilmek.machines.weaver.design import stretches, ties_as_set
 from ilmek.machines.weaver.levers import HALF
 from ilmek.machines.weaver.motions import CENTRE_ARM, HANDLER, LEFT_ARM, RIGHT_ARM
 from ilmek.machines.weaver.sizes import larger_sizes
@@ -104,9 +104,15 @@ class KnottingHead:
 
     def least_time(self, rows: int, columns: int, number: int, times: Times, bobbins: Sequence[Bobbin] = ()) -> float:
         """Weaving time [s] of a number of them without colour changes: of weavers that of the longest share."""
+        return self.least_times(rows, columns, number, (times,), bobbins)[0]
+
+    def least_times(
+        self, rows: int, columns: int, number: int, times: Sequence[Times], bobbins: Sequence[Bobbin] = ()
+    ) -> list[float]:
+        """The same with each of some times."""
         if self.weaver is None:
             columns, number = math.ceil(columns / number), 1
-        return least_time(rows, columns, number, times, bobbins)
+        return least_times(rows, columns, number, times, bobbins)
 
 
 def knotting_head(task: LoomTask) -> KnottingHead:
@@ -189,7 +195,7 @@ def _sized(task: LoomTask, derived: WeaverParams) -> WeaverParams:
     """The parameters of a head for the loom's knot: the user's, and of those left open as large as its loads need."""
     for _ in range(ROUNDS):
         params = task.parameters(WEAVER, derived)
-        if stretches(params) and _weaver(params).cycle > params.cycle * (1 + _SAME):
+        if stretches(params) and not ties_as_set(params):
             derived = replace(derived, optimise=True)
             params = task.parameters(WEAVER, derived)
         larger = larger_sizes(_weaver(params))

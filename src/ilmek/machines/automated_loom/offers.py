@@ -128,23 +128,44 @@ def branches(params: AutomatedLoomParams, kind: str, journal: SearchJournal) -> 
 
     For the least price the weft side chooses its carrier, the cheaper one, itself.
     """
-    wefts = WEFT_CARRIERS if params.weft == AUTO and params.aim != PRICE else (params.weft,)
-    usual = WeaverParams().cycle
-    slowest = params.knot_cycle or usual
-    cycle = None if kind == HAND else slowest
-    looms = [ready_loom(replace(params, knotting=kind, weft=weft, knot_cycle=cycle)) for weft in wefts]
+    looms = [_slowest(replace(params, knotting=kind, weft=weft)) for weft in _wefts(params)]
     knotting = looms[0].head
-    quicker = params.knot_cycle is None and (params.aim != PRICE or params.deadline is not None)
     if knotting.weaver is None:
         cycles: tuple[float, ...] = (params.hand_knot,)
     else:
-        cycles = _cycles(knotting.weaver.params) if quicker else (slowest,)
+        cycles = _cycles(knotting.weaver.params) if _quicker(params) else (_slowest_cycle(params),)
     fit = knotting.most(looms[0].task.columns, looms[0].task.cloth.knot_pitch)
     least = [head_cost(ready.head, read_prices(params.prices)).share(1 - SLACK) for ready in looms]
     return tuple(
         HeadBranch(kind, ready, cycles, fit, cost, _looms(ready, journal))
         for ready, cost in zip(looms, least, strict=True)
     )
+
+
+def only_loom(params: AutomatedLoomParams) -> ReadyLoom | None:
+    """The one loom up to its beat whose parameters leave nothing open; None where they leave something."""
+    by_hand = params.knotting == HAND
+    given = params.heads is not None or by_hand
+    kinds = AUTO not in (params.knotting, params.beat) and len(_wefts(params)) == 1
+    return _slowest(params) if given and kinds and (by_hand or not _quicker(params)) else None
+
+
+def _wefts(params: AutomatedLoomParams) -> tuple[str, ...]:
+    return WEFT_CARRIERS if params.weft == AUTO and params.aim != PRICE else (params.weft,)
+
+
+def _quicker(params: AutomatedLoomParams) -> bool:
+    """Whether knots quicker than the slowest one are offered."""
+    return params.knot_cycle is None and (params.aim != PRICE or params.deadline is not None)
+
+
+def _slowest(params: AutomatedLoomParams) -> ReadyLoom:
+    """The loom of the slowest knot up to its beat."""
+    return ready_loom(replace(params, knot_cycle=None if params.knotting == HAND else _slowest_cycle(params)))
+
+
+def _slowest_cycle(params: AutomatedLoomParams) -> float:
+    return params.knot_cycle or WeaverParams().cycle
 
 
 def _looms(ready: ReadyLoom, journal: SearchJournal) -> Mapping[str, LoomDesign]:
@@ -256,7 +277,7 @@ class Bounds:
 
     def _offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
         ready, params, weft = branch.ready, self.params, branch.weft
-        grid = ready.task.rows, ready.task.columns
+        grid, bobbins = (ready.task.rows, ready.task.columns), ready.weft.bobbins
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
                 continue
@@ -268,7 +289,7 @@ class Bounds:
             busy = [_least_times(ready, option, cycle) for cycle in branch.cycles]
             for heads in (number,) if number else range(1, branch.most + 1):
                 cost, floor = self._least(weft, heads, loom, branch.head, frame)
-                time = [ready.head.least_time(*grid, heads, one, ready.weft.bobbins) for one in busy]
+                time = ready.head.least_times(*grid, heads, busy, bobbins)
                 value = self._value(cost, floor, np.array(time)).tolist()
                 for cycle, own, least in zip(branch.cycles, time, value, strict=True):
                     yield LoomOffer(branch.kind, cycle, weft, option.kind, heads, own, cost.parts, least)

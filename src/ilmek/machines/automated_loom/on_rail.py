@@ -145,10 +145,15 @@ def chain_part(loom: LoomDesign, side: float) -> Part:
     )
 
 
+@lru_cache(maxsize=4)
+def _guide_mass(loom: LoomDesign) -> float:
+    """Mass of bar, rail and belt of the heads' guide [kg]."""
+    return RigidBody("guide", tuple(guide_parts(loom))).moments.zeroth
+
+
 @lru_cache(maxsize=64)
 def rail_cargo(loom: LoomDesign, side: float) -> float:
     """Mass of a length of what lies along a rail of a side [m], with the conduits in the chains [kg/m]."""
-    guide = RigidBody("guide", tuple(guide_parts(loom))).moments.zeroth
     conduits = loom.weaver.params.tubes * CONDUIT_MASS * chain_under(loom, side).length(share_of(loom))
     chains = loom.heads * (chain_part(loom, side).mass + conduits)
-    return math.fsum((guide, trough_part(loom, side).mass, chains)) / loom.task.rail_length
+    return math.fsum((_guide_mass(loom), trough_part(loom, side).mass, chains)) / loom.task.rail_length

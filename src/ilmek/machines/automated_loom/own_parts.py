@@ -14,6 +14,7 @@ from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.joints import seams, with_throats
 from ilmek.machines.automated_loom.on_rail import guide_parts
 from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
 from ilmek.machines.automated_loom.standing_frame import standing_frame
@@ -109,7 +110,7 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMoti
 
     axes  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    standing = standing_frame(loom, frame, axes)
+    standing = with_throats(standing_frame(loom, frame, axes), seams(loom, frame))
     return Tree((standing, _rail(loom, frame, retreat)) if loom.heads else (standing,))
 
 

@@ -104,7 +104,9 @@ def _rail_holds(loom: LoomDesign, frame: LoomFrame) -> bool:
 
 def own_lines(loom: LoomDesign, listed: PartsList) -> tuple[BillLine, ...]:
     """The lines of the loom's own parts, of those with the parts of its machines."""
-    machines = {line.part for line in _of_machines(loom)}
+    machines = {
+        line.part for line in (*chain.from_iterable(one.parts for one in loom.machines.values()), *loom.beat.parts)
+    }
     return tuple(line for line in listed.parts if line.part not in machines)
 
 
@@ -171,5 +173,5 @@ def _of_machines(loom: LoomDesign) -> Iterator[BillLine]:
     """The parts of the machines, as many as there are, and those of the beat."""
     for child in loom.machines.values():
         for part in child.parts:
-            yield replace(part, number=child.number * part.number)
+            yield part if child.number == 1 else replace(part, number=child.number * part.number)
     yield from loom.beat.parts

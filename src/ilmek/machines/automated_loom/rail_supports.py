@@ -13,7 +13,7 @@ and an arm of the length l has sigma = R l c / I and sinks by R l³ / (3 E I).
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
@@ -156,7 +156,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             stations=tuple((k / spans - 0.5) * wide + RAIL_AXIS for k in range(1, spans)),
         )
 
-    return _lightest(chosen, RAIL_POST, lambda strong: strong[0] if strong else None)
+    return _lightest(chosen, RAIL_POST, lambda strong: next(strong, None))
 
 
 def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
@@ -181,12 +181,12 @@ def _push(loom: LoomDesign, load: float) -> float:
 def _lightest(
     chosen: Callable[[HollowSquare, HollowSquare], RailSupport],
     most: float,
-    stiff: Callable[[Sequence[HollowSquare]], HollowSquare | None],
+    stiff: Callable[[Iterator[HollowSquare]], HollowSquare | None],
 ) -> RailSupport:
     """The support of the lightest sections that keep its checks, of stiff posts; of the largest where none does."""
     posts = [one for one in ascending() if RAIL_AXIS <= one.side <= most]
     arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
-    post = stiff([one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))]) or posts[-1]
+    post = stiff(one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))) or posts[-1]
     arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])
     return chosen(post, arm)
 

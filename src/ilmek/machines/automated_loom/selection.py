@@ -34,6 +34,7 @@ from ilmek.machines.automated_loom.offers import (
     branches,
     frame_cost,
     head_cost,
+    only_loom,
     rest_of,
     undesigned_arms,
     value_of,
@@ -88,12 +89,12 @@ def with_room(loom: LoomDesign, params: AutomatedLoomParams) -> LoomDesign:
 
 def _chosen(params: AutomatedLoomParams, refused: Refused) -> LoomDesign:
     """The loom of the best offer; refused: failed checks in space by kinds of beat."""
+    if (only := only_loom(params)) is not None:
+        return with_beat(only, only.options[0])
     kinds = (CAMS, ARMS) if params.knotting == AUTO else (params.knotting,)
     journal = SearchJournal()
     first = branches(params, kinds[0], journal)
-    given = params.heads is not None or params.knotting == HAND
-    one = given and len(kinds) == len(first) == len(first[0].ready.options) == len(first[0].cycles) == 1
-    search = None if one else _begun(params, first, refused, journal)
+    search = _begun(params, first, refused, journal)
     if search is None:
         return with_beat(first[0].ready, first[0].ready.options[0])
     for branch in first:

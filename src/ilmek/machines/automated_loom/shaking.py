@@ -8,7 +8,8 @@ A post that is free at its end, with a mass m there, sways at sqrt(3 E I / (m hÂ
 that it has to be STIFFER times as quick as the whole frame.                                          [theory of beams]
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from itertools import chain
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -42,9 +43,11 @@ def least_frequency(loom: LoomDesign) -> float:
     return DISTANCE * max(drive_frequencies(loom).values())
 
 
-def stiff_post(strong: Sequence[HollowSquare], height: float, mass: float, least: float) -> HollowSquare | None:
+def stiff_post(strong: Iterable[HollowSquare], height: float, mass: float, least: float) -> HollowSquare | None:
     """The first of the sections for a post of a height [m] that is stiff enough with a mass at its end [kg]; where none
     is, the first of them; None of none. least: natural frequency that drives allow [Hz].
     """
     needed = (turn * STIFFER * least) ** 2 * mass * height**3 / (3 * STEEL.modulus)
-    return next((one for one in strong if one.inertia >= needed), strong[0] if strong else None)
+    strong = iter(strong)
+    first = next(strong, None)
+    return first and next((one for one in chain((first,), strong) if one.inertia >= needed), first)

@@ -12,7 +12,7 @@ import math
 from collections.abc import Iterator
 from functools import lru_cache
 
-from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare, ascending, euler
+from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -150,7 +150,7 @@ def post_for(height: float, force: float, mass: float, least: float, *, across: 
 
     height  [m]      force, mass  at its end [N, kg]      least  natural frequency of the frame [Hz]
     """
-    strong = [one for one in ascending() if all(check.ok for check in post_checks(one, height, force, across=across))]
+    strong = (one for one in ascending() if all(check.ok for check in post_checks(one, height, force, across=across)))
     return stiff_post(strong, height, mass, least) or ascending()[-1]
 
 
@@ -214,8 +214,7 @@ def within(section: HollowSquare, room: float) -> HollowSquare:
     """The section, or where it is higher than its room [m] the largest that is not."""
     if section.side <= room:
         return section
-    offered = [HollowSquare(*size) for size in SECTIONS]
-    return max((other for other in offered if other.side <= room), key=lambda other: other.area, default=offered[0])
+    return next((other for other in reversed(ascending()) if other.side <= room), ascending()[0])
 
 
 def floor_top(loom: LoomDesign, frame: LoomFrame) -> float:

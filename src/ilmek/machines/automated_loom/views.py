@@ -22,6 +22,7 @@ from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.part_views import drawn
 from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.tree import Tree
 from ilmek.report import Dot, Drawing, Stroke
@@ -126,15 +127,6 @@ def _across(loom: LoomDesign, view: View, name: str, title: str) -> Drawing:
     pitch = format_quantity(loom.task.cloth.warp_pitch, "mm", 4)
     note = f"{loom.warps} warps at {pitch}; every part where it stands at the start of a row"
     return Drawing(name, title, strokes, (), "m", note)
-
-
-def drawn(seen: Iterable[PieceOutline]) -> tuple[Stroke, ...]:
-    """What is seen of parts, dashed where it is a room."""
-    return tuple(
-        Stroke(curve, "construction" if outline.part.envelope else "outline", closed=True, filled=True)
-        for outline in seen
-        for curve in outline.curves
-    )
 
 
 def _box(seen: Iterable[PieceOutline]) -> ComplexArray:

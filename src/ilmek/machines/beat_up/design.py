@@ -178,9 +178,11 @@ class BeatUp:
 
 def in_motion(params: BeatUpParams) -> BeatUpParams:
     """The parameters from which motion, forces, run and family follow: those of its use have their defaults."""
-    usual = BeatUpParams()
-    kept = replace(params, **{name: getattr(usual, name) for name in USE})
-    return replace(kept, travel=replace(usual.travel, bar_distance=params.travel.bar_distance))
+    travel = replace(_USUAL.travel, bar_distance=params.travel.bar_distance)
+    return replace(params, **{name: getattr(_USUAL, name) for name in USE} | {"travel": travel})
+
+
+_USUAL = BeatUpParams()
 
 
 @lru_cache(maxsize=16)

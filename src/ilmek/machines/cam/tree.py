@@ -5,12 +5,15 @@ the follower, stem or arm is room alone: its mass is the moving mass that the fo
 shaft, the guide and the pivot are those of the machine that the cam is for.
 """
 
+import math
 from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.limits import largest_cutter
+from ilmek.cams.profile_tolerance import radius_tolerance
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import CamRole
 from ilmek.elements.materials import MATERIALS
@@ -19,7 +22,7 @@ from ilmek.machines.cam.animation import pivot_of, swings, upright
 from ilmek.machines.cam.design import CamDesign
 from ilmek.machines.cam.parts import cutouts, hub_notes, outline_angles, rim_radius, zero_mark
 from ilmek.machines.cam.round_cams import flanked, solid_plate
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import CUTTER, PITCH, ZERO, Bought, CamMaking, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, disc, tube
@@ -27,7 +30,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import area, circle, polygon
 from ilmek.report import Plate, WorkPiece
 from ilmek.report.scene import SceneMotion
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import deg, in_mm, mm, round_size, turn
 
 CAM, FOLLOWER = "cam/cam", "cam/follower"
 """Ids of the bodies."""
@@ -89,9 +92,9 @@ def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
     """A cam as a plate."""
     trace, params = cam.trace(outline_angles(cam)), design.params
     cutter = params.cutter_radius or cam.roller_radius
-    paths = {"pitch curve": trace.pitch} if cam.roller_radius > 0 else {}
+    paths = {PITCH: trace.pitch} if cam.roller_radius > 0 else {}
     if cutter > 0:
-        paths["cutter path"] = trace.parallel(cutter - cam.roller_radius)
+        paths[CUTTER] = trace.parallel(cutter - cam.roller_radius)
     return Part(
         name,
         title,
@@ -100,9 +103,20 @@ def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
         Prism(Profile(polygon(trace.surface), cutouts(design, cam), smooth=True), design.face_width),
         MATERIALS[params.material],
         paths=paths,
-        marks={"zero": zero_mark(design)},
-        notes=(*_cutter_note(cutter), *hub_notes(design)),
+        marks={ZERO: zero_mark(design)},
+        notes=hub_notes(design),
+        cam=_making(design, cam, cutter),
     )
+
+
+def _making(design: CamDesign, cam: CamRole, cutter: float) -> CamMaking:
+    """How a cam is cut; errors of its profile may take the force that holds the follower on it."""
+    held, params = design.follower_load, design.params
+    motion = design.programme.at(outline_angles(cam))
+    room = float(held.force(motion.s, motion.dds).min())
+    sprung = held.mass > 0 and not params.led
+    spare = max(0.0, room) / held.mass * params.per_unit if sprung else math.inf
+    return CamMaking(cutter, largest_cutter(cam), radius_tolerance(spare, params.speed, deg), spare, params.speed)
 
 
 def _cutter_note(radius: float) -> tuple[str, ...]:

@@ -19,6 +19,7 @@ from functools import lru_cache
 from itertools import islice
 
 from ilmek.elements.duty import MARGIN
+from ilmek.elements.materials import Material
 from ilmek.elements.motors import MOTORS, SERVO
 from ilmek.elements.prices import PRICES, piece_price
 from ilmek.machines import beat_up
@@ -177,14 +178,13 @@ def _with_links(params: HammerParams, share: float) -> tuple[HammerParams, bool]
     Where none does, the largest.
     """
     speed = params.beat_speed or 1.0
-    lengths, enough = _unit(params.ground, params.swing).lengths, False
+    unit, enough = _unit(params.ground, params.swing), False
+    of_unit, lengths = unit.loads, unit.lengths
     for width, thickness in _offered(params):
         links = width * thickness * params.links.of_links.density
         # The links' own inertia counts as that of their whole mass at the beater.
         own = links * (lengths["coupler"] + lengths["beater"])
-        loads = _unit(params.ground, params.swing).loads.scaled(
-            share + own, speed, turn / speed / (params.turn_time / 2)
-        )
+        loads = of_unit.scaled(share + own, speed, turn / speed / (params.turn_time / 2))
         sections = dict.fromkeys(POINTS, (width, thickness))
         if not pins_bear(loads, params.links, sections):
             continue
@@ -214,7 +214,8 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     speed, number = params.beat_speed or 1.0, params.rockers
     unit, steel = _unit(params.ground, params.swing), PRICES["structural steel"]
     comb, ballast = comb_mass(params), params.ballast or 0.0
-    links = sum(_of_link(params, unit.lengths[name]) for name in ("crank", "coupler", "beater"))
+    section = params.link_width or 0.0, params.link_thickness or 0.0, params.links.of_links
+    links = sum(_of_link(unit.lengths[name], *section) for name in ("crank", "coupler", "beater"))
     swing = (comb + ballast) * (unit.beater_velocity_max * speed) ** 2 / 2
     work = 2.5 * swing + fabric.energy(params.force or needed) * params.cloth.warps
     torque = unit.drive_torque_max * (comb + ballast) * speed**2 / params.start.efficiency
@@ -227,10 +228,10 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     return steel.price(comb + ballast) + number * links + min(clutch, servo)
 
 
-def _of_link(params: HammerParams, length: float) -> float:
-    """Price of a link of a length [m] as one of a batch, without bores."""
-    bar = flat_link(length, params.link_width or 0.0, params.link_thickness or 0.0)
-    link = Part("link", "link", "machined link", shape=bar, material=params.links.of_links)
+@lru_cache(maxsize=64)
+def _of_link(length: float, width: float, thickness: float, material: Material) -> float:
+    """Price of a link of a length, width and thickness [m] as one of a batch, without bores."""
+    link = Part("link", "link", "machined link", shape=flat_link(length, width, thickness), material=material)
     return piece_price(line_of(link), PRICES)
 
 

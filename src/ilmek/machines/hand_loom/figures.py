@@ -7,12 +7,13 @@ import numpy as np
 
 from ilmek.machines.automated_loom.cyclogram import WEAVERS_ROW
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
-from ilmek.machines.automated_loom.views import drawn, named
+from ilmek.machines.automated_loom.views import named
 from ilmek.machines.hand_loom.design import HandLoom
 from ilmek.machines.hand_loom.driven_beat import BEAT
 from ilmek.machines.hand_loom.frame import tree
 from ilmek.machines.hand_loom.report import HandLoomAnalysis
 from ilmek.machines.hand_shed.figures import moving
+from ilmek.machines.part_views import drawn
 from ilmek.part.projection import View, outlines
 from ilmek.part.tree import GROUND, RigidBody, Tree
 from ilmek.report import Animation, Axis, Dot, Drawing, Figure, Stroke
@@ -44,8 +45,8 @@ def _moving(found: HandLoomAnalysis) -> Animation:
     for body in _open_tree(found.loom).bodies:
         if body.joint.motion is None and body.parent in {GROUND, *(one.id for one in standing)}:
             standing.append(body)
-    seen = drawn(outlines(Tree(tuple(standing)), View.SIDE))
-    still = replace(shed.still, name="hand-loom-moving", strokes=tuple(replace(one, filled=False) for one in seen))
+    seen = drawn(outlines(Tree(tuple(standing)), View.SIDE), filled=False)
+    still = replace(shed.still, name="hand-loom-moving", strokes=seen)
     return replace(shed, still=replace(still, unit="m"))
 
 

@@ -12,6 +12,8 @@ the place of a spacer. The places are measured from one end, so that what a shim
 The interval n is the largest that keeps both sums, 1 at least.                                          [derived]
 """
 
+from bisect import bisect_left
+
 from ilmek.elements.sheet_tolerances import sheet_tolerance, statistical_sum, worst_sum
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.stack import PitchShares
@@ -57,9 +59,11 @@ def tolerance_chain(params: SheddingParams, shares: PitchShares) -> ToleranceCha
     def offset(interval: int) -> float:
         return statistical_sum(pile(interval)) + STEP / 2 + GAUGE
 
+    def loose(interval: int) -> bool:
+        return worst_sum(pile(interval)) > room + _ROUNDING or offset(interval) > limit
+
     room = shims_of(params, shares)
-    kept = (n for n in range(_MOST, 1, -1) if worst_sum(pile(n)) <= room + _ROUNDING and offset(n) <= limit)
-    interval = params.shim_interval or next(kept, 1)
+    interval = params.shim_interval or max(bisect_left(range(_MOST + 1), True, lo=2, key=loose) - 1, 1)
     tolerance = sheets[0][1]
     reed = 2 * params.cloth.warp_pitch - shares.thickness
     groove = (shares.thickness if shares.guides else reed) - tolerance

@@ -258,7 +258,7 @@ def _reversals(moved: Moved, reversals: FloatArray) -> tuple[float, float, float
 
 
 def _breaks(params: TuftingParams, reversals: FloatArray) -> tuple[float, ...]:
-    ends = (params.entry, params.exit) if params.friction == "window" else ()
+    ends = (params.entry, params.exit) if params.friction != "always" else ()
     return tuple(sorted(at % turn for at in (*reversals.tolist(), *ends)))
 
 
@@ -282,9 +282,9 @@ def _shaft(
     params: TuftingParams, evaluated: Evaluated, angle: FloatArray, side: FloatArray
 ) -> tuple[FloatArray, ComplexArray]:
     """Torque on the main shaft [N m] and force of its bearings on it [N], all bars together."""
-    behind = params.phase * np.arange(params.bars)[:, None]
-    state = evaluated(np.ravel(angle - behind), np.tile(side, params.bars))
-    torque, force = (one.reshape(params.bars, -1).sum(axis=0) for one in (state.main_torque, state.joints["O"]))
+    behind, alike = np.unique(np.mod(params.phase * np.arange(params.bars), turn), return_counts=True)
+    state = evaluated(np.ravel(angle - behind[:, None]), np.tile(side, behind.size))
+    torque, force = (alike @ one.reshape(behind.size, -1) for one in (state.main_torque, state.joints["O"]))
     return torque, force
 
 

@@ -82,7 +82,7 @@ def _pose(design: Tufting, angle: float) -> dict[str, complex]:
 
 def _backing(design: Tufting, lowest: complex) -> tuple[Stroke, ...]:
     """The backing where the needle's point enters it, if it does."""
-    if design.params.friction != "window":
+    if design.params.friction == "always":
         return ()
     level = lowest + 1j * design.entry_height
     reach = BACKING * max(abs(design.params.needle_distance), design.params.arm)
@@ -98,7 +98,7 @@ def curves_over_a_turn(design: Tufting) -> tuple[Plot, ...]:
     state = design.state
     mu = transmission_angle(state.motion, "B")
     marks = [Mark(design.lowest, "lowest"), Mark(design.highest, "highest")]
-    if design.params.friction == "window":
+    if design.params.friction != "always":
         marks += [Mark(design.params.entry % turn, "entry"), Mark(design.params.exit % turn, "exit")]
 
     def plot(name: str, title: str, y: Axis, curves: Mapping[str, FloatArray]) -> Plot:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.elements.hubs import hub_for
-from ilmek.elements.materials import MATERIALS
+from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.link_tree import GAP, Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
 from ilmek.machines.linkage_strength import largest_bar
 from ilmek.machines.tufting.model import mechanism
@@ -81,8 +81,8 @@ def needle_parts(params: TuftingParams, sizes: NeedleSizes) -> LinkageParts:
     if needle > 0:
         room["needle"] = LinkSize(needle, needle, pins["E"], material)
     formed = {
-        "crank": _eccentric(params, sizes, thick),
-        "coupler": _eyed(params, "coupler", _ring(params, sizes), pins["B"]),
+        "crank": eccentric(f"{NAME}/crank", params.crank, sizes.main, thick, material),
+        "coupler": _eyed(params, "coupler", ring(params.crank, sizes.main), pins["B"]),
         "rocker": _eyed(params, "rocker", circle(0j, sizes.driven / 2), pins["B"]),
         "arm": _eyed(params, "arm", circle(0j, sizes.driven / 2), pins["D"]),
         "rod": _eyed(params, "rod", circle(0j, pins["D"] / 2), pins["E"]),
@@ -136,34 +136,50 @@ def needle_bar(params: TuftingParams) -> Part:
     return Part(f"{NAME}/needle", "needle bar with its needles", "steel bar", size, shape, STEEL, envelope=True)
 
 
-def _eccentric_radius(params: TuftingParams, sizes: NeedleSizes) -> float:
-    return params.crank + (0.5 + WALL) * sizes.main
+def eccentric_radius(crank: float, shaft: float) -> float:
+    """Radius of the eccentric of a crank on a shaft of a diameter [m]: R = l + 0.75 d."""
+    return crank + (0.5 + WALL) * shaft
 
 
-def _ring(params: TuftingParams, sizes: NeedleSizes) -> Contour:
+def ring(crank: float, shaft: float) -> Contour:
     """The coupler's hole for the eccentric, about its first pin."""
-    return circle(0j, _eccentric_radius(params, sizes))
+    return circle(0j, eccentric_radius(crank, shaft))
 
 
-def _eccentric(params: TuftingParams, sizes: NeedleSizes, thickness: float) -> Part:
-    """The crank: a disc about A with the bore of the main shaft at O, keyed."""
-    radius = _eccentric_radius(params, sizes)
+def eccentric(name: str, crank: float, shaft: float, thickness: float, material: Material) -> Part:
+    """A crank on a shaft of a diameter [m]: a disc about A with the bore of the shaft at O, keyed."""
+    radius = eccentric_radius(crank, shaft)
     size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
-    shape = Prism(Profile(circle(complex(params.crank), radius), (hub_for(sizes.main).contour,)), thickness)
-    seats = {"O": Seat(placement(), sizes.main), "A": Seat(placement(params.crank), 2 * radius)}
-    return Part(
-        f"{NAME}/crank", "eccentric of the crank", "machined link", size, shape, params.strength.of_links, seats=seats
-    )
+    shape = Prism(Profile(circle(complex(crank), radius), (hub_for(shaft).contour,)), thickness)
+    seats = {"O": Seat(placement(), shaft), "A": Seat(placement(crank), 2 * radius)}
+    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats)
 
 
 def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
     """A link with a hole about its first pin and one for the pin at its other end; diameter of the pin [m]."""
-    (width, thickness), length = link_sections(params)[link], getattr(params, link)
     ends = {"coupler": "AB", "rocker": "CB", "arm": "CD", "rod": "DE"}[link]
+    section, length = link_sections(params)[link], getattr(params, link)
+    return eyed((f"{NAME}/{link}", link), ends, length, section, hole, pin, params.strength.of_links)
+
+
+def eyed(  # noqa: PLR0917
+    names: tuple[str, str],
+    ends: str,
+    length: float,
+    section: tuple[float, float],
+    hole: Contour,
+    pin: float,
+    material: Material,
+) -> Part:
+    """A link with eyes: a hole about the origin, and one for a pin of a diameter at x = length [m].
+
+    names  id and title      ends  names of both pins      section  width and thickness [m]
+    """
+    width, thickness = section
     inner = float(abs(hole.points[0]))
     eyes = [max(width / 2, radius * (1 + 2 * WALL)) for radius in (inner, pin / 2)]
     cut = (hole, circle(complex(length), pin / 2))
-    section = f"{in_mm(width)} x {in_mm(thickness)}, {in_mm(length)}"
+    size = f"{in_mm(width)} x {in_mm(thickness)}, {in_mm(length)}"
     shape = Prism(Profile(eyed_link(length, *eyes), cut), thickness)
     seats = {ends[0]: Seat(placement(), 2 * inner), ends[1]: Seat(placement(length), pin)}
-    return Part(f"{NAME}/{link}", link, "machined link", section, shape, params.strength.of_links, seats=seats)
+    return Part(*names, "machined link", size, shape, material, seats=seats)

@@ -12,8 +12,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
-from ilmek.dynamics.attached import attached
-from ilmek.dynamics.friction import AngleRange, Friction
+from ilmek.dynamics.attached import AttachedPoint, attached
+from ilmek.dynamics.friction import OFFSET, AngleRange, Friction
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
@@ -113,9 +113,9 @@ def evaluate(
     bodies  inertias of the links; default: by the masses that the parameters give
     """
     motion = move(params, planned, angle)
-    load = friction(params, side)
+    load = friction(params, motion, side)
     forces = inverse(motion, bodies or inertias(params), (Gravity(-1j * params.gravity), load))
-    point = attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))
+    point = _point(motion)
     return TuftingState(
         angle=angle,
         motion=motion,
@@ -130,7 +130,18 @@ def evaluate(
     )
 
 
-def friction(params: TuftingParams, side: RealField) -> Friction:
-    """The backing's friction on the needle, from entry to exit or all the time."""
-    window = AngleRange(params.entry, params.exit) if params.friction == "window" else None
-    return Friction("needle", "F", params.friction_force, "crank", window, side)
+def friction(params: TuftingParams, motion: Motion, side: RealField) -> Friction:
+    """The backing's friction on the needle over a motion: from entry to exit, all the time, or by depth."""
+    window = None if params.friction == "always" else AngleRange(params.entry, params.exit)
+    force: RealField = params.friction_force
+    if params.friction == "depth":
+        (level,) = _point(move(params, motion.plan, np.array([params.entry]))).position.imag
+        point, speed = _point(motion), np.asarray(motion.drives["crank"].speed, dtype=float)
+        falling = point.velocity.imag + OFFSET * np.asarray(side) / speed * point.acceleration.imag < 0
+        force = params.penetration.force(level - point.position.imag, down=falling)
+    return Friction("needle", "F", force, "crank", window, side)
+
+
+def _point(motion: Motion) -> AttachedPoint:
+    """The needle's point F."""
+    return attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))

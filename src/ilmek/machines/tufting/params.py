@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from ilmek.machines.tufting.penetration import PenetrationParams
 from ilmek.machines.tufting.strength_params import NeedleStrengthParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import deg, mm, rpm, turn
@@ -75,9 +76,10 @@ class TuftingParams(Params):
     )
     friction: str = kind.choice(
         "window",
-        ("window", "always"),
-        doc="when the friction acts: from entry to exit, or all the time (the paper's words allow both)",
+        ("window", "always", "depth"),
+        doc="when the friction acts: from entry to exit, or all the time (the paper's words allow both); or by depth",
     )
+    penetration: PenetrationParams = nested(PenetrationParams, doc="force of the backing over depth, friction=depth")
     entry: float = kind.angle(22 * deg, at_least=-turn, at_most=turn, doc="crank angle of entry into the backing")
     exit: float = kind.angle(194 * deg, at_least=-turn, at_most=turn, doc="crank angle of exit from the backing")
     gravity: float = kind.acceleration(9.81, at_least=0.0, at_most=1e3, doc="gravity, downwards", symbol="g")

@@ -4,7 +4,7 @@ from ilmek.machines.linkage_strength import equilibrium_test
 from ilmek.machines.strength_tables import strength_table
 from ilmek.machines.tufting.design import JOINTS, LINKS, Tufting
 from ilmek.machines.tufting.links import needle_parts
-from ilmek.machines.tufting.strength import NeedleStrength, needle_checks, needle_sizes, needle_strength
+from ilmek.machines.tufting.strength import NeedleStrength, motor_check, needle_checks, needle_sizes, needle_strength
 from ilmek.records import group, record
 from ilmek.report import Check, Table, at_least, at_most, columns, must
 from ilmek.units import deg, format_quantity, mm, turn
@@ -39,11 +39,25 @@ def checks(analysis: TuftingAnalysis) -> tuple[Check, ...]:
     return (
         at_least("stroke of the needle", design.stroke, params.stroke, "mm", f"required; {PAPER}: about 33 mm"),
         at_most("needle's height at entry against exit", levels, LEVELS, "mm", "one backing: both at its level"),
+        *angle_checks(design),
+        *_lowest_check(design),
+        *strength_checks(analysis),
+        motor_check(analysis.strength),
+    )
+
+
+def angle_checks(design: Tufting) -> tuple[Check, ...]:
+    """Transmission and pressure angle."""
+    return (
         at_least("transmission angle of rocker", design.transmission, TRANSMISSION, "deg", "rule of thumb for rockers"),
         at_most("pressure angle of the rod", design.pressure_angle, PRESSURE, "deg", "rule of thumb for sliders"),
-        *_lowest_check(design),
-        *needle_checks(analysis.strength, needle_parts(params, needle_sizes(design)).ids),
     )
+
+
+def strength_checks(analysis: TuftingAnalysis) -> tuple[Check, ...]:
+    """Links, pins, shafts and bearings."""
+    design = analysis.design
+    return needle_checks(analysis.strength, needle_parts(design.params, needle_sizes(design)).ids)
 
 
 def _lowest_check(design: Tufting) -> tuple[Check, ...]:

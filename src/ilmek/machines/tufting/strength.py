@@ -86,7 +86,7 @@ def needle_strength(design: Tufting) -> NeedleStrength:
     sections = link_sections(params)
     angle, side = turn_with(design.breaks)
     times, forces = angle / params.speed, design.state.forces
-    loads = (Gravity(-1j * params.gravity), friction(params, side))
+    loads = (Gravity(-1j * params.gravity), friction(params, forces.motion, side))
     line = min(width * thickness for width, thickness in sections.values()) * limits.of_links.density
     found = linkage_loads(
         forces,
@@ -172,7 +172,7 @@ def _shaft_safety(loading: Loading, diameter: float) -> float:
 
 
 def needle_checks(strength: NeedleStrength, parts: Mapping[str, str]) -> tuple[Check, ...]:
-    """Whether links, pins, shafts, bearings and motor bear the speed; parts: ids of links and pins by name."""
+    """Whether links, pins, shafts and bearings bear the speed; parts: ids of links and pins by name."""
     limits, slower = strength.limits, "set a lower speed, or lighter moving links and needle"
     stronger = "set a lower speed, or a heavier and therefore stronger link, or a lighter needle"
     shafts = (("main", strength.main), ("driven", strength.driven))
@@ -198,7 +198,12 @@ def needle_checks(strength: NeedleStrength, parts: Mapping[str, str]) -> tuple[C
             ).with_cure(slower, f"{NAME}/{name}-bearing")
             for name, shaft in shafts
         ),
-        must("a servo turns the main shaft", strength.motor is not None, "motor table, margin 1.25").with_cure(
-            slower, *MOTOR
-        ),
+    )
+
+
+def motor_check(strength: NeedleStrength) -> Check:
+    """Whether a servo turns the main shaft."""
+    slower = "set a lower speed, or lighter moving links and needle"
+    return must("a servo turns the main shaft", strength.motor is not None, "motor table, margin 1.25").with_cure(
+        slower, *MOTOR
     )

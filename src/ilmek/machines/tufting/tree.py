@@ -27,7 +27,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
-from ilmek.plane.contours import circle
+from ilmek.plane.contours import circle, rounded_hull
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, turn
 
@@ -38,11 +38,35 @@ POSES = 91
 @lru_cache(maxsize=8)
 def tree(design: Tufting) -> Tree:
     """The bodies where the crank of the first mechanism lies along x."""
+    return needle_drives(design, design_pitch(design), motors=tuple(_drive(design)))
+
+
+def design_pitch(design: Tufting) -> float:
+    """Distance of mechanisms side by side [m]: their depth, their bearing plates, and as much again for the shafts."""
+    low, high = mechanism_depth(design.params, needle_sizes(design))
+    return high - low + 2 * max(catalogue.length_of(bearing_plate(design)), needle_sizes(design).driven)
+
+
+def needle_drives(
+    design: Tufting,
+    pitch: float,
+    *,
+    motors: tuple[Part, ...] = (),
+    needle: tuple[Occurrence, ...] = (),
+    feet: tuple[complex, ...] = (),
+    shaft: tuple[float, float] | None = None,
+) -> Tree:
+    """The mechanisms at a distance from each other [m], the first with its lowest plane at z = 0.
+
+    motors  in line with the main shaft      needle  in place of the needle bar of each, in its frame
+    feet    points that the bearing plates reach [m]
+    shaft   ends of the main shaft along z [m]; default: a diameter beyond the mechanisms
+    """
     params, sizes = design.params, needle_sizes(design)
     (low, high), bearings = mechanism_depth(params, sizes), _bearings(design)
-    plate, away = _bearing_plate(design), _driven_shaft_at(design)
+    plate, away = bearing_plate(design, feet), _driven_shaft_at(design)
     thick, leaning = catalogue.length_of(plate), cmath.phase(away)
-    pitch, stations = high - low + 2 * max(thick, sizes.driven), range(params.bars)
+    stations = range(params.bars)
     heights = [low + side + station * pitch for station in stations for side in (-thick, high - low)]
     beside = [placement(z=height, about=(0.0, 0.0, 1.0), angle=leaning) for height in heights]
     frame = RigidBody(
@@ -50,22 +74,25 @@ def tree(design: Tufting) -> Tree:
         (
             Occurrence(plate, tuple(beside)),
             *(_at(part, x, beside) for part, x in zip(bearings, (0.0, abs(away)), strict=True)),
-            *in_line(tuple(_drive(design)), low - thick - sizes.main),
+            *(in_line(motors, low - thick - sizes.main) if motors else ()),
         ),
         joint=Joint(JointKind.MISSING),
     )
-    main = shaft_part("main-shaft", "main shaft", sizes.main, params.bars * pitch + 2 * sizes.main)
+    first, last = shaft or (low - thick - sizes.main, low - thick + sizes.main + params.bars * pitch)
+    main = shaft_part("main-shaft", "main shaft", sizes.main, last - first)
     turned = Joint(JointKind.PIN, motion=_turning())
-    start = placement(z=low - thick - sizes.main)
     loops: list[Closure] = []
-    bodies = [frame, RigidBody(f"{NAME}/main-shaft", (Occurrence(main, (start,)),), frame.id, turned)]
-    parts, shaft = needle_parts(params, sizes), driven_shaft(params, sizes)
+    bodies = [frame, RigidBody(f"{NAME}/main-shaft", (Occurrence(main, (placement(z=first),)),), frame.id, turned)]
+    parts, driven = needle_parts(params, sizes), driven_shaft(params, sizes)
+    carried = {"rocker": (driven,), "needle": needle}
+    if needle:
+        parts = replace(parts, plates={name: part for name, part in parts.plates.items() if name != "needle"})
     for station in stations:
         suffix = "" if params.bars == 1 else f" {station + 1}"
         moved = _motion(design, station)
-        own = linkage_bodies(parts, moved, {"rocker": (shaft,)}, z=station * pitch, suffix=suffix)
-        keyed = {body_id(NAME, "arm") + suffix: None, body_id(NAME, "crank") + suffix: bodies[1]}
-        bodies += (_keyed(body, keyed[body.id]) if body.id in keyed else body for body in own)
+        own = linkage_bodies(parts, moved, carried, z=station * pitch, suffix=suffix)
+        fixed = {body_id(NAME, "arm") + suffix: None, body_id(NAME, "crank") + suffix: bodies[1]}
+        bodies += (keyed(body, fixed[body.id]) if body.id in fixed else body for body in own)
         loops += linkage_closures(NAME, moved.plan.mechanism, suffix)
     return Tree(tuple(bodies), tuple(loops))
 
@@ -75,7 +102,7 @@ def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
     return Occurrence(part, tuple(plate.after(placement(x)) for plate in plates))
 
 
-def _keyed(body: RigidBody, shaft: RigidBody | None) -> RigidBody:
+def keyed(body: RigidBody, shaft: RigidBody | None) -> RigidBody:
     """A crank, keyed on its shaft; or the arm, which is keyed on the driven shaft as the rocker is, its parent."""
     joint = replace(body.joint, kind=JointKind.FIXED, motion=None)
     if shaft is None:
@@ -106,13 +133,21 @@ def _bearings(design: Tufting) -> tuple[Part, Part]:
     )
 
 
-def _bearing_plate(design: Tufting) -> Part:
-    """A plate with the seats of both bearings, x from the main to the driven shaft, as thick as the wider of them."""
-    strength, away = needle_strength(design), abs(_driven_shaft_at(design))
+def bearing_plate(design: Tufting, feet: tuple[complex, ...] = ()) -> Part:
+    """A plate with the seats of both bearings, x from the main to the driven shaft, as thick as the wider of them.
+
+    feet  points that it reaches with the radius about its greater seat, in the axes of the mechanism [m]
+    """
+    strength, shaft = needle_strength(design), _driven_shaft_at(design)
+    away = abs(shaft)
     rows = strength.main.bearing, strength.driven.bearing
     thick, (first, second) = max(row.width for row in rows), (row.outer / 2 for row in rows)
     holes = [circle(0j, first), *([circle(complex(away), second)] if away > first + second else [])]
-    outline = eyed_link(away, *(radius * (1 + 2 * WALL) for radius in (first, second)))
+    eyes = [radius * (1 + 2 * WALL) for radius in (first, second)]
+    outline = eyed_link(away, *eyes)
+    if feet:
+        turned = np.array([0, shaft, *feet]) * abs(shaft) / shaft
+        outline = rounded_hull(turned, max(eyes))
     return Part(
         body_id(NAME, GROUND),
         "bearing plate",

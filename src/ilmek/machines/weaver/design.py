@@ -190,12 +190,19 @@ def stretches(params: WeaverParams) -> bool:
 
 def ties_in_time(params: WeaverParams) -> bool:
     """Whether the motions, stretched where they may be, tie within the required cycle: without a whole design."""
-    drawn, grippers = _grippers(params)
-    required, radius = knot_cyclogram(params, grippers.crossing), drawn / DRAW_TURN
     if not params.optimise and not stretches(params):
-        return _within_limits(params, required, radius).period <= params.cycle * (1 + _WHOLE)
-    limited = replace(required, tracks=_limited(params, required, radius))
+        return ties_as_set(params)
+    drawn, grippers = _grippers(params)
+    required = knot_cyclogram(params, grippers.crossing)
+    limited = replace(required, tracks=_limited(params, required, drawn / DRAW_TURN))
     return within(limited, params.relation_gap, (params.cutting_time, params.arms.time), params.cycle)
+
+
+def ties_as_set(params: WeaverParams) -> bool:
+    """Whether the motions at the angles that are set tie within the required cycle: without a whole design."""
+    drawn, grippers = _grippers(params)
+    tied = _within_limits(params, knot_cyclogram(params, grippers.crossing), drawn / DRAW_TURN)
+    return tied.period <= params.cycle * (1 + _WHOLE)
 
 
 def head_relations(weaver: Weaver) -> tuple[Relation, ...]:

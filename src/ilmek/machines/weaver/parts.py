@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
+from ilmek.cams.profile_tolerance import radius_tolerance
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
@@ -20,13 +21,13 @@ from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import case_width
 from ilmek.part import catalogue
-from ilmek.part.part import Part
+from ilmek.part.part import CUTTER, PITCH, CamMaking, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
 
 BEARING_LIFE = 1e8
 """Turns of the cam shaft, one for each knot, that its bearings must last; assumed by this project."""
@@ -156,7 +157,14 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         size,
         Prism(Profile(polygon(surface[:-1]), holes, smooth=True), thickness),
         STEEL,
-        paths={"pitch curve": pitch, "cutter path": pitch},
+        paths={PITCH: pitch, CUTTER: pitch},
         marks=zero_mark(float(np.abs(surface[-1]))),
-        notes=(f"cutter of {in_mm(2 * cam.cam.roller_radius)}",),
+        cam=_making(cam),
     )
+
+
+def _making(cam: LoadedPlateCam) -> CamMaking:
+    """How a cam is cut: by a cutter as large as its roller, so that both take the same path."""
+    radius, spare = cam.cam.roller_radius, cam.spare_acceleration
+    tolerance = radius_tolerance(spare, cam.speed, deg)
+    return CamMaking(radius, cam.concave_radius + radius, tolerance, spare, cam.speed)

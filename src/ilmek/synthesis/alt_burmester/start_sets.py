@@ -7,21 +7,16 @@ import hashlib
 import io
 from functools import cache
 from importlib import resources
-from typing import Any
 
 import numpy as np
 
 from ilmek.errors import ParameterError
 from ilmek.synthesis.alt_burmester.homotopy import SolvedTask, rotations_of, track
-from ilmek.synthesis.alt_burmester.monodromy import all_solutions, task_with_solution
 
 FILE = "four_bar_starts.npz"
 
 CHECKSUM = "24340c2f7d693028de3af91eefd313e06bd5b2792b483815b486d3c657945cf0"
 """SHA-256 of the file."""
-
-SEED = 1
-"""Of the random tasks that the shipped solutions belong to."""
 
 CLASSES = {5: 6, 4: 30, 3: 201, 2: 1112, 1: 1442}
 """Solutions by the number of poses; of one pose, nine points, one of each class of three cognates."""
@@ -41,21 +36,6 @@ def start_set(poses: int) -> SolvedTask:
     pose = pose_mask(poses)
     begin = SolvedTask(pose, task, unknowns, rotations_of(unknowns, task, pose))
     return track(begin, task).solved  # the file has single precision: Newton's method gives the rest
-
-
-def computed_start_set(poses: int, seed: int = SEED) -> SolvedTask:
-    """The solutions for a number of poses, computed anew: 1 to 40 s."""
-    pose = pose_mask(poses)
-    return all_solutions(task_with_solution(np.random.default_rng([seed, poses]), pose), seed)
-
-
-def written(sets: dict[int, SolvedTask]) -> bytes:
-    """The file of the solutions, by the number of poses."""
-    arrays: dict[str, Any] = {f"task{poses}": one.task for poses, one in sets.items()}
-    arrays |= {f"unknowns{poses}": one.unknowns.astype(np.complex64) for poses, one in sets.items()}
-    stream = io.BytesIO()
-    np.savez(stream, **arrays)
-    return stream.getvalue()
 
 
 def pose_mask(poses: int) -> np.ndarray:

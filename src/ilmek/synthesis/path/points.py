@@ -183,18 +183,6 @@ def crank_of_pivot(points: ComplexArray, crank_angles: FloatArray, pivot: comple
     return _crank(m[0], w, centre_frame, circle_frame)
 
 
-def second_arms(
-    crank: TimedCrank, points: Complex[np.ndarray, " n"], crank_angles: Float[np.ndarray, " n"]
-) -> tuple[Guide, ...]:
-    """Possible second links of a crank for five points: those of its coupler's poses, without the crank itself.
-
-    points  [m], complex, shape (5,)      crank_angles  [rad], shape (5,)
-
-    Raises ParameterError as `arms_through_five_poses` does, for the coupler's poses.
-    """
-    return _others(crank, points, crank.coupler_angles(points, crank_angles))
-
-
 def timed_four_bars(
     points: ComplexArray, crank_angles: FloatArray, *, pivots: tuple[complex, complex] | None = None, samples: int = 24
 ) -> tuple[TimedFourBar, ...]:

@@ -126,8 +126,9 @@ def _found(
     """The optimal w, and its knots; each further round divides or tightens the intervals that exceed a limit."""
     share = np.ones((len(knots) - 1, 1 + 4 * len(limits.jerk)))
     while True:
-        square = _best(path, limits, knots, share)
-        over = _overstep(path, limits, knots, square)
+        fine, points = _derivatives_at(path, knots)
+        square = _best(points, fine, limits, knots, share)
+        over = _overstep(fine, limits, knots, square)
         rounds -= 1
         if rounds == 0 or over.max() <= 1 + TOLERANCE:
             return knots, square
@@ -137,25 +138,40 @@ def _found(
         knots = np.append(0.0, np.cumsum(np.repeat(np.diff(knots) / parts, parts)))
 
 
-def _best(path: JointPath, limits: AxesLimits, knots: FloatArray, share: FloatArray) -> "scipy.interpolate.BSpline":
+def _derivatives_at(path: JointPath, knots: FloatArray) -> tuple[Three, Three]:
+    """The path's derivatives at the fine shares of every interval, and at the points."""
+    every = [
+        one.reshape(len(knots) - 1, -1, one.shape[-1])
+        for one in path.derivatives(_at(knots, np.append(_FINE, _POINTS)))
+    ]
+    fine, points = (
+        [one[:, part].reshape(-1, one.shape[-1]) for one in every]
+        for part in (slice(len(_FINE)), slice(len(_FINE), None))
+    )
+    return (fine[0], fine[1], fine[2]), (points[0], points[1], points[2])
+
+
+def _best(
+    points: Three, fine: Three, limits: AxesLimits, knots: FloatArray, share: FloatArray
+) -> "scipy.interpolate.BSpline":
     """The optimal w where every interval may use a share of the limits."""
-    task, tight = _task(path, limits, knots), np.repeat(share, len(_POINTS), axis=0)
+    task, tight = _task(points, limits, knots), np.repeat(share, len(_POINTS), axis=0)
     task = replace(task, constant=task.constant * tight, root=task.root * tight)
-    x = quickest(task, 0.8 * float(share.min()) ** 2 / _slowness(path, limits, knots) ** 2)
+    x = quickest(task, 0.8 * float(share.min()) ** 2 / max(_slowness(fine, limits), _slowness(points, limits)) ** 2)
     return scipy.interpolate.BSpline(clamped(knots), x, 3)
 
 
-def _slowness(path: JointPath, limits: AxesLimits, knots: FloatArray) -> float:
-    """Factor of time by which the motion u = t must be slowed down to keep every limit."""
-    q1, q2, q3 = (np.abs(one) for one in path.derivatives(_at(knots, np.append(_FINE, _POINTS))))
+def _slowness(slopes: Three, limits: AxesLimits) -> float:
+    """Factor of time by which the motion u = t must be slowed down to keep every limit where its derivatives are."""
+    q1, q2, q3 = (np.abs(one) for one in slopes)
     return float(
         max(np.max(q1 / limits.speed), np.sqrt(np.max(q2 / limits.acceleration)), np.cbrt(np.max(q3 / limits.jerk)))
     )
 
 
-def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
+def _task(points: Three, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     """The limits at the points, each over its value: speeds together, then accelerations and jerks of both signs."""
-    q1, q2, q3 = (one[..., None] for one in path.derivatives(_at(knots, _POINTS)))
+    q1, q2, q3 = (one[..., None] for one in points)
     b0, b1, b2 = (local_basis(knots, _POINTS, order) for order in range(3))
     quick = np.max((q1[..., 0] / limits.speed) ** 2, axis=1)[:, None, None] * b0[:, None]
     bend = (q2 * b0[:, None] + q1 * b1[:, None] / 2) / limits.acceleration[:, None]
@@ -168,20 +184,18 @@ def _task(path: JointPath, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     return SpeedTask(knots, b0, weight, rows, constant, 1.0 - constant, first)
 
 
-def _overstep(
-    path: JointPath, limits: AxesLimits, knots: FloatArray, square: "scipy.interpolate.BSpline"
-) -> FloatArray:
+def _overstep(fine: Three, limits: AxesLimits, knots: FloatArray, square: "scipy.interpolate.BSpline") -> FloatArray:
     """Largest use of every constraint in every interval, (intervals, constraints)."""
-    used = _used(path, limits, _at(knots, _FINE), square)
+    used = _used(fine, limits, _at(knots, _FINE), square)
     speed = np.max(used[0] ** 2, axis=1)[:, None]
     every = np.concatenate([speed, used[1], -used[1], used[2], -used[2]], axis=1)
     return np.asarray(every.reshape(len(knots) - 1, len(_FINE), -1).max(axis=1))
 
 
-def _used(path: JointPath, limits: AxesLimits, u: FloatArray, square: "scipy.interpolate.BSpline") -> Three:
-    """Speed, acceleration and jerk over their limits, signed, (points, axes) each."""
+def _used(slopes: Three, limits: AxesLimits, u: FloatArray, square: "scipy.interpolate.BSpline") -> Three:
+    """Speed, acceleration and jerk over their limits, signed, (points, axes) each; slopes: of the path at u."""
     w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
-    speed, acceleration, jerk = rates(path.derivatives(u), (w, w1, w2))
+    speed, acceleration, jerk = rates(slopes, (w, w1, w2))
     return speed / limits.speed, acceleration / limits.acceleration, jerk / limits.jerk
 
 
@@ -202,7 +216,7 @@ def _knots(path: JointPath, square: "scipy.interpolate.BSpline", intervals: int)
 def _timed(path: JointPath, limits: AxesLimits, knots: FloatArray, square: "scipy.interpolate.BSpline") -> PathMotion:
     """The motion of a spline, scaled in time until the tightest limit is just kept on the fine grid."""
     u = np.append(_at(knots, _FINE), _beside_nodes(path))
-    used = [np.abs(one).max(axis=0) for one in _used(path, limits, u, square)]
+    used = [np.abs(one).max(axis=0) for one in _used(path.derivatives(u), limits, u, square)]
     slow = max(used[0].max(), np.sqrt(used[1].max()), np.cbrt(used[2].max()))
     square = scipy.interpolate.BSpline(square.t, square.c / slow**2, square.k)
     takes = _passing(square, knots[:-1], knots[1:])

@@ -1,18 +1,23 @@
 """What a disc cam's sheets have besides those of a plate: base and prime circle, and the table of its radii."""
 
+import math
+from collections.abc import Iterator
+
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.part.part import CUTTER, PITCH, ZERO, CamMaking
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import along
 from ilmek.report import Contour
+from ilmek.report.sheet import LineKind, arrowhead
+from ilmek.sentences import Sentence
+from ilmek.units import format_quantity
 from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.features import SAME
 from ilmek.viz.drawings.paper import table
-from ilmek.viz.drawings.picture import SheetPicture
+from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.view import DrawnView
-
-PITCH, ZERO = "pitch curve", "zero"
-"""Names of the roller's path and of the mark of the angle 0 on a cam's plate."""
 
 _DEGREES = np.arange(360.0)
 _COLUMNS, _ROWS = 8, 45
@@ -44,31 +49,70 @@ def polar_radii(curve: ComplexArray | Contour, degrees: FloatArray = _DEGREES) -
 
 
 def cam_circles(part: DrawnPart) -> dict[str, float]:
-    """Radius of the base circle, and of the prime circle where the roller's path is known [m]."""
+    """Radius of the base circle, and of the prime circle where the roller's path is known, by keys of words [m]."""
     assert isinstance(part.shape, Prism)
     circles = {}
-    for name, curve in {"base circle": part.shape.section.outline, "prime circle": part.paths.get(PITCH)}.items():
+    for name, curve in {
+        "sheet.base-circle": part.shape.section.outline,
+        "sheet.prime-circle": part.paths.get(PITCH),
+    }.items():
         if curve is not None:
-            points = along(curve, 1e-6) if isinstance(curve, Contour) else curve
+            points = curve.points if isinstance(curve, Contour) else curve
             circles[name] = float(np.abs(points).min())
     return circles
 
 
-def mark_zero(view: DrawnView, part: DrawnPart) -> None:
-    """The name of the mark at the angle 0."""
+def mark_cam(view: DrawnView, part: DrawnPart) -> None:
+    """The name of the mark at the angle 0, the direction in which the cam turns, and the tolerance of its radii."""
     line = np.asarray(part.marks[ZERO])
-    view.leader("0°: zero mark", complex(line[np.argmax(np.abs(line))]) * view.scale, 0.0, kind=None)
+    view.leader(Sentence("sheet.zero-mark"), complex(line[np.argmax(np.abs(line))]) * view.scale, 0.0, kind=None)
+    if part.cam is None:
+        return
+    _turning(view, min(cam_circles(part).values()) * _WITHIN, part.cam.speed < 0)
+    assert isinstance(part.shape, Prism)
+    curve = part.shape.section.outline
+    points = along(curve, 1e-6)
+    foot = complex(points[int(np.argmin(np.abs(np.angle(points * np.exp(-1j * _CALLED)))))])
+    words = Sentence("sheet.radii-called", tolerance=millimetres(part.cam.tolerance))
+    view.leader(words, foot * view.scale, 0.0, kind=None)
+
+
+def _turning(view: DrawnView, radius: float, clockwise: bool) -> None:
+    """An arrow along a circle about the axis [m]."""
+    turns = np.linspace(*_ARC, 40)[:: -1 if clockwise else 1]
+    arc = radius * np.exp(1j * turns)
+    view.line(LineKind.DIMENSION, arc, body=False)
+    tip, before = complex(arc[-1]) * view.scale, complex(arc[-3]) * view.scale
+    view.line(LineKind.DIMENSION, np.array([*arrowhead(tip, tip - before), tip]) / view.scale, body=False)
+    view.leader(Sentence("sheet.turns"), complex(arc[20]) * view.scale, 0.0, kind=None)
+
+
+_WITHIN, _CALLED = 0.7, math.radians(300)
+_ARC = math.radians(215), math.radians(260)
+"""Radius of the arrow over that of the base circle, its ends, and where the profile is called out."""
+
+
+def cam_notes(cam: CamMaking) -> Iterator[str]:
+    """What the workshop must know of the cutter, and why the radii are as tight."""
+    if cam.cutter > 0:
+        hollow = f"⌀{millimetres(2 * cam.largest_cutter)}"
+        largest = hollow if math.isfinite(cam.largest_cutter) else Sentence("sheet.any-cutter")
+        yield Sentence("sheet.cutter", size=millimetres(2 * cam.cutter), largest=largest)
+    if math.isfinite(cam.spare):
+        spare, speed = format_quantity(cam.spare, "m/s^2", 3), format_quantity(abs(cam.speed), "rpm", 3)
+        yield Sentence("sheet.spare", spare=spare, speed=speed)
 
 
 def radius_tables(part: DrawnPart) -> tuple[SheetPicture, ...]:
-    """Radii of the profile, and of the pitch curve where it is known, at each degree."""
+    """Radii of the profile at each degree, and of the paths of roller and cutter where they are known and differ."""
     assert isinstance(part.shape, Prism)
     columns = [polar_radii(part.shape.section.outline)]
-    header = ["θ °", "profile"]
-    pitch = part.paths.get(PITCH)
-    if pitch is not None:
-        columns.append(polar_radii(pitch))
-        header.append("pitch")
+    header = ["θ °", Sentence("sheet.profile")]
+    for name, path in (("sheet.roller-path", PITCH), ("sheet.cutter-path", CUTTER)):
+        radii = polar_radii(part.paths[path]) if path in part.paths else columns[-1]
+        if np.abs(radii - columns[-1]).max() > SAME:
+            columns.append(radii)
+            header.append(Sentence(name))
     rows = [
         (f"{degree:g}", *(f"{radius[number] * 1e3:.3f}" for radius in columns))
         for number, degree in enumerate(_DEGREES)

@@ -10,9 +10,11 @@ from ilmek.part.shapes import Prism, Turned
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
-from ilmek.viz.drawings.cam import cam_circles, is_cam, mark_zero, radius_tables
+from ilmek.sentences import Sentence
+from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import edge_view, flat_part, outline_view
 from ilmek.viz.drawings.joined import joined_views, members_of
@@ -30,9 +32,10 @@ from ilmek.viz.drawings.paper import (
     table,
     title_block,
 )
-from ilmek.viz.drawings.picture import SheetPicture, joined_box
+from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
+from ilmek.viz.drawings.weld_symbols import Foot, cut_list, weld_symbols
 
 _BETWEEN, _PAD = 14.0, 6.0
 """Least distance of two views, and of anything from the frame [mm]."""
@@ -57,23 +60,14 @@ class Arrangement:
 
 def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrangement | None:
     """The views of a part at a scale [mm of the paper per m]; None: the kernel is needed, and missing."""
-    fits, shape = Fits(part.features), part.shape
+    fits, shape = Fits(part.features, part.stated.roughness if part.stated else None), part.shape
     fit_table = fits.table()
     tables = () if fit_table is None else (fit_table,)
-    if isinstance(shape, Prism) and is_long(shape.section, shape.length):
-        flat = flat_part(shape.section, fits)
-        section, more = outline_view(flat, scale, fits)
-        return Arrangement({"front": bar_view(flat, shape.length, scale), "right": section}, (*tables, *more))
+    if part.cut is not None:
+        tables = (*tables, cut_list(part.cut, part.pieces))
     if isinstance(shape, Prism):
-        flat = flat_part(shape.section, fits, smooth=part.smooth)
-        circles = cam_circles(part) if is_cam(part) else None
-        front, more = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
-        if is_cam(part):
-            mark_zero(front, part)
-        low, high = bounds(flat.outline)
-        below = (high - low).real > (high - low).imag * 1.2
-        edge = edge_view(flat, shape.length, scale, below=below)
-        return Arrangement({"front": front, "below" if below else "right": edge}, (*tables, *more))
+        views, more = _prism_views(part, shape, fits, scale)
+        return Arrangement(views, (*tables, *more))
     if isinstance(shape, Turned):
         return Arrangement({"front": turned_view(shape.profile, scale, fits)}, tables)
     members = tuple(members_of(shape))
@@ -86,7 +80,45 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     if project is None:
         return None
     views, more = joined_views(shape, scale, project, fits)
+    weld_symbols(views["front"], part.welds, _flat_foot(scale))
     return Arrangement(views, (*tables, *more))
+
+
+def _prism_views(
+    part: DrawnPart, shape: Prism, fits: Fits, scale: float
+) -> tuple[dict[str, DrawnView], tuple[SheetPicture, ...]]:
+    """A bar from its side with its section, or a plate with its edge; and the table of its holes."""
+    if is_long(shape.section, shape.length):
+        flat = flat_part(shape.section, fits)
+        section, tables = outline_view(flat, scale, fits)
+        face_notes(section, fits, *FRONT)
+        return {"front": bar_view(flat, shape.length, scale, part.welds), "right": section}, tables
+    flat = flat_part(shape.section, fits, smooth=part.smooth)
+    circles = cam_circles(part) if is_cam(part) else None
+    front, tables = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
+    if is_cam(part):
+        mark_cam(front, part)
+    low, high = bounds(flat.outline)
+    below = (high - low).real > (high - low).imag * 1.2
+    edge = edge_view(flat, shape.length, scale, below=below)
+    face_notes(front, fits, *FRONT)
+    face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
+    ends = [weld for weld in part.welds if weld.all_round]
+    weld_symbols(front, [weld for weld in part.welds if not weld.all_round], _flat_foot(scale))
+    weld_symbols(edge, ends, _edge_foot(high, scale, below=below))
+    return {"front": front, "below" if below else "right": edge}, tables
+
+
+def _edge_foot(high: complex, scale: float, *, below: bool) -> Foot:
+    """Where welds round the ends are in the view on the edge of a plate; high  its upper right corner."""
+    if below:
+        return lambda weld: complex(high.real, -float(weld.middle[2])) * scale
+    return lambda weld: complex(float(weld.middle[2]), high.imag) * scale
+
+
+def _flat_foot(scale: float) -> Foot:
+    """Where welds are in the front view of a plate."""
+    return lambda weld: complex(float(weld.middle[0]), float(weld.middle[1])) * scale
 
 
 def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple[DrawingSheet, ...]:
@@ -99,13 +131,15 @@ def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple
 
 def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     """The second sheet of a cam: its radii at each degree."""
-    _, height = PAPERS["A3"]
     listed = merged(radius_tables(part))
-    words = "Radii in mm about the bore, θ counter-clockwise from the zero mark, seen as on sheet 1"
+    wide = listed.box[2] + LEFT + EDGE + _PAD
+    paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
+    within = f", ±{millimetres(part.cam.tolerance)}" if part.cam else ""
+    words = Sentence("sheet.radii", within=within)
     caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
     corner = complex(LEFT + _PAD, height - EDGE - 11.0)
     laid = merged([_top_left(listed, corner), SheetPicture((), (caption,), ())])
-    return _sheet(part, issue, "A3", 1.0, laid, 2)
+    return _sheet(part, issue, paper, 1.0, laid, 2)
 
 
 def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> DrawingSheet | None:
@@ -216,13 +250,21 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
 
 def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
-    lines = [*part.notes]
+    lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
     if part.file:
-        lines.append(f"Contour: {part.file}, scale 1:1")
+        lines.append(Sentence("sheet.contour", file=part.file))
     if not lines:
         return None
-    rows = [fitting(f"{number}  {line}", 168.0, 2.5, 2.5)[0] for number, line in enumerate(lines, 1)]
-    return table(("Notes",), [(row,) for row in rows])
+    rows = [
+        fitting(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
+        for number, line in enumerate(lines, 1)
+    ]
+    return table((Sentence("sheet.notes"),), [(row,) for row in rows])
+
+
+def status_of(issue: Issue) -> Sentence:
+    """The status of a document in words."""
+    return Sentence("paper.not-released") if issue.unreleased else Sentence("sheet.for-production")
 
 
 def _sheet(  # noqa: PLR0917
@@ -230,14 +272,13 @@ def _sheet(  # noqa: PLR0917
 ) -> DrawingSheet:
     pages = 2 if is_cam(part) else 1
     facts = TitleFacts(
-        part.number, part.title, "Part drawing", part.material, part.mass_words,
-        ", ".join(words for words in (part.size, part.process) if words) or "—", str(part.pieces), part.surface,
-        part.treatment, part.general, part.edges, "NOT RELEASED" if issue.unreleased else "For production",
+        part.number, part.title, Sentence("sheet.part-drawing"), part.material, part.mass_words,
+        part.stock, str(part.pieces), part.surface, part.treatment, part.general, part.edges, status_of(issue),
         issue.owner, issue.date, issue.revision,
     )  # fmt: skip
     whole = merged([frame(paper), title_block(facts, paper, scale, page, pages), laid])
     width, height = PAPERS[paper]
-    stamp = "NOT RELEASED" if issue.unreleased else ""
+    stamp = status_of(issue) if issue.unreleased else ""
     return DrawingSheet(
         part.number, part.title, paper, width, height, scale, whole.lines, whole.texts, whole.dimensions, page, pages,
         stamp,

@@ -6,16 +6,21 @@ from dataclasses import field
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
-from ilmek.part.part import Part
+from ilmek.part.part import CamMaking, Part
+from ilmek.part.part_lists import section_of
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.specification import PartSpecification, specification
 from ilmek.part.tolerances import ToleratedFeature
+from ilmek.part.tree import Tree
+from ilmek.part.welds import WELDED, Weld, welds_of
 from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
+from ilmek.sentences import Sentence
+from ilmek.sentences.english import ENGLISH
 from ilmek.units import format_quantity, mm, um
 
 
@@ -26,7 +31,8 @@ class DrawnPart:
     number   of the drawing: the part's id        name  of its files
     shape    of the package `part`                flat  it is cut from flat stock       pieces  to be made
     file     of its flat pattern, for the laser   smooth  its outline is a curve
-    stated   what holds for the part as a whole; None: not known
+    stated   what holds for the part as a whole; None: not known        cam  how a disc cam is cut; None: it is none
+    welds    of the part to others       cut  section of stock, and length that it is cut to [m]; None: of no bar
     """
 
     number: str
@@ -46,6 +52,9 @@ class DrawnPart:
     file: str = ""
     smooth: bool = False
     stated: PartSpecification | None = None
+    cam: CamMaking | None = None
+    welds: tuple[Weld, ...] = ()
+    cut: tuple[str, float] | None = None
 
     @property
     def mass(self) -> float:
@@ -66,24 +75,36 @@ class DrawnPart:
         if given is None or given.hardening is None:
             return ""
         hard = given.hardening
-        words = f"hardened {hard.hardness} +{hard.more} HRC"
-        depth = given.depth / mm
-        return f"{words}, {hard.kind} {depth:g} +{depth / 2:g}" if hard.kind else f"through-{words}"
+        if not hard.kind:
+            return Sentence("sheet.through-hardened", hardness=hard.hardness, more=hard.more)
+        deep, deeper = f"{given.depth / mm:g}", f"{given.depth / 2 / mm:g}"
+        return Sentence(
+            "sheet.hardened", hardness=hard.hardness, more=hard.more, kind=hard.kind, depth=deep, deeper=deeper
+        )
+
+    @property
+    def stock(self) -> str:
+        """What it is made of, and how."""
+        key = f"sheet.process-{self.process.replace(' ', '-')}"
+        process = Sentence(key) if key in ENGLISH else self.process
+        if self.size and process:
+            return Sentence("sheet.stock-process", stock=self.size, process=process)
+        return self.size or process or "—"
 
     @property
     def surface(self) -> str:
         """Roughness of all surfaces that state no other."""
         if self.stated is None:
             return "—"
-        return "as delivered" if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
+        return Sentence("sheet.as-delivered") if self.stated.roughness is None else f"Ra {self.stated.roughness / um:g}"
 
     @property
-    def edges(self) -> str:
-        """States of outer and inner edges, ISO 13715."""
+    def edges(self) -> tuple[str, str]:
+        """States of outer and inner edges [mm], ISO 13715; "": not known."""
         if self.stated is None:
-            return "—"
+            return "", ""
         outer, inner = self.stated.outer_edge / mm, self.stated.inner_edge / mm
-        return f"outer {outer:+g}  inner {inner:+g}".replace("-", "−")
+        return f"{outer:+g}".replace("-", "−"), f"{inner:+g}".replace("-", "−")
 
     @property
     def general(self) -> str:
@@ -105,12 +126,12 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
         part = Part(f"{machine}/{name}", plate.title, FLAT[1], "", shape, material)
     size = part.size if part is not None else ""
     if isinstance(solid, RoundSolid):
-        size = f"⌀{format_quantity(2 * solid.outer, 'mm')}, drawn as its development"
+        size = Sentence("sheet.development", size=f"⌀{format_quantity(2 * solid.outer, 'mm')}")
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
-        _stated(part),
+        _stated(part), part.cam if part else None, _welds(part, plate.tree),
     )  # fmt: skip
 
 
@@ -121,11 +142,16 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
         part.notes if part else (), features=_features(piece.features), stated=_stated(part),
+        welds=_welds(part, piece.tree), cut=section_of(part) if part and part.process == WELDED else None,
     )  # fmt: skip
 
 
 def _features(features: tuple[object, ...]) -> tuple[ToleratedFeature, ...]:
     return tuple(feature for feature in features if isinstance(feature, ToleratedFeature))
+
+
+def _welds(part: Part | None, tree: object) -> tuple[Weld, ...]:
+    return welds_of(tree).get(part.id, ()) if part and isinstance(tree, Tree) else ()
 
 
 def _density(part: Part | None) -> float:

@@ -1,7 +1,7 @@
 """Features of a contour that a drawing dimensions: corners, arcs, patterns of holes."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 
 import numpy as np
 
@@ -97,9 +97,9 @@ class HoleGroup:
         return self.holes[0].radius
 
 
-def hole_groups(holes: Sequence[Hole], classes: Callable[[Hole], str]) -> tuple[HoleGroup, ...]:
-    """The holes by size and tolerance class, those of one pitch circle as one group."""
-    sizes: dict[tuple[float, str], list[Hole]] = {}
+def hole_groups(holes: Sequence[Hole], classes: Callable[[Hole], Hashable]) -> tuple[HoleGroup, ...]:
+    """The holes by size and what they must hold, those of one pitch circle as one group."""
+    sizes: dict[tuple[float, Hashable], list[Hole]] = {}
     for hole in holes:
         sizes.setdefault((round(hole.radius, 8), classes(hole)), []).append(hole)
     return tuple(_pattern(tuple(group)) for group in sizes.values())

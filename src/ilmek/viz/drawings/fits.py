@@ -1,13 +1,17 @@
 """Fits of a part's features beside their dimensions, and the table of all that its features must hold."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
-from ilmek.part.tolerances import FeatureKind, ToleratedFeature
+from ilmek.part.tolerances import FeatureKind, GeometricTolerance, ToleratedFeature
 from ilmek.records import record
+from ilmek.sentences import Sentence
 from ilmek.units import um
+from ilmek.viz.drawings.feature_note import ControlFrame, FeatureNote
 from ilmek.viz.drawings.features import SAME
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
+
+Span = tuple[float, float]
 
 
 def deviation(value: float) -> str:
@@ -30,23 +34,35 @@ def limits(lower: float, upper: float) -> str:
 
 @record
 class Fits:
-    """The tolerated features of a part."""
+    """The tolerated features of a part, and Ra of all its other surfaces [m], None where they are as delivered."""
 
     features: tuple[ToleratedFeature, ...] = ()
+    general: float | None = None
 
-    def suffix(self, size: float, kind: FeatureKind, centre: complex | None = None) -> str:
-        """Classes, deviations and datum letters behind a size [m]: ` H7 (+0.021/0) [A]`; "": it has no fit.
+    def note(self, size: float, kind: FeatureKind, centre: complex | None = None) -> FeatureNote:
+        """What features of a size [m] and kind must hold: ` H7 (+0.021/0)`, frames, datums; bare: nothing.
 
         centre  of a bore in the section of a plate; None: anywhere
         """
-        classes: dict[str, str] = {}
-        for feature in self.features:
-            at = complex(*feature.position.origin[:2])
-            there = centre is None or abs(at - centre) < 2 * SAME
-            if feature.kind is kind and there and abs(feature.nominal - size) < 2 * SAME:
-                words = f" {feature.tolerance}{limits(feature.lower, feature.upper)}"
-                classes[words] = classes.get(words, "") + (f" [{feature.datum}]" if feature.datum else "")
-        return ",".join(f"{words}{datums}" for words, datums in classes.items())
+        there = (one for one in self.features if one.kind is kind and abs(one.nominal - size) < 2 * SAME)
+        return self._note(
+            [one for one in there if centre is None or abs(complex(*one.position.origin[:2]) - centre) < 2 * SAME]
+        )
+
+    def along(self, size: float, kind: FeatureKind) -> Mapping[FeatureNote, list[Span]]:
+        """What features of a size [m] and kind on one axis must hold, and where they begin and end on it [m]."""
+        notes: dict[FeatureNote, list[Span]] = {}
+        for one in self.features:
+            if one.kind is kind and abs(one.nominal - size) < 2 * SAME:
+                notes.setdefault(self._note([one]), []).append(span_of(one))
+        return notes
+
+    def _note(self, alike: Sequence[ToleratedFeature]) -> FeatureNote:
+        words = dict.fromkeys(f" {one.tolerance}{limits(one.lower, one.upper)}" for one in alike)
+        frames = dict.fromkeys(_frame(limit) for one in alike for limit in one.geometric)
+        rough = {f"Ra {one.roughness / um:g}" for one in alike if one.roughness != self.general}
+        datums = sorted({one.datum for one in alike if one.datum})
+        return FeatureNote(",".join(words), tuple(frames), tuple(datums), min(rough, default=""))
 
     def depth(self, size: float) -> str:
         """Deviations behind the depth of a keyway by its width [m]; "": it has no fit."""
@@ -56,21 +72,32 @@ class Fits:
         return ""
 
     def table(self) -> SheetPicture | None:
-        """Size, deviations, roughness and geometric tolerances of each kind of feature, with the reason."""
+        """Size and limits of each kind of feature [mm], with what it does."""
         rows = list(dict.fromkeys(self._rows()))
-        return table(HEADER, rows, "Fits, form and position") if rows else None
+        return table(HEADER, rows, Sentence("sheet.fits")) if rows else None
 
     def _rows(self) -> Iterator[tuple[str, ...]]:
-        for feature in self.features:
-            size = f"{_SIGNS.get(feature.kind, '')}{millimetres(feature.nominal)} {feature.tolerance}"
-            geometry = ", ".join(
-                " ".join((limit.characteristic, f"{'⌀' * limit.round}{millimetres(limit.value)}", *limit.datums))
-                for limit in feature.geometric
-            )
-            roughness = f"{feature.roughness / um:g}"
-            yield feature.kind.value, size, feature.datum, roughness, geometry, feature.duty.value
+        for one in self.features:
+            if one.tolerance:
+                ends = one.nominal + one.lower, one.nominal + one.upper
+                least, greatest = map(millimetres, ends) if one.lower or one.upper else ("", "")
+                sign = _SIGNS.get(one.kind, "")
+                size = f"{sign}{millimetres(one.nominal)} {one.tolerance}"
+                kind = Sentence(f"sheet.kind-{one.kind.name.lower().replace('_', '-')}")
+                yield kind, size, least, greatest, Sentence(f"sheet.duty-{one.duty.name.lower()}")
 
 
-HEADER = ("Feature", "Size", "Datum", "Ra", "Form, position", "It")
+def span_of(feature: ToleratedFeature) -> Span:
+    """Where a feature on the axis of a turned part begins and ends on it [m]."""
+    begin = float(feature.position.origin[2])
+    low, high = sorted((begin, begin + float(feature.position.rotation[2, 2]) * feature.length))
+    return low, high
+
+
+def _frame(limit: GeometricTolerance) -> ControlFrame:
+    return ControlFrame(limit.characteristic, f"{'⌀' * limit.round}{millimetres(limit.value)}", limit.datums)
+
+
+HEADER = tuple(map(Sentence, ("sheet.feature", "sheet.dimension", "sheet.least", "sheet.greatest", "sheet.duty")))
 _SIGNS = {FeatureKind.BORE: "⌀", FeatureKind.JOURNAL: "⌀", FeatureKind.THREAD: "M", FeatureKind.SQUARE: "□"}
 _SIGNS[FeatureKind.SQUARE_BORE] = "□"

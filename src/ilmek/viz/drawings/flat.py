@@ -14,6 +14,8 @@ from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, 
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
+from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import (
     SAME,
     ArcFeature,
@@ -28,7 +30,7 @@ from ilmek.viz.drawings.features import (
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
-from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength, coordinate
 
 NO_FITS = Fits()
 
@@ -86,7 +88,7 @@ def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -
     features = contour_features(outline)
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
-    groups = hole_groups(holes, lambda hole: bore_suffix(fits, hole))
+    groups = hole_groups(holes, lambda hole: bore_note(fits, hole))
     return FlatPart(outline, features, ring, groups, bores, others, datum, curve)
 
 
@@ -101,11 +103,11 @@ def _datum(features: ContourFeatures, corner: complex, centres: list[complex], h
     return next(iter((*centres, *(arc.centre for arc in features.arcs))), corner)
 
 
-def bore_suffix(fits: Fits, hole: Hole) -> str:
-    """Fit or thread behind the diameter of a hole; "": none."""
-    fit = fits.suffix(2 * hole.radius, FeatureKind.BORE, hole.at)
-    thread = fits.suffix(2 * hole.radius, FeatureKind.THREAD, hole.at)
-    return fit or (f" M{millimetres(2 * hole.radius)}{thread}" if thread else "")
+def bore_note(fits: Fits, hole: Hole) -> FeatureNote:
+    """What a round hole must hold, its fit or thread behind the diameter; bare: nothing."""
+    fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
+    thread = fits.note(2 * hole.radius, FeatureKind.THREAD, hole.at)
+    return thread._replace(words=f" M{millimetres(2 * hole.radius)}{thread.words}") if thread.words else fit
 
 
 def outline_view(
@@ -119,7 +121,7 @@ def outline_view(
 ) -> tuple[DrawnView, tuple[SheetPicture, ...]]:
     """The view on the outline with its dimensions, and its hole table where it has one.
 
-    circles  about the origin to draw and to label by their names: radii [m]
+    circles  about the origin to draw and to label: radii [m] by the keys of their words
     """
     view = DrawnView(scale)
     view.contour(LineKind.VISIBLE, flat.outline)
@@ -144,7 +146,7 @@ def outline_view(
     _linear(view, flat)
     _labels(view, flat, fits)
     for name, radius in (circles or {}).items():
-        _diameter(view, f"{name} ⌀{millimetres(2 * radius)}", 0j, radius)
+        _diameter(view, Sentence(name, size=millimetres(2 * radius)), 0j, radius)
     tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
     return view, tables
 
@@ -233,17 +235,19 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
     shaft = as_keyed(flat.outline)
     for bore in (*flat.bores, *([shaft] if shaft else [])):
         kind = FeatureKind.JOURNAL if bore is shaft else FeatureKind.BORE
-        suffix = fits.suffix(2 * bore.radius, kind)
-        _diameter(view, f"⌀{millimetres(2 * bore.radius)}{suffix}", bore.centre, bore.radius)
+        note = fits.note(2 * bore.radius, kind)
+        _diameter(view, f"⌀{millimetres(2 * bore.radius)}{note.words}", bore.centre, bore.radius, note=note)
         keyway(view, bore, fits, kind)
     for group in flat.groups:
         count = len(group.holes)
         times = f"{count}× " if count > 1 else ""
-        even = f" on ⌀{millimetres(2 * group.pitch)}" if group.pitch else ""
         hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
         if not flat.tabled or group.pitch:
-            suffix = bore_suffix(fits, hole)
-            _diameter(view, f"{times}⌀{millimetres(2 * hole.radius)}{suffix}{even}", hole.at, hole.radius, count)
+            note = bore_note(fits, hole)
+            words = f"{times}⌀{millimetres(2 * hole.radius)}{note.words}"
+            if group.pitch:
+                words = Sentence("sheet.on-circle", holes=words, circle=millimetres(2 * group.pitch))
+            _diameter(view, words, hole.at, hole.radius, count, note)
     if flat.dimensioned and flat.round_outline is None and shaft is None:
         _radii(view, flat.features.arcs)
     for cut in flat.cutouts:
@@ -256,12 +260,14 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits) -> None:
 def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
     """Width across flats of a square bore, with its angle where it is turned; side  from corner to corner [m]."""
     size, angle = abs(side), math.degrees(float(np.angle(side))) % 90
-    turned = f" at {angle:.4g}°" if 1e-6 < angle < 90 - 1e-6 else ""
     corner = centre + side * (1 + 1j) / 2
     ends = (corner * view.scale, (corner - side) * view.scale)
     view.cross(centre, size / 2)
-    words = f"□{millimetres(size)}{fits.suffix(size, FeatureKind.SQUARE_BORE)}{turned}"
-    view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends)
+    note = fits.note(size, FeatureKind.SQUARE_BORE)
+    words = f"□{millimetres(size)}{note.words}"
+    if 1e-6 < angle < 90 - 1e-6:
+        words = Sentence("sheet.square-turned", size=words, angle=f"{angle:.4g}°")
+    view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends, note=note)
 
 
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
@@ -275,20 +281,23 @@ def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) ->
     times = f"{count}× " if count > 1 else ""
     at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
     ends = (corners[0] * view.scale, corners[1] * view.scale)
-    width = f"{times}keyway {millimetres(bore.width)}{fits.suffix(bore.width, _KEYWAYS[kind])} at {at}"
+    note = fits.note(bore.width, _KEYWAYS[kind])
+    width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
     view.leader(
-        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends
+        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
     )  # fmt: skip
     across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.floor) * view.scale)
-    floor = f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)} to its floor"
+    floor = Sentence("sheet.floor", size=f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)}")
     view.leader(
         floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
     )  # fmt: skip
 
 
-def _diameter(view: DrawnView, words: str, centre: complex, radius: float, count: int = 1) -> None:
-    scale = view.scale
-    view.leader(words, centre * scale, radius * scale, kind=DimensionKind.DIAMETER, value=2 * radius, count=count)
+def _diameter(  # noqa: PLR0917
+    view: DrawnView, words: str, centre: complex, radius: float, count: int = 1, note: FeatureNote = NO_NOTE
+) -> None:
+    at, reach = centre * view.scale, radius * view.scale
+    view.leader(words, at, reach, kind=DimensionKind.DIAMETER, value=2 * radius, count=count, note=note)
 
 
 def _radii(view: DrawnView, arcs: tuple[ArcFeature, ...]) -> None:
@@ -312,16 +321,14 @@ def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
         for number, hole in enumerate(ordered, 1):
             tag = f"{letter}{number}" if len(ordered) > 1 else letter
             view.tag(tag, hole.at * view.scale, hole.radius * view.scale)
-            at = hole.at - flat.datum
-            rows.append(
-                (
-                    tag,
-                    millimetres(at.real),
-                    millimetres(at.imag),
-                    f"⌀{millimetres(2 * hole.radius)}{bore_suffix(fits, hole)}",
-                )
-            )
-    return table(("Hole", "X", "Y", "Size"), rows, "Holes, from the datum")
+            at, note = hole.at - flat.datum, bore_note(fits, hole)
+            size = f"⌀{millimetres(2 * hole.radius)}{note.words}"
+            rows.append((tag, millimetres(at.real), millimetres(at.imag), size))
+        if not note.is_bare:
+            hole = ordered[-1]
+            words = f"{len(ordered)}× {letter}" if len(ordered) > 1 else letter
+            view.leader(words, hole.at * view.scale, hole.radius * view.scale, kind=None, note=note)
+    return table((Sentence("sheet.hole"), "X", "Y", Sentence("sheet.dimension")), rows, Sentence("sheet.holes"))
 
 
 def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) -> DrawnView:

@@ -10,8 +10,9 @@ from itertools import pairwise
 from ilmek.records import record
 from ilmek.report import BillLine, Check, Report
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
+from ilmek.sentences import Sentence
 from ilmek.units import format_quantity
-from ilmek.viz.drawings.compose import merged
+from ilmek.viz.drawings.compose import merged, status_of
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.paper import PAPERS, TitleFacts, fitting, frame, table, title_block
 from ilmek.viz.drawings.picture import SheetPicture
@@ -19,7 +20,13 @@ from ilmek.viz.drawings.picture import SheetPicture
 _LINES, _REASONS, _WIDTHS = 37, 8, (12.0, 66.0, 100.0, 14.0, 16.0, 76.0, 26.0, 26.0)
 """Lines and reasons on a sheet, and widths of the columns [mm]."""
 
-HEADER = ("No.", "Drawing", "Part", "Pieces", "Source", "Material, designation", "Mass", "All")
+HEADER = tuple(
+    map(
+        Sentence,
+        ("sheet.list-number", "sheet.list-drawing", "sheet.list-part", "sheet.pieces", "sheet.list-source",
+         "sheet.list-material", "sheet.mass", "sheet.list-all"),
+    )
+)  # fmt: skip
 
 
 @record
@@ -50,7 +57,7 @@ def part_rows(report: Report, parts: Sequence[DrawnPart]) -> tuple[PartRow, ...]
         if part is not None:
             rows.append(_row(len(rows) + 1, part))
         elif line.kind or line.description:
-            source = "make" if line.material else "buy"
+            source = Sentence("sheet.make") if line.material else Sentence("sheet.buy")
             material = line.material or line.description
             rows.append(PartRow(len(rows) + 1, "—", line.name, line.number, source, material, line.mass))
     rows += [_row(len(rows) + number, part) for number, part in enumerate(drawn.values(), 1)]
@@ -65,7 +72,7 @@ def _lines(report: Report) -> list[BillLine]:
 
 
 def _row(number: int, part: DrawnPart) -> PartRow:
-    return PartRow(number, part.number, part.title, part.pieces, "make", part.material, part.mass)
+    return PartRow(number, part.number, part.title, part.pieces, Sentence("sheet.make"), part.material, part.mass)
 
 
 def _mass(mass: float) -> str:
@@ -94,8 +101,8 @@ def _page(  # noqa: PLR0917
     top = complex(26.0, height - 16.0)
     pictures = [frame(paper)]
     facts = TitleFacts(
-        f"{report.machine}/parts", report.title, "Parts list", "—", "—", "—", str(1), "—", "", "—", "—",
-        "NOT RELEASED" if issue.unreleased else "For production", issue.owner, issue.date, issue.revision,
+        f"{report.machine}/parts", report.title, Sentence("sheet.parts-list"), "—", "—", "—", str(1), "—", "", "—",
+        ("", ""),        status_of(issue), issue.owner, issue.date, issue.revision,
     )  # fmt: skip
     pictures.append(title_block(facts, paper, 1.0, page, pages))
     if reasons:
@@ -105,7 +112,7 @@ def _page(  # noqa: PLR0917
     listed = table(HEADER, [row.cells for row in rows], widths=_WIDTHS)
     pictures.append(listed.moved(top))
     whole = merged(pictures)
-    stamp = "NOT RELEASED" if issue.unreleased else ""
+    stamp = status_of(issue) if issue.unreleased else ""
     return DrawingSheet(
         facts.number, report.title, paper, width, height, 1.0, whole.lines, whole.texts, (), page, pages, stamp
     )  # fmt: skip
@@ -113,11 +120,11 @@ def _page(  # noqa: PLR0917
 
 def _reasons(reasons: Sequence[Check]) -> SheetPicture:
     """Why nothing is released: the heaviest failed checks, each with its cure."""
-    texts = [SheetText(0j, "NOT RELEASED: the design does not hold these checks", 3.5, bold=True)]
+    texts = [SheetText(0j, Sentence("sheet.reasons"), 3.5, bold=True)]
     for reason in reasons[:_REASONS]:
-        words, _ = fitting(f"{reason.name}: {reason.cure}", 360.0, 2.5, 2.5)
+        words, _ = fitting(Sentence("sheet.reason", name=reason.name, cure=reason.cure), 360.0, 2.5, 2.5)
         texts.append(SheetText(complex(0.0, -5.0 * len(texts) - 1), words, 2.5))
     more = len(reasons) - _REASONS
     if more > 0:
-        texts.append(SheetText(complex(0.0, -5.0 * len(texts) - 1), f"and {more} more: see the report", 2.5))
+        texts.append(SheetText(complex(0.0, -5.0 * len(texts) - 1), Sentence("sheet.more-reasons", count=more), 2.5))
     return SheetPicture((), tuple(texts), ())

@@ -16,13 +16,14 @@ from ilmek.part.tolerances import FeatureKind
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import along, as_hole, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import PARALLEL
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Axis, Projector
-from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength, coordinate
 
 VIEWS: dict[str, tuple[Axis, Axis]] = {
     "front": ((0.0, 0.0, 1.0), (1.0, 0.0, 0.0)),
@@ -33,6 +34,8 @@ VIEWS: dict[str, tuple[Axis, Axis]] = {
 
 MOST_ENDS, MOST_LABELS = 14, 6
 """Ends of members that a view dimensions in a direction; more of them stand in the cut list alone."""
+
+PIECES = tuple(map(Sentence, ("sheet.item", "sheet.pieces", "sheet.section", "sheet.length")))
 
 Member = tuple[object, Placement]
 
@@ -189,11 +192,11 @@ def _circles(
         centre = max(different, key=lambda c: c.real + c.imag)
         for each in different:
             view.cross(each, radius)
-        suffixes = (fits.suffix(2 * radius, kind) for kind in (FeatureKind.BORE, FeatureKind.JOURNAL))
-        suffix = next(filter(None, suffixes), "")
+        notes = (fits.note(2 * radius, kind) for kind in (FeatureKind.BORE, FeatureKind.JOURNAL))
+        note = next((one for one in notes if one.words), NO_NOTE)
         view.leader(
-            f"{times}⌀{millimetres(2 * radius)}{suffix}", centre * view.scale, radius * view.scale,
-            kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different),
+            f"{times}⌀{millimetres(2 * radius)}{note.words}", centre * view.scale, radius * view.scale,
+            kind=DimensionKind.DIAMETER, value=2 * radius, count=len(different), note=note,
         )  # fmt: skip
 
 
@@ -203,7 +206,7 @@ def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
     for shape, _ in members:
         counts[_section(shape)] = counts.get(_section(shape), 0) + 1
     rows = [(str(k), str(number), *words) for k, (words, number) in enumerate(counts.items(), 1)]
-    return table(("Item", "Pieces", "Section", "Length"), rows[:30], "Consists of")
+    return table(PIECES, rows[:30], Sentence("sheet.members"))
 
 
 def _section(shape: object) -> tuple[str, str]:

@@ -8,15 +8,19 @@ import numpy as np
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
+from ilmek.part.welds import Weld
 from ilmek.plane.contours import along, bounds, counter_clockwise
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind
+from ilmek.sentences import Sentence
+from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import SAME, ContourFeatures, contour_features, distinct
-from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.fits import Fits, Span, span_of
 from ilmek.viz.drawings.flat import PARALLEL, FlatPart, edge_levels
 from ilmek.viz.drawings.picture import millimetres
-from ilmek.viz.drawings.view import DrawnView, MeasuredLength
+from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength
+from ilmek.viz.drawings.weld_symbols import weld_symbols
 
 MOST_DIAMETERS = 10
 """Diameters of a turned part that are labelled; of more, the largest and smallest."""
@@ -93,7 +97,8 @@ def turned_view(
     features = contour_features(contour)
     corners = features.corners
     low, high = bounds(contour)
-    levels = distinct([*(corner.real for corner in corners), *(z for groove in grooves for z in groove[:2])])
+    held = [span for one in fits.features if one.length > 0 for span in [span_of(one)]] if features.fully else []
+    levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *held) for z in ends[:2])])
     cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
     bored = low.imag > SAME or bool(profile.holes)
     gap = 1.2 / scale
@@ -191,42 +196,62 @@ def _diameters(  # noqa: PLR0917
     radii = distinct([start.imag for start, _ in stretches])
     if len(radii) > MOST_DIAMETERS:
         radii = [radii[0], radii[-1]]
-    single = len(radii) == 1 and features.fully
     for radius in radii:
-        start, end = next(s for s in stretches if abs(s[0].imag - radius) < 2 * SAME)
-        inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
-        count = len(distinct([s[0].real for s in stretches if abs(s[0].imag - radius) < 2 * SAME]))
         square = any(abs(radius - side) < SAME for side in squares)
-        words = f"{'□' if square else '⌀'}{millimetres(2 * radius)}"
-        kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
-        suffix = fits.suffix(2 * radius, kind)
-        first, last = cut.drawn(np.array([start.real, end.real]))
-        if square:
-            for sign in (-1, 1):
-                corner = sign * radius * 1j
-                for piece in _stretch(cut, start.real - corner, end.real + corner, 1.2 / view.scale):
-                    view.line(LineKind.DIMENSION, piece, body=False)
-        if single:
-            foot = float(cut.drawn(bounds(contour)[0].real))
-            ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
-            view.rows([MeasuredLength(*ends, 2 * radius, "⌀", suffix)], across=True)
-            continue
-        share = 0.5 if cut.whole else 0.2
-        at = complex(first + share * (last - first), radius) * view.scale
-        times = f"{count}× " if count > 1 else ""
-        if count > MOST_DIAMETERS:
-            starts = distinct([s[0].real for s in stretches if abs(s[0].imag - radius) < 2 * SAME])
-            pitch = float(np.median(np.diff(starts)))
-            suffix += f", {millimetres(abs(end - start))} wide, pitch {millimetres(pitch)}"
-        view.leader(
-            f"{times}{words}{suffix}", at, 0.0,
-            kind=DimensionKind.ALIGNED if square else DimensionKind.DIAMETER, value=2 * radius, count=count,
-            measured=(at.conjugate(), at),
-        )  # fmt: skip
+        alike: dict[tuple[bool, FeatureNote], list[Span]] = {}
+        for start, end in (own for own in stretches if abs(own[0].imag - radius) < 2 * SAME):
+            inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
+            kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
+            own = (min(start.real, end.real), max(start.real, end.real))
+            there = {
+                note: [span for span in spans if own[0] - SAME < sum(span) / 2 < own[1] + SAME]
+                for note, spans in fits.along(2 * radius, kind).items()
+            }
+            for note, spans in there.items() if any(there.values()) else [(NO_NOTE, [own])]:
+                if spans:
+                    alike.setdefault((inner, note), []).extend(spans)
+        for (_, note), spans in alike.items():
+            if square:
+                _flats(view, cut, radius, spans[0])
+            if len(radii) == len(alike) == 1 and features.fully and note.is_bare:
+                foot = float(cut.drawn(bounds(contour)[0].real))
+                ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
+                view.rows([MeasuredLength(*ends, 2 * radius, "⌀", note.words)], across=True)
+            else:
+                _diameter(view, cut, radius, spans, note, "□" if square else "⌀")
 
 
-def bar_view(flat: FlatPart, length: float, scale: float) -> DrawnView:
-    """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines."""
+def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
+    """Diagonals that mark the flats of a square length."""
+    for corner in (-half * 1j, half * 1j):
+        for piece in _stretch(cut, span[0] - corner, span[1] + corner, 1.2 / view.scale):
+            view.line(LineKind.DIMENSION, piece, body=False)
+
+
+def _diameter(  # noqa: PLR0917
+    view: DrawnView, cut: Shortening, radius: float, spans: list[Span], note: FeatureNote, sign: str
+) -> None:
+    """A diameter, or width across flats, of equal stretches of the axis with what they must hold, at the first."""
+    starts = distinct([span[0] for span in spans])
+    count = len(starts)
+    times = f"{count}× " if count > 1 else ""
+    size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
+    if count > MOST_DIAMETERS:
+        pitch = float(np.median(np.diff(starts)))
+        wide = millimetres(spans[0][1] - spans[0][0])
+        size = Sentence("sheet.grooves", size=size, wide=wide, pitch=millimetres(pitch))
+    first, last = cut.drawn(np.array(spans[0]))
+    share = 0.5 if cut.whole else 0.8
+    at = complex(first + share * (last - first), radius) * view.scale
+    view.leader(
+        size, at, 0.0,
+        kind=DimensionKind.ALIGNED if sign == "□" else DimensionKind.DIAMETER, value=2 * radius, count=count,
+        measured=(at.conjugate(), at), note=note,
+    )  # fmt: skip
+
+
+def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] = ()) -> DrawnView:
+    """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines; welds at its ends."""
     view = DrawnView(scale)
     low, high = bounds(flat.outline)
     cut = shortening([0.0, length], (high - low).imag)
@@ -254,6 +279,7 @@ def bar_view(flat: FlatPart, length: float, scale: float) -> DrawnView:
             view.line(LineKind.BREAK, line.points / scale + 1j * middle, body=False)
     feet = (complex(0.0, low.imag) * scale, complex(float(ends[1]), low.imag) * scale)
     view.rows([MeasuredLength(*feet, length)], across=False)
+    weld_symbols(view, welds, lambda weld: complex(float(cut.drawn(weld.middle[2])), high.imag) * scale)
     return view
 
 

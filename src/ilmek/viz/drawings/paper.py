@@ -1,6 +1,5 @@
 """The paper of a drawing: sizes and frame with zones (ISO 5457), title block (ISO 7200), scales (ISO 5455)."""
 
-import math
 from collections.abc import Sequence
 from itertools import pairwise
 
@@ -8,10 +7,14 @@ import numpy as np
 
 from ilmek.records import record
 from ilmek.report.sheet import LineKind, SheetLine, SheetText
-from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
+from ilmek.sentences import Sentence
+from ilmek.viz.drawings.feature_note import edge_mark, surface_mark
+from ilmek.viz.drawings.picture import CAPITAL, SheetPicture, words_width
 from ilmek.viz.font import text_width
 
-PAPERS = {"A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0)}
+PAPERS = {
+    "A4": (210.0, 297.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)
+}  # fmt: skip
 """Width and height of trimmed sheets [mm]; ISO 5457: A4 upright, the others lying."""
 
 SCALES = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0)
@@ -33,7 +36,7 @@ class TitleFacts:
 
     number   of the drawing            mass      of a piece, in words     pieces  to be made
     surface  roughness of all surfaces that state no other                treatment  of the material; "": none
-    general, edges   general tolerances, and states of edges by ISO 13715
+    general, edges   general tolerances, and states of outer and inner edges by ISO 13715
     status   of the document           date, revision  of its issue: as given, never of a clock
     """
 
@@ -47,11 +50,17 @@ class TitleFacts:
     surface: str
     treatment: str
     general: str
-    edges: str
+    edges: tuple[str, str]
     status: str
     owner: str = "—"
     date: str = "—"
     revision: str = "—"
+
+
+_ROUNDING = 1e-9
+
+_INDENTS = {"sheet.surface": 6.5, "sheet.outer": 9.5, "sheet.inner": 8.5}
+"""Room of the symbols before a value [mm]."""
 
 
 def scale_words(scale: float) -> str:
@@ -65,11 +74,13 @@ def scale_words(scale: float) -> str:
 
 def fitting(words: str, width: float, height: float, least: float = 1.8, *, bold: bool = False) -> tuple[str, float]:
     """A text, and its height at which it fits a width [mm]; shortened where the least height does not do."""
-    natural = text_width(words, height / CAPITAL, bold)
+    natural = words_width(words, height, bold=bold)
     if natural <= width:
         return words, height
     height = max(least, height * width / natural)
-    while len(words) > 1 and text_width(words, height / CAPITAL, bold) > width:
+    if words_width(words, height, bold=bold) <= width + _ROUNDING:
+        return words, height
+    while len(words) > 1 and text_width(words, height / CAPITAL, bold) > width + _ROUNDING:
         words = words.rstrip("…")[:-1].rstrip() + "…"
     return words, height
 
@@ -134,19 +145,21 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
     corner = complex(width - EDGE - BLOCK_WIDTH, EDGE)
     rows = (
         (0.0, 9.0, (
-            ("Legal owner", facts.owner, 40), ("Document type", facts.kind, 42), ("Status", facts.status, 36),
-            ("Rev.", facts.revision, 14), ("Date of issue", facts.date, 30), ("Sheet", f"{page}/{pages}", 18),
+            ("sheet.owner", facts.owner, 40), ("sheet.kind", facts.kind, 42), ("sheet.status", facts.status, 36),
+            ("sheet.revision", facts.revision, 14), ("sheet.issued", facts.date, 30),
+            ("sheet.page", f"{page}/{pages}", 18),
         )),
-        (9.0, 11.0, (("Title", facts.title, 90), ("Drawing number", facts.number, 90))),
+        (9.0, 11.0, (("sheet.title", facts.title, 90), ("sheet.number", facts.number, 90))),
         (20.0, 9.0, (
-            ("Material", facts.material, 80), ("Mass", facts.mass, 27), ("Scale", scale_words(scale), 19),
-            ("Size", paper, 14), ("Pieces", facts.pieces, 16), ("Projection", "", 24),
+            ("sheet.material", facts.material, 80), ("sheet.mass", facts.mass, 27),
+            ("sheet.scale", scale_words(scale), 19), ("sheet.size", paper, 14), ("sheet.pieces", facts.pieces, 16),
+            ("sheet.projection", "", 24),
         )),
         (29.0, 9.0, (
-            ("General tolerances", facts.general, 42), ("Edges ISO 13715", facts.edges, 50),
-            ("Surface texture ISO 21920", facts.surface, 58), ("Dimensions", "mm", 30),
+            ("sheet.general", facts.general, 36), ("sheet.outer", facts.edges[0], 36),
+            ("sheet.inner", facts.edges[1], 30), ("sheet.surface", facts.surface, 52), ("sheet.unit", "mm", 26),
         )),
-        (38.0, 9.0, (("Stock, process", facts.stock, 100), ("Treatment", facts.treatment or "—", 80))),
+        (38.0, 9.0, (("sheet.stock", facts.stock, 100), ("sheet.treatment", facts.treatment or "—", 80))),
     )  # fmt: skip
     lines = [_rectangle(LineKind.VISIBLE, corner, corner + complex(BLOCK_WIDTH, BLOCK_HEIGHT))]
     texts: list[SheetText] = []
@@ -155,19 +168,25 @@ def title_block(facts: TitleFacts, paper: str, scale: float, page: int, pages: i
             start = corner + 1j * y
             lines.append(SheetLine(LineKind.DIMENSION, np.array([start, start + BLOCK_WIDTH])))
         x = 0.0
-        for label, value, wide in cells:
+        for key, value, wide in cells:
             at = corner + complex(x, y)
             if x:
                 lines.append(SheetLine(LineKind.DIMENSION, np.array([at, at + 1j * tall])))
-            texts.append(SheetText(at + complex(1.2, tall - 2.5), label, 1.8, light=True))
-            large = 3.5 if label in {"Title", "Drawing number"} else 2.5
-            words, height = fitting(value, wide - 3.0, large, bold=label == "Title")
+            label, high = fitting(Sentence(key), wide - 2.0, 1.8, 1.2)
+            texts.append(SheetText(at + complex(1.2, tall - 2.5), label, high, light=True))
+            large = 3.5 if key in {"sheet.title", "sheet.number"} else 2.5
+            words, height = fitting(value, wide - 3.0, large, bold=key == "sheet.title")
             if words:
-                indent = 6.5 if label.startswith("Surface") else 1.5  # behind its symbol
-                texts.append(SheetText(at + complex(indent, 1.6), words, height, bold=label == "Title"))
+                indent = _INDENTS.get(key, 1.5)
+                texts.append(SheetText(at + complex(indent, 1.6), words, height, bold=key == "sheet.title"))
             x += wide
     lines += _projection_mark(corner + complex(168.5, 23.6))
-    lines += _surface_mark(corner + complex(94.0, 30.4))
+    lines += surface_mark(corner + complex(104.0, 30.4))
+    if facts.edges[0]:
+        lines += [
+            *edge_mark(corner + complex(39.5, 31.4), outer=True),
+            *edge_mark(corner + complex(74.5, 31.0), outer=False),
+        ]
     return SheetPicture(tuple(lines), tuple(texts), ())
 
 
@@ -184,16 +203,6 @@ def _projection_mark(centre: complex) -> list[SheetLine]:
     ]
 
 
-def _surface_mark(foot: complex) -> list[SheetLine]:
-    """The graphical symbol of a surface from which material is removed; ISO 21920-1."""
-    slope = np.exp(1j * math.pi / 3)
-    left, right = foot + 2.2 * slope * np.exp(1j * math.pi / 3), foot + 4.4 * slope
-    return [
-        SheetLine(LineKind.BREAK, np.array([left, foot, right])),
-        SheetLine(LineKind.BREAK, np.array([left, left + 2.2])),
-    ]
-
-
 def table(
     header: Sequence[str],
     rows: Sequence[Sequence[str]],
@@ -204,8 +213,8 @@ def table(
     """A table with its upper left corner at 0: columns of widths [mm]; default: as wide as their widest text."""
     columns = range(len(header))
     if not widths:
-        heads = [text_width(head, 2.5 / CAPITAL, bold=True) for head in header]
-        cells = [[text_width(line[k], 2.5 / CAPITAL) for line in rows] for k in columns]
+        heads = [words_width(head, 2.5, bold=True) for head in header]
+        cells = [[words_width(line[k], 2.5) for line in rows] for k in columns]
         widths = [max(heads[k], *cells[k], 0.0) + 3.0 for k in columns]
     ends = np.concatenate([[0.0], np.cumsum(widths)])
     top = -6.0 if title else 0.0

@@ -10,6 +10,7 @@ from ilmek.plane.contours import along
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import SheetDimension, SheetLine, SheetText
+from ilmek.sentences import spoken
 from ilmek.viz.font import text_width
 
 CAPITAL = 0.729
@@ -19,9 +20,14 @@ Box = tuple[float, float, float, float]
 """Left, lower, right and upper end [mm]."""
 
 
+def words_width(words: str, height: float, *, bold: bool = False) -> float:
+    """Width of a text with capitals of a height [mm]: of a sentence in its longest language."""
+    return max(text_width(text, height / CAPITAL, bold) for text in spoken(words))
+
+
 def text_box(text: SheetText) -> Box:
     """The room of a text [mm]."""
-    width = text_width(text.words, text.height / CAPITAL, text.bold)
+    width = words_width(text.words, text.height, bold=text.bold)
     start = {"left": 0.0, "center": -width / 2, "right": -width}[text.anchor]
     corners = np.array([start - 0.33j * text.height, start + width + 1.05j * text.height]) * np.exp(1j * text.angle)
     corners = corners + text.position

@@ -13,7 +13,8 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText
+from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText, arrowhead
+from ilmek.viz.drawings.feature_note import LETTER, FeatureNote
 from ilmek.viz.drawings.picture import (
     CAPITAL,
     Box,
@@ -24,44 +25,18 @@ from ilmek.viz.drawings.picture import (
     millimetres,
     overlap,
     text_box,
+    words_width,
 )
+from ilmek.viz.drawings.spots import TURNS, box_below, spread, turns_from
 from ilmek.viz.font import text_width
 
-LETTER, GAP, ROW = 2.5, 9.0, 7.5
-"""Height of letters, distance of the first row from the view, and of a row from the next [mm]."""
+GAP, ROW = 9.0, 7.5
+"""Distance of the first row of dimensions from the view, and of a row from the next [mm]."""
 
 _PAD, _STEP, _ARROWS = 0.8, 0.6, 8.0
-_TURNS = np.deg2rad(
-    [
-        45,
-        60,
-        30,
-        120,
-        135,
-        150,
-        75,
-        15,
-        105,
-        165,
-        -30,
-        -45,
-        -60,
-        -135,
-        -120,
-        -150,
-        0,
-        180,
-        90,
-        -90,
-        52,
-        22,
-        112,
-        142,
-        -15,
-        -52,
-        -112,
-    ]
-)
+
+NO_NOTE = FeatureNote()
+"""Of a feature that must hold nothing but its size."""
 
 
 @record
@@ -150,7 +125,7 @@ class DrawnView:
         laid: list[tuple[MeasuredLength, float, SheetText, tuple[float, float]]] = []
         for span in sorted(spans, key=lambda one: round(abs(one.end - one.start), 6)):
             low, high = sorted(coordinate(point, across) for point in (span.start, span.end))
-            width = text_width(span.words, LETTER / CAPITAL)
+            width = words_width(span.words, LETTER)
             middle, interval = _text_in(low, high, width)
             for row in range(60):
                 line = base + row * ROW
@@ -202,8 +177,8 @@ class DrawnView:
         base = -(self.body[0] if across else self.body[1])
         ordered = sorted(points, key=lambda point: coordinate(point, across))
         wanted = np.array([coordinate(point, across) for point in ordered])
-        spread = _spread(wanted, LETTER * 1.75)
-        self.crowding = max(self.crowding, float(np.abs(spread - wanted).max()))
+        positions = spread(wanted, LETTER * 1.75)
+        self.crowding = max(self.crowding, float(np.abs(positions - wanted).max()))
         for attempt in range(40):
             line = base + GAP + attempt * ROW
             texts = [
@@ -214,12 +189,12 @@ class DrawnView:
                     "right",
                     0.0 if across else math.pi / 2,
                 )
-                for point, position in zip(ordered, spread.tolist(), strict=True)
+                for point, position in zip(ordered, positions.tolist(), strict=True)
             ]
             if not any(overlap(text_box(text), box, _PAD) for text in texts for box in self._boxes):
                 break
         self._boxes += [text_box(text) for text in texts]
-        for point, position, text in zip(ordered, spread.tolist(), texts, strict=True):
+        for point, position, text in zip(ordered, positions.tolist(), texts, strict=True):
             elbow = unit * coordinate(point, across) + out * (line - 5)
             end = unit * position + out * line
             lines = [*self._clear_pieces(point + out, elbow), np.array([elbow, end])]
@@ -247,16 +222,46 @@ class DrawnView:
         count: int = 1,
         sector: tuple[complex, complex] | None = None,
         measured: tuple[complex, complex] | None = None,
-    ) -> None:
+        note: FeatureNote = NO_NOTE,
+        lead: str = "",
+    ) -> complex:
         """A text beside a circle or arc, or beside a point (radius 0), with a line to it.
 
         sector    the ends of an arc, counter-clockwise, within which the line ends; None: anywhere
         measured  both ends of what is dimensioned, where they are not those of the circle or arc
+        note      what hangs below the text
+        lead      first words of it, below which alone the line goes on, to the right; "": below all
+        Returns the elbow of the line.
         """
-        samples = np.concatenate(self._samples) if self._samples else np.zeros(0, dtype=complex)
+        hung = None if note.is_bare else note.hanging().box
+        tip, elbow, text = self._spot(words, centre, radius, sector, hung)
+        box = text_box(text)
+        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
+        shelf = elbow + 1.5 + text_width(lead, LETTER / CAPITAL) if lead else shelf
+        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
+        inward = tip - elbow
+        self._boxes.append(box)
+        if hung is not None:
+            self._hang(note, box_below(box, hung, text.anchor))
+        if kind is None:
+            self._texts.append(text)
+            self._add(line, body=False)
+            if hung is not None or lead:
+                self._add(SheetLine(LineKind.DIMENSION, np.array(arrowhead(tip, inward)), closed=True), body=False)
+            return elbow
+        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
+        ends = measured or (far, tip)
+        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        return elbow
+
+    def _spot(
+        self, words: str, centre: complex, radius: float, sector: tuple[complex, complex] | None, hung: Box | None
+    ) -> tuple[complex, complex, SheetText]:
+        """Tip and elbow of a leader, and its text, at the nearest free spot; hung  room of what hangs below it."""
+        samples = np.concatenate([np.zeros(0, complex), *self._samples])
         best: tuple[float, complex, complex, SheetText] | None = None
         for distance in (6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0, 90.0):
-            for turn in _turns(centre, sector):
+            for turn in turns_from(centre, sector):
                 direction = complex(math.cos(turn), math.sin(turn))
                 tip = centre + radius * direction
                 elbow = tip + distance * direction
@@ -264,32 +269,35 @@ class DrawnView:
                 at = elbow + (1.5 if right else -1.5) + 0.8j
                 text = SheetText(at, words, LETTER, "left" if right else "right")
                 box = text_box(text)
+                box = box if hung is None else joined_box([box, box_below(box, hung, text.anchor)])
                 fault = self._fault(box, samples, tip, elbow)
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
             if best is not None and best[0] < 3:
                 break
         assert best is not None
-        _, tip, elbow, text = best
-        box = text_box(text)
-        shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
-        line = SheetLine(LineKind.DIMENSION, np.array([tip, elbow, shelf]))
-        inward = tip - elbow
-        self._boxes.append(box)
-        if kind is None:
-            self._texts.append(text)
+        return best[1:]
+
+    def draw(self, lines: Sequence[SheetLine]) -> None:
+        """Lines at positions of the paper, on which no text may lie."""
+        for line in lines:
             self._add(line, body=False)
-            return
-        far = 2 * centre - tip if kind is DimensionKind.DIAMETER else centre
-        ends = measured or (far, tip)
-        self._finish(SheetDimension(kind, value, ends, elbow, text, (line,), ((tip, inward),), count=count))
+        self._boxes.append(joined_box([box_around(line_points(line)) for line in lines]))
+
+    def _hang(self, note: FeatureNote, room: Box) -> None:
+        """Draw what hangs below a text in its room."""
+        hanging = note.hanging()
+        below = hanging.moved(complex(room[0] - hanging.box[0], room[3] - hanging.box[3]))
+        self._boxes.append(room)
+        self._texts += below.texts
+        self.draw(below.lines)
 
     def tag(self, words: str, centre: complex, radius: float) -> None:
         """A short name beside a hole."""
         samples = np.concatenate(self._samples)
         candidates = []
         for distance in (0.8, 2.0, 4.0):
-            for turn in _TURNS[:16]:
+            for turn in TURNS[:16]:
                 direction = complex(math.cos(turn), math.sin(turn))
                 at = centre + (radius + distance) * direction - 0.5j * LETTER
                 text = SheetText(at, words, LETTER, "left" if direction.real > 0 else "right")
@@ -359,25 +367,3 @@ def _text_in(low: float, high: float, width: float) -> tuple[float, tuple[float,
         return (low + high) / 2, (low, high) if inside else (low - 5.5, high + 5.5)
     middle = high + 6.0 + width / 2
     return middle, (low - 5.5, middle + width / 2 + 1.0)
-
-
-def _turns(centre: complex, sector: tuple[complex, complex] | None) -> np.ndarray:
-    """Directions from a centre to try, within an arc where one is given."""
-    if sector is None:
-        return np.asarray(_TURNS)
-    start = float(np.angle(sector[0] - centre))
-    sweep = float(np.angle((sector[1] - centre) / (sector[0] - centre)) % (2 * math.pi)) or 2 * math.pi
-    return start + sweep * np.array([0.5, 0.35, 0.65, 0.2, 0.8, 0.1, 0.9])
-
-
-def _spread(wanted: np.ndarray, least: float) -> np.ndarray:
-    """Ascending positions at least so far apart, near the wanted ones: blocks that touch share their mean."""
-    blocks: list[list[float]] = []
-    for value in (wanted - least * np.arange(len(wanted))).tolist():
-        blocks.append([value, 1.0])
-        while len(blocks) > 1 and blocks[-2][0] > blocks[-1][0]:
-            mean, count = blocks.pop()
-            total = blocks[-1][1] + count
-            blocks[-1] = [(blocks[-1][0] * blocks[-1][1] + mean * count) / total, total]
-    level = np.concatenate([np.full(int(count), mean) for mean, count in blocks])
-    return np.asarray(level + least * np.arange(len(wanted)))

@@ -30,7 +30,7 @@ from ilmek.jobs.chart import ChartResult, make_charted
 from ilmek.jobs.charting import file_key
 from ilmek.jobs.order import CarpetOrder, order_of_data
 from ilmek.jobs.recipe import picture_pixels
-from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.answers import Binary, Context, alike, packed
 from ilmek.jobs.studio.carpet.answers import (
     MOST_MERGED,
     AssignedColour,
@@ -259,13 +259,12 @@ def _assignment(chart: Chart) -> tuple[AssignedColour, ...]:
 
 def _answer(result: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
     chart, bill, reading = result.chart, result.bill, result.chart.reading
-    return ChartAnswer(
-        rows=chart.rows,
-        columns=chart.columns,
+    return alike(
+        ChartAnswer,
+        chart,
         width=chart.size.width,
         length=chart.size.length,
         quality=str(chart.quality),
-        knot=chart.knot,
         reading=reading.kind,
         reason=reading.reason,
         fit=reading.fit.words,
@@ -279,7 +278,6 @@ def _answer(result: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         hardest=tuple(HardRow(number, result.statistics.of_row(number)) for number in result.statistics.hardest),
         mean_changes=result.statistics.mean_changes,
         edited=reading.edited,
-        small_patches=chart.small_patches,
         mean_delta_e=reading.mean_delta_e,
         mass=bill.mass,
         mass_per_area=bill.mass_per_area,

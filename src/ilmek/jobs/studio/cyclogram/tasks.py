@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.cams.laws import FAMILIES
 from ilmek.io.cyclogram_file import cyclogram_data, cyclogram_of_data, cyclogram_toml, timed_data
 from ilmek.jobs.cyclogram import binding_cost, cyclograms_of, limit_checks, solve, timed
-from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.answers import Binary, Context, alike, packed
 from ilmek.jobs.studio.cyclogram.answers import (
     CyclogramSolution,
     CyclogramView,
@@ -103,13 +103,11 @@ def _packed(cyclogram: Cyclogram, rows: TrackCurves) -> bytes:
 
 def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
     limits, period = track.limits, cyclogram.period
-    return ShownTrack(
-        name=track.name,
-        actuator=track.actuator,
+    return alike(
+        ShownTrack,
+        track,
         shown_unit=track.unit,
         factor=from_si(1.0, track.unit),
-        revolves=track.revolves,
-        locked=track.locked,
         limits={name: _finite(getattr(limits, name)) for name in ("speed", "acceleration", "jerk")}
         | {"time": limits.time or None},
         motions=tuple(_part(cyclogram, part) for part in track.segments),
@@ -193,14 +191,12 @@ def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
     Raises ParameterError as `ilmek cyclogram --solve` does: it names relations that contradict each other; Cancelled.
     """
     solution = solve(cyclogram_of_data(request.data), request.goal, context.progress)
-    return CyclogramSolution(
+    return alike(
+        CyclogramSolution,
+        solution,
         data=timed_data(request.data, solution.cyclogram),
-        goal=solution.goal,
-        measure=solution.measure,
         shown_unit=solution.unit,
         factor=from_si(1.0, solution.unit),
-        before=solution.before,
-        after=solution.after,
         binding=tuple(
             ShownBinding(one.label, one.kind, binding_cost(one, solution), _finite(one.share), one.cost)
             for one in solution.binding

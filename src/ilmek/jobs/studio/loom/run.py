@@ -10,7 +10,7 @@ from ilmek.io.journal_folder import CHANNEL
 from ilmek.io.programme_file import write_programme
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import FAST, FAST_COMMIT, FASTEST, RunOrder
-from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.answers import Context, alike
 from ilmek.jobs.studio.loom.scene import RECIPE, project_loom
 from ilmek.jobs.studio.project.folder import OWN
 from ilmek.loom.control.view import Snapshot
@@ -160,21 +160,13 @@ def _programme(file: str, context: Context) -> Path:
 
 
 def _news(now: Snapshot) -> RunNews:
-    return RunNews(
-        state=now.state,
-        row=now.row,
-        rows=now.rows,
-        knots=now.knots,
-        total=now.total,
+    return alike(
+        RunNews,
+        now,
         time=now.time / BILLION,
         left=now.left / BILLION,
-        speed=now.speed,
-        faults=now.faults,
-        stop=now.stop,
         columns=tuple(head.column for head in now.heads),
         tied=sum(head.tied for head in now.heads),
         due=sum(head.knots for head in now.heads),
         alarms=tuple(RunAlarm(alarm.name, alarm.cause, alarm.remedy) for alarm in now.alarms),
-        requests=now.requests,
-        commands=now.commands,
     )

@@ -14,7 +14,7 @@ from ilmek.jobs.loom import LoomResult, make_loomed, read_loom_order
 from ilmek.jobs.loom_space import loom_scene, scene_answer
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.order import read_order
-from ilmek.jobs.studio.answers import Binary, Context, packed
+from ilmek.jobs.studio.answers import Binary, Context, alike, packed
 from ilmek.jobs.studio.project.folder import ProjectFolder, digest_of, kind_of, read_bytes
 from ilmek.machines import automated_loom, hand_loom
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -119,14 +119,11 @@ def plate(request: PlateRequest, context: Context) -> PlateDrawing:
 def drawing_of(found: Plate) -> PlateDrawing:
     """The drawing of a plate."""
     lines = (found.outline, *found.cutouts)
-    return PlateDrawing(
-        title=found.title,
+    return alike(
+        PlateDrawing,
+        found,
         lines=tuple(_flat(line) for line in lines),
         holes=tuple((hole.at.real, hole.at.imag, hole.radius) for hole in found.holes),
-        thickness=found.thickness,
-        material=found.material,
-        number=found.number,
-        notes=found.notes,
     )
 
 

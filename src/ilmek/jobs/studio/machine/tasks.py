@@ -8,7 +8,7 @@ from ilmek.errors import ParameterError
 from ilmek.io.json_file import json_text
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.machines import machine_list
-from ilmek.jobs.studio.answers import Binary, Context
+from ilmek.jobs.studio.answers import Binary, Context, alike
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, overridden, reachable
 from ilmek.units import format_number, format_quantity, parse_unit, printed_unit
@@ -188,23 +188,15 @@ def form_of(name: str) -> MachineFields:
 def _field(parameter: Parameter, others: tuple[str, ...]) -> FormField:
     group = parameter.name.rpartition(".")[0]
     head = parameter.name.partition(".")[0]
-    return FormField(
-        name=parameter.name,
+    return alike(
+        FormField,
+        parameter,
         group=group,
         machine=head if group and head in others else "",
         kind="choice" if parameter.kind is str and parameter.choices else KINDS[parameter.kind],
-        default=parameter.default,
         default_text=value_text(parameter.default, parameter.unit),
         shown_unit=parameter.unit,
         printed=printed_unit(parameter.unit),
         factor=parse_unit(parameter.unit).factor,
-        above=parameter.above,
-        at_least=parameter.at_least,
-        below=parameter.below,
-        at_most=parameter.at_most,
         allowed=parameter.allowed(),
-        choices=parameter.choices,
-        doc=parameter.doc,
-        symbol=parameter.symbol,
-        alias=parameter.alias,
     )

@@ -55,13 +55,14 @@ _WRITES: Mapping[str, Snippet] = {
     "linkage parts": Snippet(
         (
             "from ilmek.io.output import Outputs",
-            "from ilmek.jobs.mechanism.report import with_parts",
+            "from ilmek.jobs.mechanism.making import made_mechanism",
             "from ilmek.jobs.workshop_order import WorkshopOrder, workshop_writer",
         ),
         (
             "with Outputs(force=True) as outputs:",
             "    write = workshop_writer(WorkshopOrder(Path({target!r})), outputs)",
-            "    write(with_parts(report, run.analysis.run.machine))",
+            "    made = made_mechanism(run.analysis.run)",
+            "    write(made.report, made.papers, tree=made.tree)",
         ),
     ),
 }

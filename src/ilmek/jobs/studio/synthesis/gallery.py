@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.jobs.studio.answers import alike
 from ilmek.jobs.studio.synthesis.answers import (
     GeneratedFunction,
     LeftOutFourBar,
@@ -73,20 +74,16 @@ def gallery(design: FourBarDesign) -> tuple[ShownFourBar, ...]:
 def _shown(number: int, option: FourBarOption, *, task_only: bool) -> ShownFourBar:
     one, details = option.candidate, option.details
     active = details.get("active")
-    return ShownFourBar(
+    return alike(
+        ShownFourBar,
+        one,
         number=number,
         pins=pins(one.four_bar),
         links=one.four_bar.lengths._asdict(),
         class_name=one.grashof.kind,
-        crank_turns=one.crank_turns,
         branch=one.four_bar.branch,
-        circuits=one.circuits,
         positions=tuple(_position(met) for met in one.positions),
-        order=one.order,
-        in_order=one.in_order,
         transmission=one.transmission_over(task_only=task_only),
-        link_ratio=one.link_ratio,
-        size=one.size,
         merit=None if option.merit is None else _merit(option.merit),
         error_max=_known(_error_max(one, details)),
         error_rms=_known(finite(details.get("error_rms"))),

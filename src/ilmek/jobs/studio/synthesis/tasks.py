@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from ilmek.errors import ParameterError
 from ilmek.io.mechanism_file import mechanism_toml
-from ilmek.jobs.studio.answers import Context
+from ilmek.jobs.studio.answers import Context, alike
 from ilmek.jobs.studio.synthesis.answers import MechanismDocument, SynthesisAnswer
 from ilmek.jobs.studio.synthesis.gallery import (
     function_required,
@@ -62,12 +62,11 @@ def candidates(request: SynthesisRequest, context: Context) -> SynthesisAnswer:
     design = machine.designed(params, context.progress.part(0.0, 1.0, "search"))
     choice = design.choice
     points, angles = task_points(design)
-    return SynthesisAnswer(
+    return alike(
+        SynthesisAnswer,
+        choice,
         machine=name,
         quick=short,
-        sieve=choice.sieve,
-        found=choice.found,
-        more=choice.more,
         candidates=gallery(design),
         left_out=reasons(choice),
         removed=left_out(choice),

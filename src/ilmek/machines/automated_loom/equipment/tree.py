@@ -65,8 +65,7 @@ def _lines(loom: LoomDesign) -> tuple[BillLine, ...]:
     """Lines of the equipment: of what is on a head as many as there are heads."""
     branches = equipment(loom)
     own = {part.id for tree in equipment_trees(loom) for part, _ in tree.occurrences()}
-    whole = joined((*machine_branches(loom), *branches))
-    return tuple(line for line in bill(whole) if line.part in own)
+    return bill(joined((*machine_branches(loom), *branches)), own)
 
 
 def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:

@@ -20,7 +20,7 @@ def machine_branches(loom: LoomDesign) -> tuple[MachineTree, ...]:
 
 def joined(branches: tuple[MachineTree, ...]) -> Tree:
     """All bodies of trees in the axes of the scene."""
-    whole = Tree()
-    for branch in branches:
-        whole = whole.carrying(branch.parent, branch.tree, branch.position)
-    return whole
+    return Tree(
+        tuple(body for branch in branches for body in branch.tree.bodies_on(branch.parent, branch.position)),
+        tuple(closure for branch in branches for closure in branch.tree.closures),
+    )

@@ -6,7 +6,7 @@ from ilmek.arrays import Complex, Float, FloatArray
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.heads import head_alone
 from ilmek.machines.automated_loom.in_space.maker import KNOT
-from ilmek.machines.automated_loom.motion.row_views import named_strokes
+from ilmek.machines.part_views import named_strokes
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.knot import led_between

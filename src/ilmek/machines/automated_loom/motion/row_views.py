@@ -3,8 +3,6 @@
 Axes as in the views of the whole loom: from the side the front is at the right, across 0 is the middle of the cloth.
 """
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
@@ -14,9 +12,9 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import ROW, half_width
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.in_space.weft import wefts
+from ilmek.machines.part_views import moving_bodies, named_strokes
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.projection import MovingOutline, View, moving_outlines
-from ilmek.part.tree import Tree
 from ilmek.report import Animation, Axis, Dot, Drawing, MovingStroke, Reading, Stroke
 from ilmek.timing.track import sample
 from ilmek.units import turn
@@ -99,7 +97,7 @@ def _animation(
 def _moving(loom: LoomDesign, view: View) -> tuple[MovingOutline, ...]:
     """What moves over a row but the tools of the heads: of each body the parts that are seen largest."""
     tree = loom_tree(loom)
-    bodies = _moving_bodies(tree)
+    bodies = moving_bodies(tree, ROW, but=HEAD)
     chosen: dict[str, list[MovingOutline]] = {body: [] for body in bodies}
     for outline in sorted(moving_outlines(tree, view, ROW, _angles(), bodies), key=_size, reverse=True):
         if len(chosen[outline.body]) < _LARGEST or (outline.body == HEAD and outline.part is chosen[HEAD][0].part):
@@ -107,29 +105,8 @@ def _moving(loom: LoomDesign, view: View) -> tuple[MovingOutline, ...]:
     return tuple(outline for outlines in chosen.values() for outline in outlines)
 
 
-def _moving_bodies(tree: Tree) -> tuple[str, ...]:
-    """Bodies that move over a row, or are carried by one that does, in the order of the tree."""
-    moving: list[str] = []
-    for body in tree.bodies:
-        motion = body.joint.motion
-        if body.parent != HEAD and (body.parent in moving or (motion is not None and motion.drive == ROW)):
-            moving.append(body.id)
-    return tuple(moving)
-
-
 def _size(outline: MovingOutline) -> float:
     return float(np.hypot(np.ptp(outline.points[0].real), np.ptp(outline.points[0].imag)))
-
-
-def named_strokes(outlines: Iterable[MovingOutline]) -> tuple[MovingStroke, ...]:
-    """Lines of the outlines; the first of each body has the body's name."""
-    named: set[str] = set()
-    strokes = []
-    for outline in outlines:
-        name = "" if outline.body in named else outline.body.rpartition("/")[2]
-        named.add(outline.body)
-        strokes.append(MovingStroke(outline.points, "path", name, closed=True))
-    return tuple(strokes)
 
 
 def _in_the_shed(outline: MovingOutline, loom: LoomDesign) -> MovingOutline:

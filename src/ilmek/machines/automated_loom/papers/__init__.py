@@ -21,4 +21,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
     )
-    return Papers(pages, part_lists(loom_tree(loom), whole_list(loom).prices), safety_checks(loom, report))
+    tree = loom_tree(loom)
+    return Papers(pages, part_lists(tree, whole_list(loom).prices), safety_checks(loom, report), tree)

@@ -1,0 +1,136 @@
+"""Where the shafts, the frame and the width of a tufting machine are.
+
+Axes are those of the needle drive: x along the backing's travel, y up, z along the shafts, 0 at the lowest plane of the
+first drive. The head's beam is behind the needle drives, the loopers' below their linkages, both clear of what moves.
+"""
+
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
+from ilmek.linkage.model import GROUND
+from ilmek.machines.tufting.links import WALL, eccentric_radius, mechanism_depth, needle_diameter, needle_parts
+from ilmek.machines.tufting.strength import needle_sizes
+from ilmek.machines.tufting_machine.design import TuftingMachine
+from ilmek.machines.tufting_machine.looper_parts import CRANK, ROCKER
+from ilmek.records import record
+from ilmek.units import mm
+
+CLEAR = 10 * mm
+"""Clearance of what moves from the frame; assumed by this project."""
+
+BEYOND = 60 * mm
+"""From the outermost needle to an end plate; assumed by this project."""
+
+BED = 100 * mm
+"""Half of the bed plate's width about the needles' line; assumed by this project."""
+
+
+@record
+class TuftingLayout:
+    """Where things are [m].
+
+    planes       least and greatest height of the first needle drive along z      left  first end of the tufted width
+    behind       face of the head's beam, along x                               low  top of the loopers' beam
+    crank_shaft, shaft  of the loopers
+    rear, front  axes of the spiked rollers along x
+    """
+
+    machine: TuftingMachine
+    planes: tuple[float, float]
+    left: float
+    behind: float
+    low: float
+    crank_shaft: complex
+    shaft: complex
+    rear: float
+    front: float
+
+    @property
+    def pitch(self) -> float:
+        """Distance of the drives along z [m]."""
+        return self.machine.params.width / self.machine.params.drives
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Inner faces of the end plates along z [m]."""
+        return self.left - BEYOND, self.left + self.machine.params.width + BEYOND
+
+    @property
+    def line(self) -> float:
+        """The needles' line along x [m]."""
+        needle = self.machine.needle.params
+        return needle.shaft_distance + needle.needle_distance
+
+    @property
+    def driven_shaft(self) -> complex:
+        """Driven shaft of the needle drives [m]."""
+        needle = self.machine.needle.params
+        return complex(needle.shaft_distance, needle.shaft_height)
+
+    @property
+    def under(self) -> float:
+        """Under side of the backing [m]."""
+        return self.machine.lowest + self.machine.loop.geometry.under
+
+    @property
+    def needle_level(self) -> float:
+        """Middle of the first push rod along z [m]: of the plane of the needles."""
+        needle = self.machine.needle
+        bottoms = needle_parts(needle.params, needle_sizes(needle)).levels.bottoms
+        return bottoms["needle"] + needle_diameter(needle.params) / 2
+
+    def middle(self, drive: int) -> float:
+        """Middle of a drive, counted from 0, along z [m]."""
+        return self.left + (drive + 0.5) * self.pitch
+
+
+@lru_cache(maxsize=8)
+def layout(machine: TuftingMachine) -> TuftingLayout:
+    """Where the parts of a machine are."""
+    params, needle, sizes = machine.params, machine.needle.params, needle_sizes(machine.needle)
+    planes = mechanism_depth(needle, sizes)
+    points = machine.looper_forces.plan.mechanism.body(GROUND).points
+    head = needle.crank + eccentric_radius(needle.crank, sizes.main) * (1 + 2 * WALL)
+    around, looper = ring_radius(machine), machine.looper.lengths["crank"]
+    line, roller = needle.shaft_distance + needle.needle_distance, params.feed.spiked_roller / 2
+    links = min(points["Q"].real - looper - around, _reached(machine).real)
+    return TuftingLayout(
+        machine,
+        planes,
+        sum(planes) / 2 - params.width / params.drives / 2,
+        -head - CLEAR,
+        _reached(machine).imag - CLEAR,
+        points["Q"],
+        points["P"],
+        min(links, line - BED) - roller - CLEAR,
+        line + BED + roller + CLEAR,
+    )
+
+
+def ring_radius(machine: TuftingMachine) -> float:
+    """Radius of the coupler's ring about the looper's eccentric [m]."""
+    return eccentric_radius(machine.looper.lengths["crank"], machine.params.looper.shaft) * (1 + 2 * WALL)
+
+
+def _reached(machine: TuftingMachine) -> complex:
+    """Least x and least y that looper links and the walls about their shafts' bearings reach [m]."""
+    motion, width = machine.looper_forces.motion, machine.params.looper.link_width
+    wall = looper_bearing(machine).outer / 2 * (1 + 2 * WALL)
+    shafts = machine.looper_forces.plan.mechanism.body(GROUND).points
+    reaches = (
+        (motion.point(CRANK, "A").position, ring_radius(machine)),
+        (motion.point(ROCKER, "B").position, width / 2),
+        *((np.array([shafts[name]]), wall) for name in "QP"),
+    )
+    low = (complex(float(np.min(at.real)) - reach, float(np.min(at.imag)) - reach) for at, reach in reaches)
+    corners = np.array(list(low))
+    return complex(float(np.min(corners.real)), float(np.min(corners.imag)))
+
+
+def looper_bearing(machine: TuftingMachine) -> RollingBearing:
+    """The lightest deep-groove ball bearing on the looper shafts."""
+    bore = machine.params.looper.shaft
+    rows = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
+    return min(rows, key=lambda row: (row.bore < bore * (1 - 1e-9), row.bore, row.mass))

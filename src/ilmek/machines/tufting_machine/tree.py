@@ -1,0 +1,236 @@
+"""The tufting machine in space: needle drives and loopers along the width in their frame, rollers, motors, the belt.
+
+Beyond the far end plate are the belt between both shafts and the flywheel, beyond the near one the motors.
+"""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from ilmek.elements.motors import Motor
+from ilmek.elements.reducers import DIRECT, Reducer
+from ilmek.linkage.model import GROUND
+from ilmek.linkage.solve import solve
+from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
+from ilmek.machines.tufting.links import needle_diameter
+from ilmek.machines.tufting.links import needle_parts as drive_parts
+from ilmek.machines.tufting.strength import needle_sizes
+from ilmek.machines.tufting.tree import POSES, keyed, needle_drives
+from ilmek.machines.tufting_machine.design import TuftingMachine
+from ilmek.machines.tufting_machine.feed import SPIKED_ROLLER, YARN_ROLLER
+from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes
+from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
+from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
+from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR, needle_heights, needle_parts
+from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
+from ilmek.part import catalogue
+from ilmek.part.flat_link import eyed_link
+from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.plane.contours import circle
+from ilmek.report.scene import SceneMotion
+from ilmek.units import format_quantity, in_mm, mm, round_size, turn
+
+FRAME = body_id(NAME, GROUND)
+
+PULLEY, BELT_WIDTH, BELT = 120 * mm, 30 * mm, 5 * mm
+"""Diameter of the pulleys, width and thickness of the belt from main to looper shaft; assumed by this project."""
+
+SKIN, PLUG = 5 * mm, 20 * mm
+"""Wall of the rollers, and length of the plugs in their ends; assumed by this project."""
+
+DRIVES = {"rear": ("spiked", SPIKED_ROLLER), "front": ("spiked", SPIKED_ROLLER), "yarn": ("yarn", YARN_ROLLER)}
+"""What feeds with each roller, and the id of its part."""
+
+
+@lru_cache(maxsize=4)
+def tree(machine: TuftingMachine) -> Tree:
+    """The bodies where the first needle crank lies along x."""
+    laid = layout(machine)
+    parts = (*frame_parts(laid), *_motors(laid), _belt(laid))
+    needles, bars = _needles(laid)
+    whole = Tree((RigidBody(FRAME, parts),)).carrying(FRAME, needles)
+    loopers, loops = _loopers(laid)
+    joined = (Closure(JointKind.ROLLING, (MAIN_SHAFT, LOOPER_CRANKS)), *loops, *bars)
+    return Tree((*whole.bodies, *loopers, *_rollers(laid)), (*whole.closures, *joined))
+
+
+def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
+    """The needle drives with push rods, needle bar and needles; what closes the bar's loops."""
+    machine, params = laid.machine, laid.machine.params
+    made, (first, last) = needle_parts(params), laid.ends
+    rod = Occurrence(
+        _headed_rod(machine), (placement(z=laid.needle_level - needle_diameter(machine.needle.params) / 2),)
+    )
+    end = last + END_PLATE + CLEAR + BELT_WIDTH + params.shafts.flywheel
+    drives = needle_drives(machine.needle, laid.pitch, needle=(rod,), feet=feet(laid), shaft=(first - END_PLATE, end))
+    wheel, pulley = _flywheel(machine), _pulley("pulley", machine.shafts.diameter)
+    beyond = last + END_PLATE + CLEAR
+    turned = (Occurrence(pulley, (placement(z=beyond),)), Occurrence(wheel, (placement(z=beyond + BELT_WIDTH),)))
+    bodies = []
+    for body in drives.bodies:
+        if body.id == MAIN_SHAFT:
+            joint = replace(body.joint, motor=MOTOR_ID)
+            bodies.append(replace(body, occurrences=(*body.occurrences, *turned), joint=joint))
+        else:
+            standing = body.joint.kind == JointKind.MISSING
+            bodies.append(replace(body, joint=Joint()) if standing else body)
+    names = [f"{body_id('tufting', 'needle')} {drive + 1}" for drive in range(params.drives)]
+    length = params.width / made.pieces
+    heights = needle_heights(params, machine.carpet.needles)
+    for piece in range(made.pieces):
+        # The piece hangs on the first needle that it has; in the frame of this z = 0 is the lowest plane of its drive.
+        low = piece * length
+        own = tuple(place for place in heights if low <= place.origin[2] < low + length)
+        under = tuple(placement(y=-params.needle_bar.height, z=float(place.origin[2]) - low) for place in own)
+        inset = (length - catalogue_length(made.bar)) / 2
+        parts = (Occurrence(made.bar, (placement(z=inset),)), Occurrence(made.needle, under))
+        at = placement(y=-_rod_length(machine), z=laid.left)
+        name = NEEDLE_BAR if made.pieces == 1 else f"{NEEDLE_BAR} {piece + 1}"
+        bodies.append(RigidBody(name, parts, names[piece], positions=(at,)))
+    bars = () if made.pieces > 1 else tuple(Closure(JointKind.FIXED, (NEEDLE_BAR, name)) for name in names[1:])
+    return Tree(tuple(bodies), drives.closures), bars
+
+
+def catalogue_length(part: Part) -> float:
+    """Length of the needle bar's part along z [m]."""
+    assert part.shape is not None
+    return float(np.ptp(part.shape.mesh(1 * mm).points[:, 2]))
+
+
+def _rod_length(machine: TuftingMachine) -> float:
+    """From the pin E to the needle bar [m]."""
+    given = machine.params.needle_bar
+    return machine.needle.params.needle - given.needle_length - given.height
+
+
+@lru_cache(maxsize=8)
+def _headed_rod(machine: TuftingMachine) -> Part:
+    """A push rod with its eye on the pin E: a round bar whose middle is that of the links' plane."""
+    needle, plain = machine.needle, needle_parts(machine.params).rod
+    parts = drive_parts(needle.params, needle_sizes(needle))
+    pin, thick = dict(needle_sizes(needle).pins)["E"], parts.levels.sizes["needle"].thickness
+    radius = pin + 4 * mm
+    head = Prism(Profile(circle(0j, radius), (circle(0j, pin / 2),)), thick)
+    diameter, length = machine.params.needle_bar.rod, _rod_length(machine) - radius
+    down = placement(y=-radius, z=thick / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
+    shape = Sum((Placed(head), Placed(bar(diameter, length), (down,))))
+    return Part(plain.id, plain.title, plain.process, plain.size, shape, plain.material)
+
+
+def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
+    """The loopers' crank shaft with its pulley, and the looper drives on it and on their shafts."""
+    machine, forces = laid.machine, laid.machine.looper_forces
+    (first, last), diameter = laid.ends, machine.params.looper.shaft
+    end, at = last + END_PLATE + CLEAR + BELT_WIDTH, laid.crank_shaft
+    text = f"{round_size(diameter)}, {in_mm(end - first)}"
+    shaft = Part(LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", text, bar(diameter, end - first), STEEL)
+    pulley = _pulley("looper-pulley", diameter)
+    parts = (Occurrence(shaft, (placement(z=first),)), Occurrence(pulley, (placement(z=end - BELT_WIDTH),)))
+    angle = np.linspace(0.0, turn, POSES)
+    turned = Joint(JointKind.PIN, motion=SceneMotion(TURN, angle, np.zeros((POSES, 3)), angle))
+    cranks = RigidBody(LOOPER_CRANKS, parts, FRAME, turned, (placement(at.real, at.imag),))
+    bodies, loops = [cranks], list[Closure]()
+    for drive in range(machine.params.drives):
+        suffix, lag = f" {drive + 1}", drive * machine.params.needle.phase
+        motion = solve(
+            forces.plan, {CRANK: angle + machine.looper.offset - lag}, {CRANK: machine.params.needle.speed}
+        ).require()
+        z = laid.middle(drive) - forces.parts.level
+        own = linkage_bodies(forces.parts.linkage, motion, {ROCKER: forces.parts.carried(drive)}, z=z, suffix=suffix)
+        crank = body_id(NAME, CRANK) + suffix
+        bodies += (keyed(body, cranks) if body.id == crank else body for body in own)
+        loops += linkage_closures(NAME, motion.plan.mechanism, suffix)
+    return bodies, loops
+
+
+def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:
+    """Spiked rollers before and behind the bed, and the yarn feed roller, on journals in the end plates."""
+    feed, (first, last) = laid.machine.params.feed, laid.ends
+    sizes = {SPIKED_ROLLER: feed.spiked_roller, YARN_ROLLER: feed.yarn_roller}
+    titles = {SPIKED_ROLLER: "spiked roller of the backing", YARN_ROLLER: "yarn feed roller"}
+    shapes = {name: _roller(diameter, last - first) for name, diameter in sizes.items()}
+    parts = {
+        name: Part(
+            name, titles[name], "machined link", f"{round_size(size)}, {in_mm(last - first)}", shapes[name], STEEL
+        )
+        for name, size in sizes.items()
+    }
+    for place, at in roller_axes(laid).items():
+        kind, name = DRIVES[place]
+        position = placement(at.real, at.imag, first - END_PLATE)
+        joint = Joint(JointKind.PIN, motor=f"{NAME}/{kind}-motor")
+        yield RigidBody(f"{name} {place}", (Occurrence(parts[name]),), FRAME, joint, (position,))
+
+
+def _roller(diameter: float, between: float) -> Sum:
+    """A tube between end plates so far apart [m], with a plug in each end, on journals as long as these are thick."""
+    journal, length, inner = END_PLATE + CLEAR / 2, between - CLEAR, diameter - 2 * SKIN
+    end, plug = bar(JOURNAL, journal), bar(inner, PLUG)
+    return Sum(
+        (
+            Placed(end, (placement(), placement(z=journal + length))),
+            Placed(plug, (placement(z=journal), placement(z=journal + length - PLUG))),
+            Placed(tube(diameter, SKIN, length), (placement(z=journal),)),
+        )
+    )
+
+
+def _motors(laid: TuftingLayout) -> Iterator[Occurrence]:
+    """Motors with their reducers on the near end plate."""
+    machine, begin = laid.machine, laid.ends[0] - END_PLATE
+    shafts, feed = machine.shafts, machine.feed
+    yield from in_line(
+        _driving("motor", "main shaft", shafts.motor, shafts.rms_torque, machine.params.needle.speed), begin
+    )
+    parts = {
+        kind: _driving(f"{kind}-motor", f"{kind} roller", pair, feed.torques[kind], feed.speeds[kind])
+        for kind, pair in feed.motors.items()
+    }
+    for place, at in roller_axes(laid).items():
+        yield from in_line(parts[DRIVES[place][0]], begin, at)
+
+
+def _driving(
+    name: str, title: str, pair: tuple[Motor, Reducer] | None, torque: float, speed: float
+) -> tuple[Part, ...]:
+    """A servo behind its reducer, from the shaft on."""
+    row, reducer = pair or (None, DIRECT)
+    motor = catalogue.motor(
+        f"{NAME}/{name}", f"motor of the {title}", row, reducer.motor_torque(torque), speed * reducer.ratio
+    )
+    if reducer.ratio == 1:
+        return (motor,)
+    return catalogue.reducer(f"{NAME}/{name}-reducer", f"reducer of the {title}", reducer.ratio, row), motor
+
+
+def _flywheel(machine: TuftingMachine) -> Part:
+    """A disc of the moment of inertia that the speed's fluctuation needs: D^4 = 32 J / (pi rho b) + d^4."""
+    width, bore = machine.params.shafts.flywheel, machine.shafts.diameter
+    diameter = (32 * machine.shafts.flywheel / (math.pi * STEEL.density * width) + bore**4) ** 0.25
+    shape = Prism(disc(diameter / 2, circle(0j, bore / 2)), width)
+    return Part(FLYWHEEL_ID, "flywheel", "machined link", f"{round_size(diameter)}, {in_mm(width)}", shape, STEEL)
+
+
+def _pulley(name: str, bore: float) -> Part:
+    shape = Prism(disc(PULLEY / 2, circle(0j, bore / 2)), BELT_WIDTH)
+    bought = Bought(f"toothed pulley {in_mm(PULLEY)}", shape.volume * STEEL.density)
+    return bought_part(f"{NAME}/{name}", "pulley of the loopers' belt", "belt and pulleys", shape, bought)
+
+
+def _belt(laid: TuftingLayout) -> Occurrence:
+    """The belt from the main to the looper crank shaft."""
+    away, radius = laid.crank_shaft, PULLEY / 2
+    inner, outer = (eyed_link(abs(away), size, size) for size in (radius, radius + BELT))
+    shape = Prism(Profile(outer, (inner,)), BELT_WIDTH)
+    length = 2 * abs(away) + math.pi * PULLEY
+    bought = Bought("toothed belt", length=length)
+    belt = bought_part(f"{NAME}/belt", "belt of the loopers", "belt", shape, bought, size=format_quantity(length, "mm"))
+    z = laid.ends[1] + END_PLATE + CLEAR
+    return Occurrence(belt, (placement(z=z, about=(0.0, 0.0, 1.0), angle=float(np.angle(away))),))

@@ -1,0 +1,64 @@
+"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet and throat, all round.
+
+Behind the tail stands what the part is welded to.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ilmek.part.welds import Weld
+from ilmek.plane.contours import circle
+from ilmek.report.sheet import LineKind, SheetLine
+from ilmek.sentences import Sentence
+from ilmek.units import format_number, mm
+from ilmek.viz.drawings.feature_note import LETTER
+from ilmek.viz.drawings.joined import PIECES
+from ilmek.viz.drawings.paper import table
+from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
+from ilmek.viz.drawings.view import DrawnView
+from ilmek.viz.font import text_width
+
+Foot = Callable[[Weld], complex]
+"""Where the arrow of a weld ends in a view [mm of the paper]."""
+
+_UPWARDS = np.exp(1j * np.deg2rad([25, 75])).tolist()
+"""Directions between which the arrow line leaves what it points to."""
+
+_SPACE = "\N{EM SPACE}"
+
+
+def weld_symbols(view: DrawnView, welds: Sequence[Weld], foot: Foot) -> None:
+    """The symbols of welds in a view, those of one spot and kind with one arrow."""
+    spots: dict[tuple[complex, float, bool], list[str]] = {}
+    for weld in welds:
+        at = foot(weld)
+        spot = complex(round(at.real, 1), round(at.imag, 1)), weld.throat, weld.all_round
+        spots.setdefault(spot, []).append(weld.other.rpartition("/")[2])
+    for (at, throat, all_round), others in spots.items():
+        _symbol(view, at, f"a{format_number(throat / mm)}", ", ".join(sorted({*others})), all_round=all_round)
+
+
+def _symbol(view: DrawnView, at: complex, size: str, others: str, *, all_round: bool) -> None:
+    lead = f"{size}{_SPACE * 3}"
+    words = f"{lead}{_SPACE * 2}{others}" if others else lead
+    elbow = view.leader(words, at, 0.0, kind=None, sector=(at + _UPWARDS[0], at + _UPWARDS[1]), lead=lead)
+    width = text_width(lead, LETTER / CAPITAL) + 1.5
+    end, fillet = elbow + width, elbow + 2.0 + text_width(size, LETTER / CAPITAL) + 1.5
+    leg = np.array([0j, LETTER * 1j, complex(LETTER, 0.0)])
+    lines = [SheetLine(LineKind.WELD, fillet + leg, closed=True)]
+    if not all_round:
+        lines.append(SheetLine(LineKind.WELD, fillet + leg.conj(), closed=True))
+    else:
+        ring = circle(elbow, 1.2)
+        lines.append(SheetLine(LineKind.WELD, ring.points, ring.bulges, closed=True))
+        lines.append(SheetLine(LineKind.HIDDEN, np.array([elbow + 1.2, end]) - 1.2j))
+    if others:
+        lines.append(SheetLine(LineKind.WELD, end + np.array([1.8 + 1.8j, 0j, 1.8 - 1.8j])))
+    view.draw(lines)
+
+
+def cut_list(cut: tuple[str, float], pieces: int) -> SheetPicture:
+    """What is cut for a part: section of stock and length [mm], ends square."""
+    row = ("1", str(pieces), cut[0], format_number(cut[1] / mm), "90° / 90°")
+    return table((*PIECES, Sentence("sheet.ends")), [row], Sentence("sheet.cut-list"))

@@ -1,0 +1,74 @@
+"""How cams are cut, as their sheets state it: judged by waves in time, and by distances of points alone."""
+
+import math
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+
+from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT
+from ilmek.cams.profile_tolerance import MOST, radius_tolerance
+from ilmek.jobs.design import design_machine
+from ilmek.jobs.workshop_order import WorkshopOrder
+from ilmek.machines.catalogue import find_machine
+from ilmek.units import deg, mm, um
+
+
+@pytest.mark.parametrize(("spare", "speed"), [(40.0, 12.5), (5.0, 3.14), (2.0, 6.0)])
+def test_alternating_errors_of_the_radii_add_no_more_than_is_spare(spare: float, speed: float) -> None:
+    tolerance = radius_tolerance(spare, speed, deg)
+    time = np.linspace(0.0, 20 * deg / speed, 40_001)
+    for error, kept in ((tolerance, True), (tolerance + 1 * um, False)):
+        wave = error * np.cos(np.pi * speed * time / deg)  # from + to - and back within two degrees
+        added = np.abs(np.diff(wave, 2) / (time[1] - time[0]) ** 2).max()
+        assert bool(added <= spare) is kept
+    assert radius_tolerance(math.inf, speed, deg) == radius_tolerance(1e9, speed, deg) == pytest.approx(MOST)
+
+
+def test_the_follower_of_a_head_stays_on_its_cam_with_errors_within_the_tolerance() -> None:
+    machine = find_machine("weaver")
+    for cam in machine.design(machine.params.read({})).cams:
+        spare, mass = cam.spare_acceleration, np.where(cam.motion.ds >= 0, *cam.mass_moved)
+        assert 0 < spare < 100
+        lightest, heaviest = cam.force - mass * spare, cam.force + mass * spare
+        curvature = 1 / cam.cam.roller_radius + cam.trace.surface_curvature
+        on_width = np.abs(heaviest) / np.cos(cam.trace.pressure_angle) / cam.thickness
+        hertz = np.sqrt(on_width * MODULUS * curvature / math.pi)  # p² = F' E* k / pi
+        reserve = min(lightest.min() / np.abs(cam.force).max(), 1 - (hertz / PRESSURE_LIMIT).max() ** 2)
+        assert reserve == pytest.approx(0, abs=1e-9)
+
+
+def test_the_largest_cutter_fits_all_hollows_and_a_larger_one_cuts_into_the_cam() -> None:
+    machine = find_machine("weaver")
+    for cam in machine.design(machine.params.read({})).cams:
+        largest = cam.concave_radius + cam.cam.roller_radius
+        surface = cam.trace.surface[::4]
+        for cutter, kept in ((0.98 * largest, True), (1.05 * largest, False)):
+            path = cam.trace.parallel(cutter - cam.cam.roller_radius)[::4]
+            nearest = np.array([np.abs(surface - centre).min() for centre in path])
+            assert bool(nearest.min() > cutter - 1 * um) is kept
+
+
+def test_the_sheets_of_a_cam_state_circles_turn_tolerance_and_cutter(tmp_path: Path) -> None:
+    pytest.importorskip("OCP")
+    design_machine("cam", {"cutter_radius": "20mm"}, WorkshopOrder(tmp_path / "parts"), illustrated=False)
+    sheet = ezdxf.readfile(tmp_path / "parts" / "cam.sheet.dxf")
+    machine = find_machine("cam")
+    design = machine.design(machine.params.read({"cutter_radius": "20mm"}))
+    circles = {
+        entity.dxf.text.partition(" ⌀")[0]: entity.dxf.actual_measurement
+        for entity in sheet.modelspace().query("DIMENSION")
+        if "circle" in entity.dxf.text
+    }
+    prime, roller = design.cam.prime_radius / mm, design.cam.roller_radius / mm
+    assert circles == pytest.approx({"prime circle": 2 * prime, "base circle": 2 * (prime - roller)}, abs=2e-3)
+    words = [text.dxf.text for text in sheet.modelspace().query("TEXT")]
+    assert "turns" in words
+    assert "0°: zero mark" in words
+    assert any(text.startswith("r(θ) ±0.05") for text in words)
+    second = ezdxf.readfile(tmp_path / "parts" / "cam.sheet-2.dxf")
+    heads = [text.dxf.text for text in second.modelspace().query("TEXT")]
+    assert [heads.count(name) for name in ("profile", "roller", "cutter")] == [8, 8, 8]
+    document = ezdxf.readfile(tmp_path / "parts" / "cam.dxf")
+    assert len(document.modelspace().query("LWPOLYLINE[layer=='CUTTER_PATH']")) == 1

@@ -1,0 +1,75 @@
+"""Welds of a frame made by hand, and their symbols on a sheet, read by ezdxf."""
+
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+import ezdxf
+import numpy as np
+import pytest
+
+from ilmek.elements.materials import find_material
+from ilmek.jobs.workshop import write_workshop
+from ilmek.part.part import Part
+from ilmek.part.part_lists import cut_list
+from ilmek.part.placement import placement
+from ilmek.part.plates import pieces_of, plates_of
+from ilmek.part.shapes import square_tube
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.welds import welds_of
+from ilmek.report import Report
+from ilmek.report.scene import SceneMotion
+from ilmek.units import mm
+
+STEEL = find_material("structural steel")
+X = (1.0, 0.0, 0.0)
+
+
+def tube(name: str, wall: float, length: float, throat: float = 0.0) -> Part:
+    shape = square_tube(50 * mm, wall, length)
+    return Part(f"probe/{name}", name, "welded frame", "", shape, STEEL, throat=throat)
+
+
+def frame(gap: float = 0.0, throat: float = 0.0) -> Tree:
+    """A post along z, and an arm of a thinner wall whose end stands on its side y = 25 mm, 300 mm up."""
+    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4, throat)
+    lies = placement(0.0, 25 * mm + gap, 0.3, about=X, angle=-np.pi / 2)
+    return Tree((RigidBody("body", (Occurrence(post), Occurrence(arm, (lies,)))),))
+
+
+def test_an_arm_is_welded_round_its_end_by_its_wall_or_its_strength() -> None:
+    ((part, (weld,)),) = welds_of(frame()).items()
+    assert (part, weld.other, weld.all_round) == ("probe/arm", "probe/post", True)
+    assert weld.throat == 3 * mm  # 0.7 of 3 mm is less than the least
+    assert np.allclose(weld.middle, 0, atol=1e-12)
+    assert welds_of(frame(throat=4 * mm))["probe/arm"][0].throat == 4 * mm
+
+
+def test_what_is_apart_or_moves_is_not_welded() -> None:
+    assert not welds_of(frame(gap=0.5 * mm))
+    (body,) = frame().bodies
+    post, arm = (RigidBody(own.part.id, (own,)) for own in body.occurrences)
+    assert welds_of(Tree((post, arm)))  # both stand
+    turn = SceneMotion("row", np.array([0.0, 6.0]), np.zeros((2, 3)), np.array([0.0, 0.1]))
+    assert not welds_of(Tree((post, replace(arm, joint=Joint(JointKind.PIN, motion=turn)))))
+
+
+def test_the_sheet_of_an_arm_has_the_symbol_and_the_cut_of_the_list(tmp_path: Path) -> None:
+    tree = frame()
+    report = Report("probe", "Probe", {}, (), (), plates=plates_of(tree), pieces=pieces_of(tree))
+    write_workshop(report, tmp_path / "out")
+    sheet = ezdxf.readfile(tmp_path / "out" / "arm.sheet.dxf")
+    drawn = list(sheet.modelspace().query("LWPOLYLINE[layer=='WELD']"))
+    fillets = [line for line in drawn if len(line) == 3 and line.closed]
+    rings = [line for line in drawn if len(line) == 2 and all(bulge for *_, bulge in line.get_points("xyb"))]
+    assert len(fillets) == len(rings) == 1
+    corners = np.array(fillets[0].get_points("xy"))
+    legs = sorted(abs(complex(*(b - a))) for a, b in pairwise([*corners, corners[0]]))
+    assert legs[0] == pytest.approx(legs[1])
+    assert legs[2] ** 2 == pytest.approx(2 * legs[0] ** 2)
+    words = [text.dxf.text for text in sheet.modelspace().query("TEXT")]
+    assert any(text.startswith("a3") and text.endswith("post") for text in words)
+    rows = {row[-1]: row for row in cut_list(tree).rows}
+    section, _, _, named = rows["probe/arm"][:4]
+    assert section in words
+    assert named == f"1 x {words[words.index(section) + 1]} mm"
