@@ -102,6 +102,9 @@ hand beat = elle tefeleme | knotting dyad = düğüm diyad+ı | knotting four ba
 function four bar = fonksiyon dört çubuğ+u | motion four bar = hareket dört çubuğ+u
 path four bar = yörünge dört çubuğ+u
 tufting = tufting düzen+i | shuttle's axis = mekik eksen+i
+Assembly drawing = Montaj resm+i | see list = listeye bakın
+Exploded along the axes of joints and seats = Mafsal ve yuva eksenleri boyunca açılmış
+items as in the list on sheet = kalemler listedeki gibi, sayfa
 light grid = ışık perde+si | button = düğme | Automated loom = Otomatik tezgâh | Hand loom = El tezgâh+ı
 Beat by hand = Elle tefeleme | Beat-up = Tefeleme | Hammer = Tokmak | Hand shed = El ağızlık düzen+i | Cam = Kam
 Knotting head = Düğüm kafa+sı | Knotting dyad = Düğüm diyad+ı | Knotting four-bar = Dört çubuklu düğüm mekanizma+sı
