@@ -100,7 +100,7 @@ def translated(text: str) -> str:
 
 
 def spoken(text: str) -> tuple[str, ...]:
-    """A text in each language, in their order.
+    """A text in each language, each wording once.
 
     >>> spoken(Sentence("sheet.mass"))
     ('Mass', 'Kütle')
@@ -109,7 +109,7 @@ def spoken(text: str) -> tuple[str, ...]:
     for language in LANGUAGES:
         with in_language(language):
             texts.append(translated(text))
-    return tuple(texts)
+    return tuple(dict.fromkeys(texts))
 
 
 def catalogue_of(language: str) -> Mapping[str, str]:

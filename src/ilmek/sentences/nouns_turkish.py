@@ -73,6 +73,38 @@ arm of a head to its energy chain = kafanın enerji zincir+i kol+u | axle of suc
 bracket of the head on its carriage = kafanın araba konsol+u | warp stop barrier = çözgü durdurma bariyer+i
 yarn duct = iplik kanal+ı | retreat sensor = geri çekilme algılayıcı+sı | tension sensor = gerginlik algılayıcı+sı
 beat encoder = tefe kodlayıcı+sı | carrier of the weft = atkı taşıyıcı+sı | coupler = biyel | links = uzuvlar
+heddle bar = gücü çubuğ+u | heddles = gücüler | string heddle = ip gücü | shuttle = mekik | bench = oturak
+elbow = dirsek
+hand shed = el ağızlık düzen+i | driven shaft = tahrikli mil | main shaft = ana mil | bearing plate = yatak levha+sı
+belt and pulleys = kayış ve kasnaklar | first links = birinci uzuvlar | second links = ikinci uzuvlar | board = tahta
+blade = ağız | needle = iğne | bobbin = masura | box at the left edge = sol kenar kutu+su | box = kutu
+shuttles = mekikler
+box at the right edge = sağ kenar kutu+su | centre finger = orta parmak | centre rod = orta çubuk
+elbow shaft = dirsek mil+i
+coupler with holder and gripper = tutuculu ve kıskaçlı biyel | elbow-shaft-* = karşı dirsek mil+i
+shed rod = ağızlık çubuğ+u
+eye and brake = göz ve fren | foot board = ayak tahta+sı | foot = ayak | frame plate = gövde levha+sı
+hand lever = el kol+u
+hand wheel = el çark+ı | handle = tutamak | hanger = askı | hub = göbek | left lock = sol kilit
+right lock = sağ kilit
+left finger = sol parmak | right finger = sağ parmak | left rod = sol çubuk | right rod = sağ çubuk | leg = bacak
+lifted bobbin = kaldırılan masura | lifted comb = kaldırılan tarak | lifted knife = kaldırılan bıçak | shelf = raf
+lifted scissors = kaldırılan makas | scissors = makas | link 1 = 1. uzuv | link 2 = 2. uzuv | link 1 * = karşı 1. uzuv
+link 2 * = karşı 2. uzuv | link-1-* = karşı 1. uzuv | link-2-* = karşı 2. uzuv | machine = makine | magnet = mıknatıs
+neck = boyun | solenoid = solenoid | needle bar with its needles = iğneleriyle iğne çubuğ+u | odd bar = tek çubuk
+odd stand = tek ayaklık | pin that locks a lever = kol kilitleme pim+i | crank and rocker = krank ve salınım kolu
+arms = kollar
+pulley on the shaft = mil üstü kasnak | servo = servo | first link = birinci uzuv | second link = ikinci uzuv
+tools = takımlar
+shaft of a second link, with its pulleys = kasnaklarıyla ikinci uzuv mil+i | sinuous weft = dalgalı atkı | tooth = diş
+sleeve of a first link, with its pulley = kasnağıyla birinci uzuv kovan+ı | straight weft = düz atkı | stem = gövde
+hand beat = elle tefeleme | knotting dyad = düğüm diyad+ı | knotting four bar = dört çubuklu düğüm mekanizma+sı
+function four bar = fonksiyon dört çubuğ+u | motion four bar = hareket dört çubuğ+u
+path four bar = yörünge dört çubuğ+u
+tufting = tufting düzen+i | shuttle's axis = mekik eksen+i
+Assembly drawing = Montaj resm+i | see list = listeye bakın
+Exploded along the axes of joints and seats = Mafsal ve yuva eksenleri boyunca açılmış
+items as in the list on sheet = kalemler listedeki gibi, sayfa
 light grid = ışık perde+si | button = düğme | Automated loom = Otomatik tezgâh | Hand loom = El tezgâh+ı
 Beat by hand = Elle tefeleme | Beat-up = Tefeleme | Hammer = Tokmak | Hand shed = El ağızlık düzen+i | Cam = Kam
 Knotting head = Düğüm kafa+sı | Knotting dyad = Düğüm diyad+ı | Knotting four-bar = Dört çubuklu düğüm mekanizma+sı
@@ -85,6 +117,7 @@ NOUNS = dict(pair.split(" = ") for line in _NOUNS.strip().split("\n") for pair i
 _OF = re.compile(r"(.+?) of (?:the |an? |such a )?(.+)")
 _ITS = re.compile(r"(.+?)(?:'s|(?<=s)') (.+)")
 _PIECES = re.compile(r"(; |: |\d+ × | \d+$)")
+_CAPITALS = str.maketrans("i", "İ")
 _VOWELS = {"a": "ı", "ı": "ı", "e": "i", "i": "i", "o": "u", "u": "u", "ö": "ü", "ü": "ü"}
 
 
@@ -98,7 +131,11 @@ def named(text: str) -> str:
     whole = None if "; " in text else _noun(text)
     if whole is None:
         whole = "".join(map(_listed, _PIECES.split(text)))
-    return whole.replace("+", "") if whole != text else text
+    if whole == text and text[:1].isupper():
+        lowered = text[0].lower() + text[1:]
+        whole = named(lowered)
+        return text if whole == lowered else whole[0].translate(_CAPITALS).upper() + whole[1:]
+    return whole.replace("+", "")
 
 
 def _listed(text: str) -> str:

@@ -106,10 +106,4 @@ SHEETS = {
     "sheet.reason": "{name}: {cure}",
     "sheet.more-reasons": "and {count} more: see the report",
     "sheet.book": "Drawings: {title}",
-    "sheet.quantity": "Qty",
-    "sheet.designation": "Designation",
-    "sheet.material-type": "Material, type",
-    "sheet.assembly": "Assembly drawing",
-    "sheet.see-list": "see list",
-    "sheet.exploded": "Exploded along the axes of joints and seats; items as in the list on sheet 1",
 }

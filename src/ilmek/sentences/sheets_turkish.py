@@ -106,10 +106,4 @@ SHEETS = {
     "sheet.reason": "{name}: {cure}",
     "sheet.more-reasons": "ve {count} tane daha: rapora bakın",
     "sheet.book": "Teknik resimler: {title}",
-    "sheet.quantity": "Adet",
-    "sheet.designation": "Tanım",
-    "sheet.material-type": "Malzeme, tip",
-    "sheet.assembly": "Montaj resmi",
-    "sheet.see-list": "listeye bakın",
-    "sheet.exploded": "Mafsal ve yuva eksenleri boyunca dağıtılmış; sıra numaraları sayfa 1'deki listededir",
 }
