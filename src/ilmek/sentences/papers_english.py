@@ -179,20 +179,8 @@ PAPERS = {
     "electric.amplifiers": "amplifiers",
     "electric.feedback": "feedback",
     # Joint
-    "joint.joint": "joint",
-    "joint.fixed": "fixed",
-    "joint.pin": "turns",
-    "joint.slide": "slides",
-    "joint.screw": "screws",
-    "joint.rolling": "rolls",
-    "joint.transmission": "follows a transmission",
-    "joint.cam": "follows a cam",
-    "joint.missing": "not designed",
-    "joint.stand": "frame or floor",
     "joint.from-front": "From the front: what comes in bold lines, what stands dashed",
     "joint.from-top": "From above: what comes in bold lines, what stands dashed",
-    "joint.how": "Each body comes after what carries it. The manual of a loom proves that each part reaches its "
-    "seat; that of a machine alone does not.",
     # Risk
     "risk.title": "Risk assessment",
     "risk.lead": "In the form of ISO 12100: hazards found from moving bodies and energies, measures, what remains",

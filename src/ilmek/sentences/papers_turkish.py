@@ -178,20 +178,8 @@ PAPERS = {
     "electric.amplifiers": "sürücüler",
     "electric.feedback": "geri bildirim",
     # Joint
-    "joint.joint": "mafsal",
-    "joint.fixed": "sabit",
-    "joint.pin": "döner",
-    "joint.slide": "kayar",
-    "joint.screw": "vidalı",
-    "joint.rolling": "yuvarlanır",
-    "joint.transmission": "aktarmayı izler",
-    "joint.cam": "kamı izler",
-    "joint.missing": "tasarlanmamış",
-    "joint.stand": "gövde ya da zemin",
     "joint.from-front": "Önden: gelen kalın, duran kesik çizgiyle",
     "joint.from-top": "Üstten: gelen kalın, duran kesik çizgiyle",
-    "joint.how": "Her gövde taşıyanından sonra gelir. Bir tezgâhın kılavuzu her parçanın yerine ulaştığını kanıtlar; "
-    "tek bir makineninki kanıtlamaz.",
     # Risk
     "risk.title": "Risk değerlendirmesi",
     "risk.lead": "ISO 12100 biçiminde: hareketli gövdelerden ve enerjilerden bulunan tehlikeler, önlemler, kalan risk",
