@@ -133,7 +133,10 @@ class LoadedPlateCam:
         """Acceleration of the follower that errors of the profile may add [m/s²]: it stays on, within the pressure."""
         forward, back = self.mass_moved
         mass = np.where(self.motion.ds >= 0, forward, back)
-        more = self.contact * ((PRESSURE_LIMIT / self.pressure) ** 2 - 1) * np.cos(self.trace.pressure_angle)
+        loaded = self.contact > 0  # without a force nothing says how far the pressure may rise
+        more = np.full_like(self.contact, np.inf)
+        more[loaded] = self.contact[loaded] * ((PRESSURE_LIMIT / self.pressure[loaded]) ** 2 - 1)
+        more *= np.cos(self.trace.pressure_angle)
         room = np.minimum(self.force, more) if self.preload > 0 else more
         return max(0.0, float(np.min(room / mass)))
 

@@ -9,6 +9,7 @@ from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import area, as_hole, counter_clockwise
 from ilmek.report import Plate, WorkPiece
+from ilmek.units import in_mm
 
 FLAT = ("laser-cut part", "machined link", "cam plate")
 """Processes by which a contour is cut out of flat stock."""
@@ -64,6 +65,10 @@ def plate_name(part: Part) -> str:
     return part.id.rpartition("/")[2]
 
 
+def _cutter(part: Part) -> tuple[str, ...]:
+    return (f"cutter of {in_mm(2 * part.cam.cutter)}",) if part.cam is not None and part.cam.cutter > 0 else ()
+
+
 def _plate(part: Part, number: int, whole: Tree) -> Plate:
     assert part.material is not None
     if part.drawing is not None:
@@ -92,7 +97,7 @@ def _plate(part: Part, number: int, whole: Tree) -> Plate:
         number=number,
         paths=part.paths,
         marks=part.marks,
-        notes=part.notes,
+        notes=(*part.notes, *_cutter(part)),
         part=part,
         tree=whole,
     )

@@ -158,9 +158,10 @@ def _unhidden(
 ) -> Complex[np.ndarray, "lines 2"]:
     """Starts and ends of what is seen of lines [pixels]."""
     lines = lines[_different(lines)]
-    starts, along = lines[:, 0], lines[:, 1] - lines[:, 0]
+    starts, ends = (np.ascontiguousarray(lines[:, end]) for end in range(2))
+    along = ends - starts
     counts = np.ceil(np.linalg.norm(along[:, :2], axis=1) / _STEP).astype(int)
-    seen = seen_samples(starts, lines[:, 1], counts, depth, SLACK)
+    seen = seen_samples(starts, ends, counts, depth, SLACK)
     owner = np.repeat(np.arange(len(counts)), counts)
     begins = np.cumsum(counts) - counts
     number = np.arange(len(owner)) - begins[owner]

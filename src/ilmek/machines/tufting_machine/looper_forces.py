@@ -133,7 +133,7 @@ def looper_forces(
     hooks = carpet.needles / params.drives
     held = np.mod(angle - loop.catch, turn) < loop.release - loop.catch
     cutting = (drive.deviation(angle) > CUTTING * drive.swing / 2) & (params.pile == "cut")
-    pull = hooks * (2j * looper.tension * held - drive.sense * looper.cut * cutting)
+    pull = hooks * (2j * looper.loop_tension * held - drive.sense * looper.cut * cutting)
     loads: tuple[Load, ...] = (Gravity(-1j * params.needle.gravity), PointForce(ROCKER, tip, pull))
     forces = inverse(motion, bodies, loads)
     section = looper.link_width, looper.link_thickness

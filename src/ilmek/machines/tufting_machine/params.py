@@ -97,7 +97,9 @@ class LooperParams(Params):
     coupling: float = kind.ratio(
         0.1, above=0.0, below=1.0, doc="crank over coupler, where the crank's rotation allows it"
     )
-    tension: float = kind.force(0.3, at_least=0.0, at_most=100.0, doc="tension of the yarn in each leg of a held loop")
+    loop_tension: float = kind.force(
+        0.3, at_least=0.0, at_most=100.0, doc="tension of the yarn in each leg of a held loop"
+    )
     cut: float = kind.force(
         2.0, at_least=0.0, at_most=1e3, doc="force of a knife on its hook, near the forward end, in cut pile"
     )
