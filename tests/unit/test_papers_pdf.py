@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from pypdf import PdfReader
+from pypdfium2 import PdfDocument  # type: ignore[import-untyped]
 
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.report import Column, Drawing, Paper, PaperSection, Stroke, Table
@@ -65,7 +66,7 @@ def paper_of(rows: int) -> Paper:
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@pytest.mark.parametrize(("rows", "pages"), [(3, 1), (150, 3)])
+@pytest.mark.parametrize(("rows", "pages"), [(3, 1), (150, 4), (400, 9)])
 def test_a_pdf_has_the_words_of_the_page(tmp_path: Path, language: str, rows: int, pages: int) -> None:
     paper = printed(paper_of(rows), "Loom", language, Issue(date="2026-11-29", revision="C"))
     write_paper_pdf(tmp_path / "try.pdf", paper)
@@ -75,6 +76,12 @@ def test_a_pdf_has_the_words_of_the_page(tmp_path: Path, language: str, rows: in
     assert all(paper.sections[0].measured in page for page in with_rows)
     assert all(f"\n{number} / {pages}\n" in page for number, page in enumerate(text, 1))
     assert "".join(text).count("☐") == rows + len(with_rows)
+    for page in PdfDocument(tmp_path / "try.pdf"):
+        printed_page, (width, height) = page.get_textpage(), page.get_size()
+        boxes = np.array([printed_page.get_charbox(number) for number in range(printed_page.count_chars())])
+        assert boxes.min() > 0
+        assert boxes[:, 2].max() < width
+        assert boxes[:, 3].max() < height
 
 
 def test_turkish_letters_are_read_as_they_are_written(tmp_path: Path) -> None:

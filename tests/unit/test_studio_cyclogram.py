@@ -130,7 +130,12 @@ def test_a_solution_can_be_cancelled(press: dict[str, Any]) -> None:
 
 
 def test_a_machine_gives_its_cyclograms() -> None:
-    assert of_machine(MachineCyclogramRequest(), Context()).machines == ("automated-loom", "weaver", "hand-loom", "tufting-machine")
+    assert of_machine(MachineCyclogramRequest(), Context()).machines == (
+        "automated-loom",
+        "weaver",
+        "hand-loom",
+        "tufting-machine",
+    )
     found = of_machine(MachineCyclogramRequest("weaver"), Context())
     for one in found.cyclograms:
         assert tomllib.loads(one.text)["name"] == one.name

@@ -9,6 +9,7 @@ from pathlib import Path
 from ilmek.io.drawings.dxf import write_sheet_dxf
 from ilmek.io.drawings.pdf import write_sheets_pdf
 from ilmek.part.assemblies import AssemblyUnit, assembly_of
+from ilmek.part.bill import bill
 from ilmek.part.tree import Tree
 from ilmek.progress import Progress
 from ilmek.records import JsonObject
@@ -20,7 +21,7 @@ from ilmek.units import counted
 from ilmek.viz.drawings.assembly import assembly_sheets
 from ilmek.viz.drawings.compose import sheets_of
 from ilmek.viz.drawings.drawn_part import drawn_piece, drawn_plate
-from ilmek.viz.drawings.index import index_sheets, part_rows
+from ilmek.viz.drawings.index import index_sheets, listed_lines, part_rows
 from ilmek.viz.drawings.projector import Projector
 
 BOOK, ASSEMBLY = "drawings.pdf", "assembly"
@@ -45,6 +46,9 @@ def write_drawings(  # noqa: PLR0917
     parts = [drawn_plate(plate, report.machine, name) for name, plate in plates.items()]
     parts += [drawn_piece(piece, report.machine, name) for name, piece in pieces.items()]
     assembled = tree if isinstance(tree, Tree) else Tree()
+    counts = {part.id: number for part, number in assembled.occurrences()}
+    parts = [replace(part, pieces=counts.get(part.number, part.pieces)) for part in parts]
+    lines = bill(assembled) if assembled.bodies else listed_lines(report)
     if not (parts or assembled.bodies):
         return []
     issue = replace(issue, unreleased=bool(report.failed))
@@ -69,7 +73,7 @@ def write_drawings(  # noqa: PLR0917
             without, "sheet of a part of several shapes is", "sheets of parts of several shapes are"
         )
         left_out.append(f"{sheets_of_sums} left out: pip install 'ilmek[step]'")
-    first = index_sheets(report, part_rows(report, parts), issue)
+    first = index_sheets(report, part_rows(lines, parts), issue)
     whole = {"kind": "drawings", "of": report.machine, "title": report.title, "sheets": len(first) + len(book)}
     for language in LANGUAGES:
         with in_language(language):

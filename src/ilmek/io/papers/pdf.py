@@ -80,14 +80,16 @@ def _pages(canvas: PrintCanvas, story: Iterator[Item], room: float, top: float) 
     while items:
         item, kept = items.popleft()
         high = item.wrapOn(canvas, room, left - FOOT)[1]
-        if high + kept <= left - FOOT or left == top:
+        fits = high + kept <= left - FOOT
+        pieces = [] if fits or kept else item.split(room, left - FOOT)
+        if len(pieces) > 1:
+            items.extendleft((piece, 0.0) for piece in reversed(pieces))
+        elif fits or left == top:  # what cannot be split stands alone
             left -= high
             pages[-1].append((item, left))
             left -= item.getSpaceAfter()
-            continue
-        pieces = [] if kept else item.split(room, left - FOOT)
-        items.extendleft((piece, 0.0) for piece in reversed(pieces or [item]))
-        if len(pieces) <= 1:
+        else:
+            items.appendleft((item, kept))
             pages.append([])
             left = top
     return pages

@@ -268,7 +268,9 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
 
 def status_of(issue: Issue) -> Sentence:
     """The status of a document in words."""
-    return Sentence("paper.not-released") if issue.unreleased else Sentence("sheet.for-production")
+    if issue.unreleased:
+        return Sentence("paper.not-released")
+    return Sentence("sheet.for-production") if issue.given else Sentence("sheet.not-issued")
 
 
 def _sheet(  # noqa: PLR0917

@@ -48,27 +48,29 @@ class PartRow:
         return str(self.number), self.drawing, self.title, str(self.pieces), self.source, self.material, each, every
 
 
-def part_rows(report: Report, parts: Sequence[DrawnPart]) -> tuple[PartRow, ...]:
-    """A row for each part of the parts list, and for each drawn one that is not in it."""
+def part_rows(lines: Sequence[BillLine], parts: Sequence[DrawnPart]) -> tuple[PartRow, ...]:
+    """A row for each line of a parts list, by its position in it, and for each drawn part that is not in it."""
     drawn = {part.number: part for part in parts}
     rows: list[PartRow] = []
-    for line in _lines(report):
+    for number, line in enumerate(lines, 1):
         part = drawn.pop(line.part, None)
         if part is not None:
-            rows.append(_row(len(rows) + 1, part))
+            rows.append(_row(number, part))
         elif line.kind or line.description:
             source = Sentence("sheet.make") if line.material else Sentence("sheet.buy")
             material = line.material or line.description
-            rows.append(PartRow(len(rows) + 1, "—", line.name, line.number, source, material, line.mass))
-    rows += [_row(len(rows) + number, part) for number, part in enumerate(drawn.values(), 1)]
+            rows.append(PartRow(number, "—", line.name, line.number, source, material, line.mass))
+    rows += [_row(number, part) for number, part in enumerate(drawn.values(), len(lines) + 1)]
     return tuple(rows)
 
 
-def _lines(report: Report) -> list[BillLine]:
+def listed_lines(report: Report) -> list[BillLine]:
     """Its parts list; that of the machines in it where it has none."""
     own = list(report.parts)
     known = {line.part for line in own}
-    return own + [line for child in report.children for line in _lines(child) if not own or line.part not in known]
+    return own + [
+        line for child in report.children for line in listed_lines(child) if not own or line.part not in known
+    ]
 
 
 def _row(number: int, part: DrawnPart) -> PartRow:
