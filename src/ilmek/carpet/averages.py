@@ -85,7 +85,9 @@ def _around(design: Rgb, y: IntArray, x: IntArray) -> UInt8[np.ndarray, "8 knots
     return np.stack([design[np.clip(y + i, 0, last[0]), np.clip(x + j, 0, last[1])] for i, j in steps])
 
 
-def _is_off(seen: Rgb, drawn: Rgb, around: Rgb) -> BoolArray:
+def _is_off(
+    seen: UInt8[np.ndarray, "knots 3"], drawn: UInt8[np.ndarray, "knots 3"], around: UInt8[np.ndarray, "8 knots 3"]
+) -> BoolArray:
     """Whether each average is far from its drawn colour and from the mixtures of that with those around."""
     target, own, others = (LINEAR[colours] for colours in (seen, drawn, around))
     along = others - own
