@@ -22,6 +22,7 @@ from ilmek.machines.own_linkage.layers import RingSide
 from ilmek.machines.own_linkage.report import made_inertias
 from ilmek.machines.own_linkage.tree import own_tree
 from ilmek.part.mobility import TreeMobility
+from ilmek.part.shapes import Prism
 from ilmek.plane.contours import area, rounded_hull
 
 FOUR_BAR = """\
@@ -211,3 +212,21 @@ def test_the_bodies_of_a_tree_are_as_free_as_they_are_driven(name: str) -> None:
     file = read_mechanism(Path(__file__).parents[2] / "examples" / f"{name}.toml")
     mobility = TreeMobility(made_mechanism(run(file, MotionRequest({}))).tree)
     assert mobility.degrees_of_freedom == len(mobility.driven) == 1
+
+
+EXAMPLES = ("class_three", "jansen_leg", "klann_leg", "quick_return", "slider_crank_press", "stephenson_dwell")
+
+
+@pytest.mark.parametrize("name", EXAMPLES)
+def test_outlines_of_the_examples_have_no_edge_that_a_kernel_takes_for_a_point(name: str) -> None:
+    """A carriage as wide as its link had edges of 4e-11 m, of which the CAD kernel makes no solid."""
+    root = Path(__file__).parents[2]
+    tree = made_mechanism(run(read_mechanism(root / "examples" / f"{name}.toml"), MotionRequest({}))).tree
+    contours = [
+        contour
+        for part, _ in tree.occurrences()
+        if isinstance(part.shape, Prism)
+        for contour in part.shape.section.contours
+    ]
+    edges = np.concatenate([np.abs(np.roll(own.points, -1) - own.points) for own in contours])
+    assert edges.min() > 1e-6

@@ -52,9 +52,6 @@ BRIDGE = 1 * mm
 RAIL_END = 5 * mm
 """Rail beyond the carriage at the ends of its travel [m]."""
 
-_NONE = 1e-12
-"""Side [m] of a plate under a carriage that is not wider than the link."""
-
 _ROUNDS = 30
 """Rounds in which pins and layers are made to agree: more than there are diameters."""
 
@@ -222,8 +219,9 @@ def _slide_eyes(built: Construction, body: str, radius: float) -> Iterator[Eye]:
     for line in built.lines:
         guide = built.guides[line.name]
         if line.body == body:
-            inner = rectangle(*(max(side - 2 * radius, _NONE) for side in (guide.block_length, guide.block))).points
-            yield from (Eye(complex(line.at + line.forward * corner), radius) for corner in inner)
+            x, y = (max(side / 2 - radius, 0.0) for side in (guide.block_length, guide.block))
+            inner = dict.fromkeys(complex(*corner) for corner in ((x, y), (-x, y), (-x, -y), (x, -y)))
+            yield from (Eye(line.at + line.forward * corner, radius) for corner in inner)
         if line.guide == body:
             yield from (Eye(end, max(radius, guide.rail / 2)) for end in rail_ends(line, guide))
 
