@@ -243,7 +243,7 @@ class _Plan:
         """Of some units one leaves, alone or with those that hold it, by several moves."""
         tried: set[frozenset[InsertedUnit]] = set()
         for unit in units:
-            held = (self._held_along([unit], way, _SIZES[1], _SHORT) for way in unit.directions)
+            held = (self._held_along([unit], along, _SIZES[1], _SHORT) for along in unit.directions)
             for group in ({unit}, *(own for own in held if own is not None and len(own) > 1 and self._whole(own))):
                 if frozenset(group) not in tried and self._may_leave(group):
                     tried.add(frozenset(group))
@@ -293,14 +293,14 @@ class _Plan:
 
     def _held(self) -> Insertion:
         """Of what nothing leads to the outside, what the fewest stand in the way of."""
-        ways = (
-            ([other for other in self._before(unit, way) if self._meets(unit, other, way)], unit, way)
+        blocked = (
+            ([other for other in self._before(unit, along) if self._meets(unit, other, along)], unit, along)
             for unit in self.standing
             if unit.name not in self.welded
-            for way in filter(self._open, unit.directions)
+            for along in filter(self._open, unit.directions)
         )
-        blocking, unit, way = min(ways, key=lambda own: len(own[0]))
-        return replace(self._step({unit}, (self._far(way),)), blocking=tuple(blocking))
+        blocking, unit, along = min(blocked, key=lambda own: len(own[0]))
+        return replace(self._step({unit}, (self._far(along),)), blocking=tuple(blocking))
 
     def _step(self, leaving: set[InsertedUnit], moves: Sequence[Vector]) -> Insertion:
         units = tuple(sorted(leaving, key=lambda unit: unit.number))
