@@ -68,7 +68,7 @@ class Part:
     """A kind of thing: what it is, how it is made, of what, and where others sit on it.
 
     id       unique: machine and part, `tension-compensator/lever`         title   for people
-    size     for people: the section or the length that it is cut to; default: the catalogue's row
+    size     of a bought part, for people; default: the catalogue's row. That of a made one is its blank's [`blanks`]
     process  how it is made [`making`], or the kind by which it is bought      shape   in the part's own axes
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
