@@ -28,8 +28,8 @@ NEAR = 1e-6
 
 
 @cache
-def made(name: str) -> tuple[Part, ...]:
-    """The made parts of a loom, or of a machine alone."""
+def parts(name: str) -> tuple[Part, ...]:
+    """The parts of a loom, or of a machine alone."""
     if name in LOOMS:
         loom = MACHINES["automated-loom"]
         tree: Any = loom_tree(loom.designed(loom.params.read(LOOMS[name])))
@@ -37,7 +37,26 @@ def made(name: str) -> tuple[Part, ...]:
         tree_of = MACHINES[name].tree
         assert tree_of is not None
         tree = tree_of(default_design(name))
-    return tuple(part for part, _ in tree.occurrences() if part.material is not None)
+    return tuple(part for part, _ in tree.occurrences())
+
+
+def made(name: str) -> tuple[Part, ...]:
+    """Those that are made."""
+    return tuple(part for part in parts(name) if part.material is not None)
+
+
+@pytest.mark.parametrize("name", [*LOOMS, *ALONE])
+def test_every_part_is_weighed(name: str) -> None:
+    assert [part.id for part in parts(name) if not part.mass > 0] == []
+
+
+def test_a_part_without_a_row_weighs_as_its_class() -> None:
+    reducer = next(part for part in parts("warp-tension") if part.process == "reducer")
+    assert reducer.purchase is not None
+    assert np.isnan(reducer.purchase.mass)
+    assert reducer.mass == pytest.approx(0.7 + 2.5e-3 * reducer.purchase.power)
+    assert reducer.moments is not None
+    assert reducer.moments.zeroth == pytest.approx(reducer.mass)
 
 
 def among(size: float, series: tuple[float, ...]) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import field
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.elements.class_masses import class_mass
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments
@@ -23,7 +24,7 @@ PITCH, CUTTER, ZERO = "pitch curve", "cutter path", "zero"
 class Bought:
     """A bought part, by its row of a catalogue.
 
-    row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
+    row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: that of its class [`class_masses`]
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
     """
@@ -113,7 +114,7 @@ class Part:
         if self.material is not None and self.shape is not None:
             return self.shape.moments * self.material.density
         assert self.purchase is not None
-        mass = self.purchase.mass
+        mass = self.mass
         if math.isnan(mass):
             return None
         if self.shape is None:
@@ -123,11 +124,12 @@ class Part:
 
     @property
     def mass(self) -> float:
-        """Mass of one [kg]; nan: not weighed."""
+        """Mass of one [kg]: of a made part by its shape, of a bought one its catalogue's, else that of its class."""
         if self.material is not None and self.shape is not None:
             return self.shape.volume * self.material.density
-        assert self.purchase is not None
-        return self.purchase.mass
+        bought = self.purchase
+        assert bought is not None
+        return class_mass(self.process, bought.length, bought.power) if math.isnan(bought.mass) else bought.mass
 
 
 def bought_part(name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "") -> Part:
