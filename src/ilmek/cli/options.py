@@ -21,7 +21,7 @@ animation_option = click.option(
     help="Write the machine in motion; MP4 needs the extra video.",
 )
 issue_option = click.option(
-    "--issue", "issued", metavar="REVISION,DATE", help="Revision and date of issue on the drawings."
+    "--issue", "issued", metavar="REVISION,DATE", help="Revision and date (ISO 8601) of issue on the drawings."
 )
 rates_option = click.option(
     "--rates",
