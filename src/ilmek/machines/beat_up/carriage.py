@@ -101,7 +101,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
         holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
     thickness = linkage.params.thickness
     shape = Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness)
-    return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL)
+    return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
 
 
 def shared_axis(linkage: BeatUp) -> complex:

@@ -119,7 +119,7 @@ def driven_shaft(params: TuftingParams, sizes: NeedleSizes) -> Occurrence:
 def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A shaft about z from z = 0 [m]."""
     size = f"{round_size(diameter)}, {in_mm(length)}"
-    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL)
+    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL, machined=True)
 
 
 def needle_diameter(params: TuftingParams) -> float:
@@ -152,7 +152,7 @@ def eccentric(name: str, crank: float, shaft: float, thickness: float, material:
     size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
     shape = Prism(Profile(circle(complex(crank), radius), (hub_for(shaft).contour,)), thickness)
     seats = {"O": Seat(placement(), shaft), "A": Seat(placement(crank), 2 * radius)}
-    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats)
+    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats, machined=True)
 
 
 def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
