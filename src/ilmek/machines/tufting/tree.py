@@ -103,7 +103,7 @@ def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
 
 
 def keyed(body: RigidBody, shaft: RigidBody | None) -> RigidBody:
-    """A crank, keyed on its shaft; or the arm, which is keyed on the driven shaft as the rocker is, its parent."""
+    """A crank, fixed on its shaft; or the arm, which is fixed on the driven shaft as the rocker is, its parent."""
     joint = replace(body.joint, kind=JointKind.FIXED, motion=None)
     if shaft is None:
         return replace(body, joint=joint)
