@@ -168,6 +168,6 @@ def _drive(design: Tufting) -> Iterator[Part]:
     strength = needle_strength(design)
     row, reducer = strength.motor or (None, DIRECT)
     if reducer.ratio != 1:
-        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer.ratio, row)
+        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer, row)
     torque, speed = reducer.motor_torque(strength.motor_torque), design.params.speed * reducer.ratio
     yield catalogue.motor(f"{NAME}/motor", "servo of the main shaft", row, torque, speed)
