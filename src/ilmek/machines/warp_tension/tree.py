@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.warp_tension.attachment import on_cylinder
-from ilmek.machines.warp_tension.cylinders import SPACER, STUB, Cylinder, cylinders, part_id
+from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.spigot import FLANGE
