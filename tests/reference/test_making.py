@@ -60,6 +60,11 @@ def laser(part: Measured, contours: int, density: float = STEEL, price: float = 
     return blank + money(95, 15 + contours + 1.5 * cut + 0.25 * cut * thick * CM2)
 
 
+def tapped(holes: int, diameter: float, deep: float) -> float:
+    """Holes machined after the cut."""
+    return money(55, 240 + holes * (25 + math.pi * diameter * deep * CM2))
+
+
 def folded(part: Measured, folds: int) -> float:
     """A strip s wide, t thick, L long: V = s t L, and the surface 2 (s t + s L + t L), solved by halving."""
     long = part.sides[2]
@@ -111,7 +116,7 @@ def cam(part: Measured) -> float:
     ("name", "price"),
     [
         ("shedding/guide-cam", lambda part: laser(part, 2)),
-        ("automated-loom/upper-bracket", lambda part: laser(part, 6)),
+        ("automated-loom/upper-bracket", lambda part: laser(part, 6) + tapped(4, 12e-3, 20e-3)),
         ("hammer/leaf", lambda part: laser(part, 1)),
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
         ("weaver/side-plate", lambda part: milled(part, 1, ALLOY, 6.0)),

@@ -165,7 +165,7 @@ def test_lives_and_greasing_follow_from_loads_and_work() -> None:
     knots = rows * report["columns"] / report["heads"]
     bearing, *_, head, guide = rows_of("maintenance", 0)
     rated = 14_000.0  # N, UC 205, ISO 281: makers' tables
-    assert bearing[1] == "UC 205"
+    assert bearing[1] == "UCF 205"  # as it is bought
     assert bearing[3] == pytest.approx((rated / report["shedding.bearing_load"]) ** 3 * 1e6, rel=1e-3)
     assert bearing[6] == pytest.approx(float(bearing[3]) / rows)  # a turn of the cam shaft for each row
     assert head[5] == pytest.approx(knots)  # a turn of a head's cam shaft for each of its knots

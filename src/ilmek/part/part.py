@@ -28,6 +28,7 @@ class Bought:
     """A bought part, by its row of a catalogue.
 
     row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: that of its class [`class_masses`]
+    data    what a buyer must know besides: flange, shaft, torque; default: the part's size
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
     """
@@ -37,6 +38,7 @@ class Bought:
     length: float = 0.0
     power: float = 0.0
     drives: int = 0
+    data: str = ""
 
 
 @record
@@ -126,6 +128,14 @@ class Part:
             return Moments(mass, np.zeros(3), np.zeros((3, 3)))
         volume = self.shape.moments
         return volume * (mass / volume.zeroth)
+
+    @property
+    def designation(self) -> str:
+        """As a bought part is ordered: its catalogue's row with its data; of a made one none."""
+        if self.purchase is None:
+            return ""
+        row, data = self.purchase.row, self.purchase.data or self.size
+        return row if data in row else data if row in data else f"{row}, {data}"
 
     @property
     def mass(self) -> float:

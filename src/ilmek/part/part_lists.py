@@ -46,7 +46,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
         line, bought = line_of(part, number), part.purchase
-        source = ("", "make") if bought is None else (bought.row, "buy")
+        source = (part.designation, "make" if bought is None else "buy")
         drawing = part.id if bought is None else ""
         material = part.material.designation if part.material else ""
         into = " ".join(assemblies[part.id])
@@ -60,7 +60,7 @@ def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     ordered: dict[tuple[str, str, float], list[tuple[Part, int]]] = defaultdict(list)
     for part, number in tree.occurrences():
         if part.purchase is not None:
-            ordered[part.process, part.purchase.row, part.purchase.length].append((part, number))
+            ordered[part.process, part.designation, part.purchase.length].append((part, number))
     heads = columns("designation | kind | length of one [m] | quantity | mass of all [kg] 6 | price of all | parts")
     rows = tuple(
         (
