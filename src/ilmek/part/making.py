@@ -1,7 +1,6 @@
 """How a made part is made: the steps by which it is priced, with their quantities, from its own shape.
 
-    sheet   a plate, or a folded strip of the developed width s and thickness t, the roots of  x² - P/2 x + A = 0  with
-            perimeter P and area A of its section; several plates are welded along the edges of what touches
+    sheet   a plate, or the flat pattern of a bent one; several plates are welded along the edges of what touches
     milled  from a box about it: what is removed, and all surfaces but the two of the stock, 2 V / t
     turned  from a round bar about it: what is removed, and all surfaces, of a plain bar its ends
     stock   a bar or tube cut to length, with what is cut from it
@@ -20,6 +19,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.making import BENDING, COATING, GRINDING, HARDENING, LASER, MILLING, SAWING, TURNING, WELDING
 from ilmek.elements.materials import Material
+from ilmek.part.folding import folded_sheet
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.profile import line_moment
@@ -105,23 +105,21 @@ def _sheet(shape: Shape, material: Material) -> Steps:
         yield _of_material(material, thick * (wide + WEB) * (deep + WEB))
         piercings = len(plate.section.contours) if thick == plate.length else 1
         yield ProcessStep(LASER, length=cut, area=cut * thick, features=piercings)
-        folds = (len(plate.section.outline.points) - 4) // 2
-        if thick != plate.length and folds > 0:
-            yield ProcessStep(BENDING, features=folds)
+        sheet = folded_sheet(plate)
+        if sheet is not None:
+            yield ProcessStep(BENDING, features=len(sheet.bends))
     if len(plates) > 1:
         yield ProcessStep(WELDING, length=seam_length(shape))
 
 
 def _flat(plate: Prism) -> tuple[float, float, float, float]:
     """Thickness, both sides of the blank, and length of the cut of a plate, flat or folded [m]."""
+    sheet = folded_sheet(plate)
+    if sheet is not None:
+        return sheet.thickness, sheet.width, sheet.length, 2 * (sheet.width + sheet.length)
     low, high = bounds(plate.section.outline)
     across = high - low
-    if plate.length <= min(across.real, across.imag):
-        return plate.length, across.real, across.imag, _perimeter(plate)
-    half = length(plate.section.outline) / 2
-    root = math.sqrt(max(half**2 / 4 - plate.section.area, 0.0))
-    thick, wide = half / 2 - root, half / 2 + root
-    return thick, wide, plate.length, 2 * (wide + plate.length)
+    return plate.length, across.real, across.imag, _perimeter(plate)
 
 
 def _members(shape: Shape) -> Iterator[list[tuple[Shape, Placement]]]:

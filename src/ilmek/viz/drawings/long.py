@@ -26,6 +26,9 @@ from ilmek.viz.drawings.weld_symbols import weld_symbols
 MOST_DIAMETERS = 10
 """Diameters of a turned part that are labelled; of more, the largest and smallest."""
 
+MOST_SEATS = 10
+"""Ends of welds that are dimensioned along a bar; more stand in the table of the welds alone."""
+
 
 @record
 class Shortening:
@@ -279,7 +282,11 @@ def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] 
         for line in shifted.picture.lines:
             view.line(LineKind.BREAK, line.points / scale + 1j * middle, body=False)
     feet = (complex(0.0, low.imag) * scale, complex(float(ends[1]), low.imag) * scale)
-    view.rows([MeasuredLength(*feet, length)], across=False)
+    spans = [MeasuredLength(*feet, length)]
+    seats = [round(z, 4) for weld in welds for z in weld.box[:, 2].tolist() if SAME < z < length - SAME]
+    seats = distinct(seats) if len(distinct(seats)) < MOST_SEATS else []
+    spans += [MeasuredLength(feet[0], complex(float(cut.drawn(z)), low.imag) * scale, z) for z in seats]
+    view.rows(spans, across=False)
     weld_symbols(view, welds, lambda weld: complex(float(cut.drawn(weld.middle[2])), high.imag) * scale)
     return view
 
