@@ -78,6 +78,7 @@ SHEETS = {
     "sheet.twist-right": "right",
     "sheet.twist-left": "left",
     "sheet.members-placed": "Consists of; X, Y, Z from the lower left rear corner",
+    "sheet.positions": "Positions of the welded pieces from their lower left rear corner, X right, Y up, Z front",
     "sheet.members": "Consists of",
     "sheet.item": "Item",
     "sheet.section": "Section",

@@ -78,6 +78,7 @@ SHEETS = {
     "sheet.twist-right": "sağ",
     "sheet.twist-left": "sol",
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
+    "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",
     "sheet.item": "Sıra",
     "sheet.section": "Kesit",

@@ -82,7 +82,7 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     members = tuple(members_of(shape))
     one_axis = coaxial(members)
     if one_axis is not None:
-        views = {"front": turned_view(one_axis.profile, scale, fits, one_axis.grooves, one_axis.squares)}
+        views = {"front": turned_view(one_axis.profile, scale, fits, one_axis.grooves, one_axis.half_widths)}
         if one_axis.ends or one_axis.bores or one_axis.squares:
             views["right"] = end_view(one_axis, scale, fits)
         return Arrangement(views, tables)

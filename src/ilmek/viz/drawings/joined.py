@@ -233,6 +233,10 @@ def _circles(
         elif isinstance(shape, Prism):
             holes = [as_hole(contour) for contour in (shape.section.outline, *shape.section.holes)]
             rings = [(hole.at, hole.radius) for hole in holes if hole is not None]
+            shaft = as_keyed(shape.section.outline)
+            if shaft is not None:
+                rings.append((shaft.centre, shaft.radius))
+                keyway(view, _seen_keyed(shaft, position, right, up), fits, FeatureKind.JOURNAL)
             for bore in filter(None, map(as_keyed, shape.section.holes)):
                 rings.append((bore.centre, bore.radius))
                 keyway(view, _seen_keyed(bore, position, right, up), fits, FeatureKind.BORE)
