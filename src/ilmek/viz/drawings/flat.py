@@ -244,7 +244,9 @@ def _linear(view: DrawnView, flat: FlatPart) -> None:
 
 
 def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool) -> list[MeasuredLength]:
-    """The size over all, unless it stands there already; in brackets where arcs give it."""
+    """The size over all, unless it stands there already, in brackets where arcs give it; of a curve also the distance
+    of the datum from its end.
+    """
     low, high = bounds(flat.outline)
     ends, datum = (coordinate(low, across), coordinate(high, across)), coordinate(flat.datum, across)
     size = ends[1] - ends[0]
@@ -253,8 +255,11 @@ def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool
         return []
     known = {round(datum, 8), *(round(datum + value, 8) for value in values)}
     auxiliary = flat.dimensioned and not all(round(end, 8) in known for end in ends)
-    first, last = (complex(low.real, end) if across else complex(end, low.imag) for end in ends)
-    return [MeasuredLength(first * view.scale, last * view.scale, size, auxiliary=auxiliary)]
+    feet = [(complex(low.real, end) if across else complex(end, low.imag)) * view.scale for end in ends]
+    whole = MeasuredLength(feet[0], feet[1], size, auxiliary=auxiliary)
+    if flat.dimensioned or not ends[0] + SAME < datum < ends[1] - SAME or values:
+        return [whole]
+    return [MeasuredLength(feet[0], flat.datum * view.scale, datum - ends[0]), whole]
 
 
 def _foot(points: Sequence[complex], value: float, across: bool) -> complex:
