@@ -66,13 +66,18 @@ def tapped(holes: int, diameter: float, deep: float) -> float:
 
 
 def folded(part: Measured, folds: int) -> float:
-    """A strip s wide, t thick, L long: V = s t L, and the surface 2 (s t + s L + t L), solved by halving."""
+    """A strip s wide, t thick, L long: V = s t L, and the surface 2 (s t + s L + t L), solved by halving.
+
+    Its middle is longer than what it is cut from: a quarter turn of inner radius t keeps its length at 0.325 t
+    [DIN 6935].
+    """
     long = part.sides[2]
     low, high = 0.0, math.sqrt(part.volume / long)
     for _ in range(100):
         t = (low + high) / 2
         s = part.volume / (t * long)
         low, high = (t, high) if 2 * (s * t + s * long + t * long) > part.surface else (low, t)
+    s -= folds * math.pi / 2 * (0.5 - 0.325) * t
     cut = 2 * (s + long)
     blank = STEEL * 1.3 * t * (s + 8e-3) * (long + 8e-3)
     return blank + money(95, 16 + 1.5 * cut + 0.25 * cut * t * CM2) + money(50, 20 + 20 * folds)

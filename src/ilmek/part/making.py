@@ -1,7 +1,6 @@
 """How a made part is made: the steps by which it is priced, with their quantities, from its own shape and its blank.
 
-sheet   a plate, or a folded strip of the developed width s and thickness t, the roots of  x² - P/2 x + A = 0  with
-perimeter P and area A of its section; several plates are welded along the edges of what touches
+sheet   a plate, or the flat pattern of a bent one; several plates are welded along the edges of what touches
 milled  what is removed, and all surfaces but the two of the stock, 2 V / t
 turned  what is removed, and all surfaces, of a plain bar its ends
 stock   a bar or tube cut to length, with what is cut from it
@@ -18,6 +17,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.making import BENDING, COATING, GRINDING, HARDENING, LASER, MILLING, SAWING, TURNING, WELDING
 from ilmek.elements.materials import Material
 from ilmek.part.blanks import BAR, PLATE, Blank, flat_of, is_round, milled_of, sheet_of, stock_of, turned_of
+from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of, members_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY
@@ -52,9 +52,9 @@ def _sheet(shape: Shape, material: Material) -> Steps:
         yield ProcessStep(LASER, length=cut, area=cut * stock, features=piercings)
         if stock > thick * (1 + _LEAST_CUT):
             yield ProcessStep(MILLING, area=2 * wide * deep, volume=(stock - thick) * wide * deep)
-        folds = (len(plate.section.outline.points) - 4) // 2
-        if thick != plate.length and folds > 0:
-            yield ProcessStep(BENDING, features=folds)
+        sheet = folded_sheet(plate)
+        if sheet is not None:
+            yield ProcessStep(BENDING, features=len(sheet.bends))
     if len(plates) > 1:
         yield ProcessStep(WELDING, length=seam_length(shape))
 

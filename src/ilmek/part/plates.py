@@ -4,6 +4,7 @@ from dataclasses import replace
 from typing import TypeVar
 
 from ilmek.part.blanks import size_of
+from ilmek.part.folding import folded_sheet
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tolerancing import tolerances_of
@@ -27,19 +28,25 @@ def plates_of(tree: Tree, whole: Tree | None = None) -> tuple[Plate, ...]:
 def pieces_of(tree: Tree, whole: Tree | None = None) -> tuple[WorkPiece, ...]:
     """A piece for each other part that is made: what is turned, sawn or welded; whole  as of `plates_of`."""
     return tuple(
-        WorkPiece(
-            plate_name(part),
-            part.title,
-            size_of(part),
-            part.material.designation,
-            number,
-            part.shape,
-            part.shape.volume,
-            part,
-            whole or tree,
-        )
+        _piece(part, number, whole or tree)
         for part, number in tree.occurrences()
         if part.material is not None and part.shape is not None and not is_flat(part)
+    )
+
+
+def _piece(part: Part, number: int, whole: Tree) -> WorkPiece:
+    assert part.material is not None
+    assert part.shape is not None
+    return WorkPiece(
+        plate_name(part),
+        part.title,
+        size_of(part),
+        part.material.designation,
+        number,
+        part.shape,
+        part.shape.volume,
+        part,
+        whole,
     )
 
 
@@ -72,9 +79,11 @@ def _cutter(part: Part) -> tuple[str, ...]:
 
 def _plate(part: Part, number: int, whole: Tree) -> Plate:
     assert part.material is not None
-    if part.drawing is not None:
+    bent = folded_sheet(part.shape)
+    flat = part.drawing if bent is None else replace(bent.plate, solid=_piece(part, number, whole), notes=part.notes)
+    if flat is not None:
         return replace(
-            part.drawing,
+            flat,
             name=plate_name(part),
             title=part.title.capitalize(),
             number=number,

@@ -44,7 +44,9 @@ _ARCS = 1e-6
 
 @record
 class FlatPart:
-    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, and the datum."""
+    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, the datum, and points of lines
+    to scribe.
+    """
 
     outline: Contour
     features: ContourFeatures
@@ -54,6 +56,7 @@ class FlatPart:
     cutouts: tuple[Contour, ...]
     datum: complex
     smooth: bool
+    scribed: tuple[complex, ...] = ()
 
     @property
     def holes(self) -> tuple[Hole, ...]:
@@ -90,7 +93,9 @@ class FlatPart:
         return sum(len(group.holes) for group in self.groups if not group.pitch) >= TABLE_FROM
 
 
-def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -> FlatPart:
+def flat_part(
+    section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False, scribed: tuple[complex, ...] = ()
+) -> FlatPart:
     """The features of a section; a smooth outline is a curve, with no corners to dimension."""
     holes, cuts = split_holes(section.holes)
     bores = tuple(bore for bore in map(as_keyed, cuts) if bore is not None)
@@ -109,7 +114,7 @@ def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
     groups = hole_groups(holes, lambda hole: bore_note(fits, hole))
-    return FlatPart(outline, features, ring, groups, bores, others, datum, curve)
+    return FlatPart(outline, features, ring, groups, bores, others, datum, curve, scribed)
 
 
 def _datum(features: ContourFeatures, corner: complex, centres: list[complex], holes: list[Hole]) -> complex:
@@ -207,7 +212,7 @@ def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
     holes = () if flat.tabled else tuple(h.at for group in flat.groups if not group.pitch for h in group.holes)
     centres = tuple(group.centre for group in flat.groups if group.pitch)
     cuts = tuple(point for cut in flat.cutouts for point in _corners_of(cut, flat))
-    return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts)
+    return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts, *flat.scribed)
 
 
 def _corners_of(cut: Contour, flat: FlatPart) -> tuple[complex, ...]:
@@ -239,7 +244,9 @@ def _linear(view: DrawnView, flat: FlatPart) -> None:
 
 
 def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool) -> list[MeasuredLength]:
-    """The size over all, unless it stands there already; in brackets where arcs give it."""
+    """The size over all, unless it stands there already, in brackets where arcs give it; of a curve also the distance
+    of the datum from its end.
+    """
     low, high = bounds(flat.outline)
     ends, datum = (coordinate(low, across), coordinate(high, across)), coordinate(flat.datum, across)
     size = ends[1] - ends[0]
@@ -248,8 +255,11 @@ def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool
         return []
     known = {round(datum, 8), *(round(datum + value, 8) for value in values)}
     auxiliary = flat.dimensioned and not all(round(end, 8) in known for end in ends)
-    first, last = (complex(low.real, end) if across else complex(end, low.imag) for end in ends)
-    return [MeasuredLength(first * view.scale, last * view.scale, size, auxiliary=auxiliary)]
+    feet = [(complex(low.real, end) if across else complex(end, low.imag)) * view.scale for end in ends]
+    whole = MeasuredLength(feet[0], feet[1], size, auxiliary=auxiliary)
+    if flat.dimensioned or not ends[0] + SAME < datum < ends[1] - SAME or values:
+        return [whole]
+    return [MeasuredLength(feet[0], flat.datum * view.scale, datum - ends[0]), whole]
 
 
 def _foot(points: Sequence[complex], value: float, across: bool) -> complex:
