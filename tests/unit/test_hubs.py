@@ -17,9 +17,14 @@ from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
+from ilmek.part.plates import pieces_of
 from ilmek.part.shapes import Prism, Sum
+from ilmek.part.tolerances import FeatureKind
 from ilmek.part.tree import JointKind, Tree
 from ilmek.plane.contours import along, polygon_moments
+from ilmek.report.sheet import Issue
+from ilmek.viz.drawings.compose import sheets_of
+from ilmek.viz.drawings.drawn_part import drawn_piece
 
 LOOMS = ({}, {"beat": "linkage"}, {"knotting": "arms"})
 TREES = (
@@ -167,3 +172,24 @@ def test_every_pulley_of_a_machine_has_teeth(machine: str, settings: Any) -> Non
         assert np.count_nonzero(inside & ~np.roll(inside, 1)) == teeth
         assert 2 * radii.max() == pytest.approx(belt.pitch * teeth / math.pi - 2 * belt.groove.offset, abs=3e-5)
         assert len(toothed.section.holes) == 1
+
+
+@pytest.mark.parametrize(("machine", "settings"), TREES)
+def test_the_sheet_of_a_shaft_states_where_its_keyway_lies(machine: str, settings: Any) -> None:
+    """Length and begin, measured on the mesh: where points lie on the floor of the groove."""
+    for piece in pieces_of(tree_of(machine, settings)):
+        grooved = [one for one in piece.features if getattr(one, "kind", None) is FeatureKind.SHAFT_KEYWAY]
+        if not grooved:
+            continue
+        (sheet,) = sheets_of(drawn_piece(piece, machine, "shaft"), Issue(), None)
+        points = piece.shape.mesh().points
+        stated = [re.search(r"keyway .*, (\S+) long, (\S+) from the left end", str(text.text)) for text in sheet.texts]
+        seats = sorted((float(one[2]), float(one[1])) for one in stated if one)
+        half = grooved[0].nominal / 2
+        corners = points[(np.abs(np.abs(points[:, 1]) - half) < 1e-7) & (points[:, 0] > 0)]
+        levels = np.unique(np.round(corners[:, 2], 7))
+        assert seats, piece.title
+        for begin, long in seats:
+            low = points[:, 2].min() + begin / 1e3
+            assert np.abs(levels - low).min() < 1e-4
+            assert np.abs(levels - low - long / 1e3).min() < 1e-4
