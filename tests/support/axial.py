@@ -1,7 +1,8 @@
-"""What holds hubs along their shafts: measured on meshes, with nothing of the fits and joints of the tree but its poses.
+"""What holds hubs along their shafts: measured on meshes, with nothing of the tree but its parts and its poses.
 
-A hub is a part whose bore has a keyway or is square, on a shaft that fits it. On each side it is held where its own
-face meets what does not slide: a shoulder of the shaft, a bearing, a ring, a nut, a reducer; or a hub that is held.
+A hub is a part whose bore has a keyway or is square, on a shaft that fits it, in a body that moves. A set screw, a
+clamp or an adhesive holds it; else it is held on each side where its own face meets what does not slide: a shoulder of
+the shaft, a bearing, a ring, a nut, a reducer; or a hub that is held.
 """
 
 from collections.abc import Iterator
@@ -15,11 +16,15 @@ from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.part import CLAMP, SET_SCREW, Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import chains, poses
-from ilmek.part.tree import Tree
+from ilmek.part.tree import JointKind, Tree
+from ilmek.sentences import Sentence
 from ilmek.units import mm
 
 TOUCH, NEAR = 0.35 * mm, 0.02 * mm
 """Gap along the axis within which faces count as meeting, and distance of axes and radii that counts as none [m]."""
+
+STANDS = {JointKind.FIXED, JointKind.MISSING}
+"""Joints of what does not move."""
 
 HELD = {"bearing", "fastener", "reducer", "clutch and brake"}
 """Kinds of what does not slide on a shaft."""
@@ -54,7 +59,7 @@ def loose_hubs(tree: Tree) -> set[str]:
         one.body for one in standing if any(own.inside and (own.keyway or own.square) for own in _features(one.part))
     }
     for shaft in standing:
-        for feature in _features(shaft.part) if shaft.body in with_hubs else ():
+        for feature in _features(shaft.part) if shaft.body and shaft.body in with_hubs else ():
             if feature.inside or not (feature.keyway or feature.square):
                 continue
             frame = shaft.stands.after(feature.position)
@@ -69,14 +74,14 @@ def _standing(tree: Tree) -> Iterator[Standing]:
     """Each part at each of its positions."""
     meshes: dict[str, NDArray[np.float64]] = {}
     for chain in chains(tree):
-        here = poses(chain, "", np.zeros(1))
+        here, moves = poses(chain, "", np.zeros(1)), any(link.body.joint.kind not in STANDS for link in chain)
         body = Placement(here.origin[0], here.rotation[0])
         for own in chain[-1].body.occurrences:
             if own.part.shape is not None:
                 points = meshes.setdefault(own.part.id, own.part.shape.mesh(0.2 * mm).points)
                 for position in own.positions:
                     stands = body.after(position)
-                    yield Standing(chain[-1].name, own.part, stands, stands.points(points))
+                    yield Standing(chain[-1].name if moves else "", own.part, stands, stands.points(points))
 
 
 def _loose(shaft: Standing, frame: Placement, size: float, standing: list[Standing]) -> set[str]:
@@ -143,4 +148,6 @@ def _stopped(rings: list[Ring], steps: list[tuple[float, float, float]], side: i
 
 
 def _is_held(ring: Ring) -> bool:
-    return ring.part.process in HELD or "nut" in ring.part.title or bool({SET_SCREW, CLAMP} & set(ring.part.seats))
+    part = ring.part
+    fixed = {SET_SCREW, CLAMP} & set(part.seats) or Sentence("sheet.bonded") in part.notes
+    return part.process in HELD or "nut" in part.title or bool(fixed)

@@ -3,24 +3,31 @@
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+from axial import loose_hubs
 from default_machines import default_design
 from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.belts import BELTS
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.parallel_keys import keyed_end
+from ilmek.elements.plates import round_bore
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
+from ilmek.part import catalogue
 from ilmek.part.meetings import meetings
-from ilmek.part.part import Part
+from ilmek.part.part import SET_SCREW, Part, Seat
+from ilmek.part.placement import placement
 from ilmek.part.plates import pieces_of
-from ilmek.part.shapes import Prism, Sum
+from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tolerances import FeatureKind
-from ilmek.part.tree import JointKind, Tree
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import along, polygon_moments
 from ilmek.report.sheet import Issue
 from ilmek.viz.drawings.compose import sheets_of
@@ -35,7 +42,7 @@ TREES = (
 BOUGHT_WHOLE = {"weft/turning cutters", "weft/fingers of the selector"}
 """Bodies that are bought devices, turned inside."""
 
-UNDER_WORK = {"weaver/magazine", "cam/cam", "hammer/comb"} | {
+UNDER_WORK = {"cam/cam", "hammer/comb"} | {
     f"weaver/{name} gripper's finger" for name in ("left side", "right side", "centre")
 }
 
@@ -52,6 +59,34 @@ def tree_of(machine: str, settings: tuple[tuple[str, str], ...]) -> Tree:
 
 def bought(tree: Tree, *kinds: str) -> Iterator[Part]:
     return (part for part, _ in tree.occurrences() if part.purchase is not None and part.process in kinds)
+
+
+@pytest.mark.parametrize(("machine", "settings"), TREES)
+def test_something_holds_every_hub_along_its_shaft(machine: str, settings: Any) -> None:
+    assert loose_hubs(tree_of(machine, settings)) == set()
+
+
+def test_a_hub_between_nothing_is_found() -> None:
+    """A keyed ring on a shaft: loose; beside a shoulder only: loose; between shoulder and nut: held; by a set screw."""
+    end = keyed_end(0.02, 1.0, 490e6)
+    long = replace(end, length=0.1)
+    steel = MATERIALS["structural steel"]
+    hub = Part("hub", "hub", "turned part", "", Prism(disc(0.02, *round_bore(0.02).cutouts), 0.02), steel)
+    plain = catalogue.keyed_journal(long)
+    shafts = plain, Sum((Placed(bar(0.03, 0.01)), Placed(plain, (placement(z=0.01),))))
+    nut = Part("nut", "nut", "turned part", "", tube(0.03, 0.005, 0.01), steel)
+    screwed = replace(hub, seats={SET_SCREW: Seat(placement(), 0.004)})
+    cases = (
+        (shafts[0], hub, (), True),
+        (shafts[1], hub, (), True),
+        (shafts[1], hub, (Occurrence(nut, (placement(z=0.03),)),), False),
+        (shafts[0], screwed, (), False),
+    )
+    for shape, ring, others, loose in cases:
+        shaft = Part("shaft", "shaft", "turned part", "", shape, steel)
+        parts = (Occurrence(shaft), Occurrence(ring, (placement(z=0.01),)), *others)
+        tree = Tree((RigidBody("turning", parts, joint=Joint(JointKind.PIN)),))
+        assert loose_hubs(tree) == ({"hub"} if loose else set())
 
 
 # DIN 6885-1: section, shortest and longest key [mm], typed here from the standard a second time
