@@ -16,7 +16,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.elements.catalogue import pick
-from ilmek.elements.reducers import Reducer, worm_efficiency
+from ilmek.elements.reducers import Reducer
 from ilmek.units import mm, rpm
 
 __all__ = [
@@ -30,7 +30,6 @@ __all__ = [
     "most_torque",
     "smallest_motor",
     "strongest_motor",
-    "worm_efficiency",
 ]
 
 STEPPER, SERVO = "stepper", "servo"

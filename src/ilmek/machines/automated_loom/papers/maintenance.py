@@ -21,6 +21,7 @@ from ilmek.machines.weaver.knife import KNIFE
 from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
 from ilmek.machines.weft.carriers import WEFT_CUTTER
+from ilmek.part.blanks import size_of
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
@@ -222,8 +223,12 @@ def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]
     """A set for one of some machines that are alike, of what wears and has no computed life."""
     for part, number in tree.occurrences():
         if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
-            row = part.purchase.row if part.purchase else part.size
-            yield part.title, row, max(1, number // alike), Sentence("maintenance.by-set")
+            yield (
+                part.title,
+                part.purchase.row if part.purchase else size_of(part),
+                max(1, number // alike),
+                Sentence("maintenance.by-set"),
+            )
 
 
 def spares_of(tree: Tree) -> Paper | None:
