@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from link_plates import link_plate
 from small_programme import small_programme
 
-from ilmek.elements.hexagon_screws import SCREWS
+from ilmek.elements.machine_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.io.plc.io_list import io_rows
 from ilmek.io.plc.project import plc_project

@@ -10,7 +10,7 @@ from itertools import groupby
 
 import numpy as np
 
-from ilmek.elements.hexagon_screws import screw_of
+from ilmek.elements.machine_screws import screw_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion
 from ilmek.part.insertion_units import Direction, InsertedUnit

@@ -6,12 +6,12 @@ import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.columns import STEEL
-from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
-from ilmek.elements.motors import Motor
+from ilmek.elements.machine_screws import MachineScrew
+from ilmek.elements.motors import FLANGE_HOLES, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.springs import CompressionSpring
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import Bought, HolePattern, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, shape_box, stepped, tube
@@ -44,12 +44,13 @@ def motor(  # noqa: PLR0917
     together  how many of them move one body
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     """
+    holes = flange_holes(row.face if row else SPECIAL_FACE)
     if row is not None:
-        bought = Bought(row.name, row.mass, power=row.power, drives=together)
+        bought = Bought(row.name, row.mass, power=row.power, drives=together, holes=holes)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
         required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
-        bought = Bought(required, power=torque * speed, drives=together)
+        bought = Bought(required, power=torque * speed, drives=together, holes=holes)
         room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
     behind = Sum((Placed(room, (placement(z=-room.length),)),))
     return bought_part(name, title, kind, behind, bought)
@@ -61,7 +62,7 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
     end  of the shaft that its hollow shaft takes: the room of both is open
     """
     face = row.face if row else SPECIAL_FACE
-    bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
+    bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0, holes=flange_holes(face))
     room = box(face, face, REDUCER_LENGTH * face)
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
@@ -71,6 +72,12 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
             Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, BEFORE_KEY + end.length)
         )
     return bought_part(name, title, "reducer", room, bought)
+
+
+def flange_holes(side: float) -> HolePattern | None:
+    """The holes of a square flange of a side [m]."""
+    row = FLANGE_HOLES.get(side)
+    return None if row is None else HolePattern(row[0], row[0], row[1])
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:
@@ -115,7 +122,7 @@ def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
     return Placed(Prism(Profile(rectangle(row.flange, row.flange), bores), FLANGE))
 
 
-def screw(name: str, title: str, row: HexagonScrew, length: float) -> Part:
+def screw(name: str, title: str, row: MachineScrew, length: float) -> Part:
     """A hexagon head screw along z: its head below z = 0, its thread above; the mass is that of both in steel."""
     shape = stepped((row.across, row.head), (row.diameter, length))
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
@@ -135,7 +142,8 @@ def spring_part(name: str, title: str, row: CompressionSpring, length: float) ->
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
     """The rail of a linear guide along z, its base on y = 0, upwards."""
     section = polygon(rectangle(row.rail, row.rail_height).points + 0.5j * row.rail_height)
-    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length)
+    holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True)
+    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=holes)
     return Part(
         name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
     )
@@ -147,5 +155,5 @@ def guide_block(name: str, title: str, row: LinearGuide) -> Part:
     corners = [-half, -inner, -inner, inner, inner, half, half, -half]
     heights = [low, low, row.rail_height, row.rail_height, low, low, row.height, row.height]
     section = Profile(polygon(np.array(corners) + 1j * np.array(heights)))
-    shape = Prism(section, row.block_length)
-    return Part(name, title, "guide carriage", shape=shape, purchase=Bought(f"carriage {row.name}", row.block_mass))
+    bought = Bought(f"carriage {row.name}", row.block_mass, holes=HolePattern(*row.holes, row.block_screw))
+    return Part(name, title, "guide carriage", shape=Prism(section, row.block_length), purchase=bought)

@@ -5,6 +5,7 @@ among the contours of a prism's section; of a sum those of its members. Arcs tha
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -65,6 +66,9 @@ def _features(shape: Shape) -> Iterator[FeatureOfSize]:
         outer = () if shape.section.smooth else (shape.section.outline,)
         yield from (one for contour in outer for one in _of_contour(contour, shape.length, inside=False))
         yield from (one for contour in shape.section.holes for one in _of_contour(contour, shape.length, inside=True))
+        for hole in shape.drilled:
+            walls = (own for own in _turned(hole.shape) if not own.inside)
+            yield from (replace(own, inside=True).placed(hole.position) for own in walls)
     elif isinstance(shape, Sum):
         for member in shape.members:
             own = tuple(_features(member.shape))

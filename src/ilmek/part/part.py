@@ -20,12 +20,27 @@ PITCH, CUTTER, ZERO = "pitch curve", "cutter path", "zero"
 
 
 @record
+class HolePattern:
+    """The holes for screws of a bought part, about the middle of the face that it stands on or that carries others.
+
+    across, along  distances of neighbouring holes [m]; 0: one row, at the middle      thread  by name
+    in_rows  the row along the face is repeated over its length, of a rail; else there are two
+    """
+
+    across: float
+    along: float
+    thread: str
+    in_rows: bool = False
+
+
+@record
 class Bought:
     """A bought part, by its row of a catalogue.
 
     row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
+    holes   for its screws; None: its maker drills it where its seat is
     """
 
     row: str
@@ -33,6 +48,7 @@ class Bought:
     length: float = 0.0
     power: float = 0.0
     drives: int = 0
+    holes: HolePattern | None = None
 
 
 @record
@@ -97,6 +113,7 @@ class Part:
     drawing: Plate | None = None
     cam: CamMaking | None = None
     throat: float = 0.0
+    joins: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

@@ -47,6 +47,12 @@ class Weld:
     all_round: bool
 
 
+def welded_together(one: Part, other: Part) -> bool:
+    """Whether two parts are welded where they touch."""
+    processes = {one.process, other.process}
+    return WELDED in processes and processes <= _WITH
+
+
 @lru_cache(maxsize=8)
 def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     """The welds of a tree by the ids of the parts whose sheets have them, like ones once."""

@@ -24,6 +24,7 @@ from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import warp_positions, warp_shafts
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
@@ -129,8 +130,16 @@ def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
 
 @lru_cache(maxsize=4)
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
-    """The trees of all machines of a loom and of its equipment, each after what carries it."""
-    return (*machine_branches(loom), *equipment(loom))
+    """The trees of all machines of a loom and of its equipment, each after what carries it, with their screws."""
+    bare = *machine_branches(loom), *equipment(loom)
+    screwed = {body.id: body.occurrences for body in bolted(joined(bare)).bodies}
+    return tuple(
+        replace(
+            branch,
+            tree=branch.tree.replaced(replace(body, occurrences=screwed[body.id]) for body in branch.tree.bodies),
+        )
+        for branch in bare
+    )
 
 
 @lru_cache(maxsize=4)
