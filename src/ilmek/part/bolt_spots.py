@@ -87,7 +87,7 @@ def pattern_points(pattern: HolePattern, face: SeatFace) -> ComplexArray:
     return np.asarray(middle + half.real * across + 1j * half.imag * along)
 
 
-def wanted(points: ComplexArray, diameter: float) -> ComplexArray:
+def row_points(points: ComplexArray, diameter: float) -> ComplexArray:
     """Where screws should stand of the points that have room [m]: evenly over the box about them."""
     low, high = complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
     size = high - low

@@ -11,41 +11,23 @@ Parts of a frame that are welded [`welds`] have none, nor have what turns, hangs
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, Float
 from ilmek.elements.machine_screws import SOCKET_LENGTHS, SOCKET_SCREWS, MachineScrew
 from ilmek.part import catalogue
+from ilmek.part.bolt_contacts import FaceSide, StandingPiece, face_contacts, pattern_of, standing_groups
 from ilmek.part.bolt_holes import DrilledPart
-from ilmek.part.bolt_spots import clear, free_points, mapped, pattern_points, wanted
-from ilmek.part.part import HolePattern, Part
+from ilmek.part.bolt_spots import clear, free_points, mapped, pattern_points, row_points
+from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.seat_faces import Depth, SeatFace, depth_below, seat_faces
-from ilmek.part.shapes import Drilling, Prism, Turned, box_corners, shape_box
-from ilmek.part.tree import STANDING, Occurrence, RigidBody, Tree
-from ilmek.part.welds import WELDED, welded_together
+from ilmek.part.seat_faces import Depth, seat_faces
+from ilmek.part.shapes import Drilling, Prism
+from ilmek.part.tree import Occurrence, Tree
+from ilmek.part.welds import WELDED
 from ilmek.units import mm, um
-
-BOLTED = frozenset(
-    {
-        "stepper", "servo", "reducer", "linear guide", "guide carriage", "linear axis", "sensor", "load cell",
-        "light barrier", "yarn sensor", "yarn brake", "interlock", "actuator", "emergency stop", "button", "control",
-        "mounting rail", "tool", "duct",
-    }
-)  # fmt: skip
-"""Kinds of bought parts that are held by screws."""
-
-_NEVER = frozenset({"cam plate", "guard mesh", "fastener"})
-"""Processes of made parts that are held otherwise."""
-
-_MOST = 200
-"""Pieces of a part in a body from which they are a stack."""
-
-_FLUSH = 20 * um
-"""Distance within which faces lie on each other [m]."""
 
 _CLAMPED = (2.0, 1.0)
 """Thickness of the flange of a bought part over the diameter of its screws, most and least; assumed by this project."""
@@ -79,40 +61,6 @@ _CENTRES = ((7, "M2.5"), (10, "M3"), (13, "M4"), (16, "M5"), (21, "M6"), (24, "M
 
 
 @dataclass(frozen=True, eq=False)
-class _Standing:
-    """A piece that stands in a rigid group: part, its body, where it is in the group and in its body."""
-
-    part: Part
-    body: RigidBody
-    lies: Placement
-    own: Placement
-    box: Float[np.ndarray, "2 3"]
-
-
-@dataclass(frozen=True, eq=False)
-class _Side:
-    """A face of a piece in a contact."""
-
-    piece: _Standing
-    face: SeatFace
-
-    @property
-    def part(self) -> Part:
-        """The part."""
-        return self.piece.part
-
-    @cached_property
-    def frame(self) -> Placement:
-        """Of the face in the group."""
-        return self.piece.lies.after(self.face.position)
-
-    def depth(self, point: complex, radius: float) -> Depth:
-        """Of a hole of a radius at a point of the face."""
-        assert self.part.shape is not None
-        return depth_below(self.part.shape, self.face, point, radius)
-
-
-@dataclass(frozen=True, eq=False)
 class _Screwed:
     """The screws of a contact: `head` is under their heads, `thread` has their threads.
 
@@ -120,8 +68,8 @@ class _Screwed:
     deep, below  of the parts there [m]          sink  diameter of the counterbore [m]
     """
 
-    head: _Side
-    thread: _Side
+    head: FaceSide
+    thread: FaceSide
     screw: MachineScrew
     points: tuple[complex, ...]
     clamped: float
@@ -135,7 +83,7 @@ class _Screwed:
         """Length of a screw [m]."""
         return self.clamped + self.engaged
 
-    def holes(self, point: complex) -> tuple[tuple[_Side, Drilling], tuple[_Side, Drilling]]:
+    def holes(self, point: complex) -> tuple[tuple[FaceSide, Drilling], tuple[FaceSide, Drilling]]:
         """The holes of a screw in both parts, in their axes."""
         row, head, thread = self.screw, self.head, self.thread
         mouth = head.face.position.after(placement(point.real, point.imag, -self.deep))
@@ -154,8 +102,8 @@ def bolted(tree: Tree) -> Tree:
     known: dict[tuple[object, ...], _Screwed | None] = {}
     placed: dict[tuple[str, str, float], dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))
     joined: dict[tuple[str, str, float], tuple[MachineScrew, tuple[Part, Part]]] = {}
-    for group in _groups(tree):
-        for one, other in _contacts(group):
+    for group in standing_groups(tree):
+        for one, other in face_contacts(group):
             lies = one.frame.inverse.after(other.frame)
             key = one.part.id, other.part.id, id(one.face), id(other.face), *_rounded(lies)
             if key not in known:
@@ -211,96 +159,9 @@ def _with(
     )
 
 
-def _groups(tree: Tree) -> Iterator[tuple[_Standing, ...]]:
-    """The pieces that stand to each other, of like bodies those of the first."""
-    groups: dict[tuple[str, ...], list[_Standing]] = defaultdict(list)
-    for chain in chains(tree):
-        moving = [k for k, link in enumerate(chain) if link.body.joint.kind not in STANDING]
-        carrier = chain[: moving[-1] + 1] if moving else ()
-        if any(link.index for link in carrier):
-            continue
-        groups[tuple(link.name for link in carrier)] += _pieces(chain, len(carrier))
-    return (tuple(group) for group in groups.values())
-
-
-def _pieces(chain: Chain, first: int) -> Iterator[_Standing]:
-    """The pieces of the last body of a chain, in the frame of its link before `first`."""
-    here = poses(chain[first:], "", np.zeros(1))
-    lies = Placement(here.origin[0], here.rotation[0])
-    for occurrence in chain[-1].body.occurrences:
-        part = occurrence.part
-        if part.shape is None or occurrence.turning or len(occurrence.positions) > _MOST:
-            continue
-        corners = _corners(part)
-        for position in occurrence.positions:
-            stands = lies.after(position)
-            points = stands.points(corners)
-            yield _Standing(part, chain[-1].body, stands, position, np.stack([points.min(0), points.max(0)]))
-
-
-@lru_cache(maxsize=4096)
-def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
-    assert part.shape is not None
-    return box_corners(*shape_box(part.shape))
-
-
-def _can(part: Part) -> bool:
-    """Whether screws hold a part."""
-    if part.purchase is not None:
-        return part.process in BOLTED
-    return part.process not in _NEVER and part.drawing is None
-
-
-def _contacts(group: Sequence[_Standing]) -> list[tuple[_Side, _Side]]:
-    """Faces that lie on each other of parts that are screwed: those of catalogues first."""
-    sides = [_Side(piece, face) for piece in group if _can(piece.part) for face in seat_faces(piece.part.shape)]
-    if not sides:
-        return []
-    frames = [side.frame for side in sides]
-    normals = np.array([frame.rotation[:, 2] for frame in frames])
-    levels = (normals * np.array([frame.origin for frame in frames])).sum(1)
-    boxes = np.array([_face_box(side.face, frame) for side, frame in zip(sides, frames, strict=True)])
-    turned, level = np.round(normals * 1e3).astype(int), np.round(levels / _FLUSH).astype(int)
-    numbers: dict[tuple[int, ...], list[int]] = defaultdict(list)
-    for number, key in enumerate(np.column_stack([turned, level]).tolist()):
-        numbers[tuple(key)].append(number)
-    pairs: dict[tuple[int, int], list[tuple[float, _Side, _Side]]] = defaultdict(list)
-    for first, (*key, height) in enumerate(np.column_stack([-turned, -level]).tolist()):
-        for other in (k for step in (-1, 0, 1) for k in numbers.get((*key, height + step), ())):
-            one, two = sides[first], sides[other]
-            if first < other and abs(levels[first] + levels[other]) < _FLUSH and _may(one.piece, two.piece):
-                shared = np.minimum(boxes[first, 1], boxes[other, 1]) - np.maximum(boxes[first, 0], boxes[other, 0])
-                if (shared > -_FLUSH).all() and np.sort(shared)[1] > 2 * mm:
-                    area = float(np.prod(np.sort(shared)[1:]))
-                    pairs[id(one.piece), id(two.piece)].append((area, one, two))
-    found = [(one, two) for own in pairs.values() for _, one, two in sorted(own, key=lambda contact: -contact[0])[:2]]
-    return sorted(found, key=lambda both: all(_pattern(side.piece.part) is None for side in both))
-
-
-def _face_box(face: SeatFace, frame: Placement) -> Float[np.ndarray, "2 3"]:
-    low, high = face.low, face.high
-    corners = frame.points(np.array([[x, y, 0.0] for x in (low.real, high.real) for y in (low.imag, high.imag)]))
-    return np.stack([corners.min(0), corners.max(0)])
-
-
-def _may(one: _Standing, two: _Standing) -> bool:
-    """Whether two pieces may be screwed to each other."""
-    parts = one.part, two.part
-    turned = [isinstance(part.shape, Turned) for part in parts]
-    bought = [part.purchase is not None for part in parts]
-    return (
-        parts[0] is not parts[1]
-        and not all(turned)
-        and not (any(turned) and any(bought))
-        and not welded_together(*parts)
-    )
-
-
-def _pattern(part: Part) -> HolePattern | None:
-    return part.purchase.holes if part.purchase is not None else None
-
-
-def _screwed(one: _Side, other: _Side, group: Sequence[_Standing], worked: dict[str, DrilledPart]) -> _Screwed | None:
+def _screwed(
+    one: FaceSide, other: FaceSide, group: Sequence[StandingPiece], worked: dict[str, DrilledPart]
+) -> _Screwed | None:
     """The screws of a contact, with their holes in both parts; None: there is no room for any."""
     options = [own for head, thread in ((one, other), (other, one)) for own in _options(head, thread, group, worked)]
     if not options:
@@ -313,7 +174,7 @@ def _screwed(one: _Side, other: _Side, group: Sequence[_Standing], worked: dict[
 
 
 def _options(
-    head: _Side, thread: _Side, group: Sequence[_Standing], worked: Mapping[str, DrilledPart]
+    head: FaceSide, thread: FaceSide, group: Sequence[StandingPiece], worked: Mapping[str, DrilledPart]
 ) -> Iterator[tuple[tuple[float, ...], _Screwed]]:
     """The largest screws with their heads in one of two parts, two or more if they have room, and how good that is."""
     if head.face.turned or head.part.process == WELDED:
@@ -334,7 +195,7 @@ def _options(
     yield (several, free, head.part.purchase is None, -deep), made
 
 
-def _covers(piece: _Standing, points: Float[np.ndarray, "n 3"]) -> bool:
+def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:
     """Whether the box of a piece holds any of some points."""
     near = ((piece.box[0] < points) & (points < piece.box[1])).all(1)
     if not near.any() or not isinstance(piece.part.shape, Prism):
@@ -345,11 +206,11 @@ def _covers(piece: _Standing, points: Float[np.ndarray, "n 3"]) -> bool:
     return bool((within & (section.room(own[:, 0] + 1j * own[:, 1], mm) > 0)).any())
 
 
-def _offered(head: _Side, thread: _Side) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
+def _offered(head: FaceSide, thread: FaceSide) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
     """Screws that a joint may have with the points where they may stand, or all stand, the best first."""
     across = thread.frame.inverse.after(head.frame)
     for side in (head, thread):
-        pattern = _pattern(side.part)
+        pattern = pattern_of(side.part)
         if pattern is not None:
             points = pattern_points(pattern, side.face)
             yield SOCKET_SCREWS[pattern.thread], points if side is head else mapped(across.inverse, points), True
@@ -367,7 +228,7 @@ def _offered(head: _Side, thread: _Side) -> Iterator[tuple[MachineScrew, Complex
 
 
 def _of_size(
-    sides: tuple[_Side, _Side],
+    sides: tuple[FaceSide, FaceSide],
     screw: MachineScrew,
     points: ComplexArray,
     worked: Mapping[str, DrilledPart],
@@ -383,7 +244,7 @@ def _of_size(
         inside = clear(head.face, points, _sink(head.part, screw) / 2)
         points = points[inside & clear(thread.face, mapped(across, points), _LEAST_EDGE * screw.diameter)]
     made: _Screwed | None = None
-    for target in points if fixed else wanted(points, screw.diameter):
+    for target in points if fixed else row_points(points, screw.diameter):
         nearest = points[np.argsort(np.abs(points - target), kind="stable")][: 1 if fixed else _TRIED]
         for point in nearest.tolist():
             tried = _at_point(made, sides, screw, point, mapped(across, np.array([point]))[0])
@@ -403,7 +264,7 @@ def _sink(part: Part, screw: MachineScrew) -> float:
 
 
 def _at_point(
-    made: _Screwed | None, sides: tuple[_Side, _Side], screw: MachineScrew, point: complex, there: complex
+    made: _Screwed | None, sides: tuple[FaceSide, FaceSide], screw: MachineScrew, point: complex, there: complex
 ) -> _Screwed | None:
     """A screw at a point of the face under its head, like those before; None where it cannot be."""
     head, thread = sides

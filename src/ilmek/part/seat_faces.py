@@ -185,14 +185,18 @@ def prism_of(shape: Shape, member: int) -> tuple[Prism, Placement]:
 
 def _crossings(prism: Prism, begin: complex, inwards: complex) -> Float[np.ndarray, "n 2"]:
     """Distances at which a line into a section crosses its contours [m], ascending, and numbers of these."""
-    found = []
-    for number, contour in enumerate(prism.section.contours):
-        loop = (along(contour, _CHORD) - begin) / inwards
-        ends = following(loop)
-        over = (loop.imag > 0) != (ends.imag > 0)
-        start, end = loop[over], ends[over]
-        there = start.real - start.imag / (end.imag - start.imag) * (end.real - start.real)
-        found.append(np.stack([there, np.full(len(there), number)], axis=1))
-    every = np.concatenate(found)
-    every = every[every[:, 0] > 10 * _ROUNDING]
+    starts, ends, numbers = _pieces(prism)
+    first, last = (starts - begin) / inwards, (ends - begin) / inwards
+    over = np.flatnonzero((first.imag > 0) != (last.imag > 0))
+    start, end = first[over], last[over]
+    there = start.real - start.imag / (end.imag - start.imag) * (end.real - start.real)
+    every = np.column_stack([there, numbers[over]])[there > 10 * _ROUNDING]
     return np.asarray(every[np.argsort(every[:, 0])])
+
+
+@lru_cache(maxsize=1024)
+def _pieces(prism: Prism) -> tuple[ComplexArray, ComplexArray, FloatArray]:
+    """Starts and ends of the straight pieces of a section's polygons [m], and numbers of their contours."""
+    loops = [along(contour, _CHORD) for contour in prism.section.contours]
+    numbers = np.repeat(np.arange(len(loops), dtype=float), [len(loop) for loop in loops])
+    return np.concatenate(loops), np.concatenate([following(loop) for loop in loops]), numbers
