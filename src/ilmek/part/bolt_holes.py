@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
+from ilmek.part.features import drillings
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -34,7 +35,7 @@ class DrilledPart:
     axes: list[FloatArray] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.axes.extend(axis for hole in _drilled(self.part.shape) for axis in _axes(hole))
+        self.axes.extend(axis for hole in drillings(self.part.shape) for axis in _axes(hole))
 
     def has_room(self, hole: Drilling) -> bool:
         """Whether a hole keeps off all others."""
@@ -61,19 +62,6 @@ class DrilledPart:
             each = (_member(shape, number, members.get(number)) for number in range(len(shape.members)))
             return replace(self.part, shape=Sum(tuple(each)))
         return replace(self.part, shape=_with_holes(shape, -1, members[-1]))
-
-
-def _drilled(shape: Shape | None) -> tuple[Drilling, ...]:
-    """The holes that a shape has already."""
-    if isinstance(shape, Prism):
-        return shape.drilled
-    if isinstance(shape, Sum):
-        return tuple(
-            replace(hole, position=member.positions[0].after(hole.position))
-            for member in shape.members
-            for hole in _drilled(member.shape)
-        )
-    return ()
 
 
 def _member(shape: Sum, number: int, holes: list[Drilling] | None) -> Placed:

@@ -56,6 +56,8 @@ SHEETS = {
     "sheet.duty": "It",
     "sheet.holes": "Holes, from the datum",
     "sheet.hole": "Hole",
+    "sheet.drilled": "Drilled holes: mouth and direction in the axes of the part, diameter × depth of each step",
+    "sheet.direction": "Direction",
     "sheet.cut-list": "Cut list, for all pieces",
     "sheet.members": "Consists of",
     "sheet.item": "Item",
