@@ -44,7 +44,7 @@ View = TypeVar("View", Plate, WorkPiece)
 
 
 def of_tree(made: View, tree: object) -> View:
-    """A plate or piece of a part as that is in a tree, with the holes for what it meets there; alike where it is in none."""
+    """A plate or piece of a part as that is in a tree, with its holes for what it meets there."""
     if not isinstance(made.part, Part) or not isinstance(tree, Tree) or made.part.drawing is not None:
         return made
     part = _parts(tree).get(made.part.id, made.part)
