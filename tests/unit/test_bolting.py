@@ -63,7 +63,7 @@ def test_a_tube_has_threads_in_its_wall_and_no_heads_in_it() -> None:
 @pytest.mark.parametrize("settings", SETTINGS)
 def test_every_screw_of_a_loom_is_in_a_hole_and_in_a_thread(settings: dict[str, str]) -> None:
     loom = MACHINE.designed(MACHINE.params.read(settings))
-    tree = loom_tree(loom)
+    tree = bolted(loom_tree(loom))
     assert sum(number for part, number in tree.occurrences() if part.joins) > 300
     assert not list(faults(tree))
 
@@ -143,7 +143,7 @@ def inside(solid: Solid, points: FloatArray) -> FloatArray:
 def drilled_parts() -> list[Shape]:
     """Ten drilled shapes of a loom, the most drilled first."""
     loom = MACHINE.designed(MACHINE.params())
-    shapes = (part.shape for part, _ in loom_tree(loom).occurrences() if part.material is not None)
+    shapes = (part.shape for part, _ in bolted(loom_tree(loom)).occurrences() if part.material is not None)
     holed = [shape for shape in shapes if isinstance(shape, Prism) and shape.drilled]
     return sorted(holed, key=lambda shape: -len(drillings(shape)))[:10]  # type: ignore[return-value]
 

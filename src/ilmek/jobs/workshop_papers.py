@@ -39,11 +39,11 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
         return machine.papers(design, report)
     if machine.tree is None:
         return NO_PAPERS
-    tree = bolted(machine.tree(design))
-    steps = insertions(tree, UP)
-    pages = tree_manual(tree, steps, widest_view(tree)), spares_of(tree)
+    bare = machine.tree(design)
+    steps, tree = insertions(bare, UP), bolted(bare)
+    pages = tree_manual(bare, steps, widest_view(bare), tree), spares_of(tree)
     shown = tuple(page for page in pages if page is not None)
-    checks = assembly_check(steps), fastening_check(tree)
+    checks = fastening_check(tree), assembly_check(steps)
     return Papers(shown, part_lists(tree, PRICES), checks, tree)
 
 

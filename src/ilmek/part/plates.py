@@ -4,6 +4,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TypeVar
 
+from ilmek.part.blanks import size_of
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tolerancing import tolerances_of
@@ -37,7 +38,7 @@ def _piece(part: Part, number: int, whole: Tree) -> WorkPiece:
     assert part.material is not None
     assert part.shape is not None
     designation, volume = part.material.designation, part.shape.volume
-    return WorkPiece(plate_name(part), part.title, part.size, designation, number, part.shape, volume, part, whole)
+    return WorkPiece(plate_name(part), part.title, size_of(part), designation, number, part.shape, volume, part, whole)
 
 
 View = TypeVar("View", Plate, WorkPiece)
