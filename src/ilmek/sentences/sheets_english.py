@@ -56,6 +56,8 @@ SHEETS = {
     "sheet.duty": "It",
     "sheet.holes": "Holes, from the datum",
     "sheet.hole": "Hole",
+    "sheet.drilled": "Drilled holes: mouth and direction in the axes of the part, diameter × depth of each step",
+    "sheet.direction": "Direction",
     "sheet.cut-list": "Cut list, for all pieces",
     "sheet.welds": "Welds ISO 2553; X, Y, Z from the lower left corner, X and Y in the section or face",
     "sheet.weld-to": "To",

@@ -56,6 +56,8 @@ SHEETS = {
     "sheet.duty": "Görevi",
     "sheet.holes": "Delikler, referanstan",
     "sheet.hole": "Delik",
+    "sheet.drilled": "Delinen delikler: parçanın eksenlerinde ağız ve yön, her kademenin çapı × derinliği",
+    "sheet.direction": "Yön",
     "sheet.cut-list": "Kesim listesi, tüm parçalar için",
     "sheet.welds": "Kaynaklar ISO 2553; X, Y, Z sol alt köşeden, X ve Y kesitte veya yüzde",
     "sheet.weld-to": "Nereye",
