@@ -161,26 +161,31 @@ def _blade(hand: TyingHand) -> Contour:
 def hands_tree(made: HandParts, servo: MicroServo | None) -> Tree:
     """Both hands with their servos on their plates and columns, at the beginning of a stroke."""
     feet = _column_feet(made)
-    stand = RigidBody(STAND, tuple(_columns(made, feet)), joint=Joint(JointKind.MISSING))
-    bodies = [stand]
-    for body in made.bare.bodies:
-        if body.id == body_id(NAME, GROUND):
-            positions = tuple(_sides(made))
-            parts = tuple(_standing(made, body.occurrences, feet, servo))
-            bodies.append(RigidBody(body.id, parts, STAND, Joint(), positions))
-        elif body.id == body_id(NAME, "coupler"):
-            bodies.append(replace(body, occurrences=(*body.occurrences, finger_occurrence(made))))
-        elif body.id == body_id(NAME, "crank"):
-            bodies.append(replace(body, joint=replace(body.joint, motor=SERVO if servo else "")))
-        else:
-            bodies.append(body)
-    return Tree(tuple(bodies), made.bare.closures)
+    bodies = [RigidBody(STAND, tuple(_columns(made, feet)), joint=Joint(JointKind.MISSING))]
+    own = {
+        body_id(NAME, GROUND): tuple(_standing(made, made.bare.body(body_id(NAME, GROUND)).occurrences, feet, servo)),
+        body_id(NAME, "coupler"): (*made.bare.body(body_id(NAME, "coupler")).occurrences, finger_occurrence(made)),
+    }
+    closures = []
+    for suffix, position in _sides(made).items():
+        for body in made.bare.bodies:
+            parts, joint = own.get(body.id, body.occurrences), body.joint
+            if body.id == body_id(NAME, GROUND):
+                bodies.append(RigidBody(body.id + suffix, parts, STAND, Joint(), (position,)))
+                continue
+            if body.id == body_id(NAME, "crank") and servo is not None:
+                joint = replace(joint, motor=SERVO)
+            bodies.append(RigidBody(body.id + suffix, parts, body.parent + suffix, joint, body.positions))
+        for closure in made.bare.closures:
+            first, second = closure.bodies
+            closures.append(replace(closure, bodies=(first + suffix, second + suffix)))
+    return Tree(tuple(bodies), tuple(closures))
 
 
-def _sides(made: HandParts) -> tuple[Placement, Placement]:
-    """The left hand's frame, and the right one's."""
+def _sides(made: HandParts) -> dict[str, Placement]:
+    """The frames of both hands, by the suffix of their bodies."""
     left = placement(-made.shift, 0.0, -made.middle)
-    return left, placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(left)
+    return {"-left": left, "-right": placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(left)}
 
 
 def reaches(made: HandParts) -> tuple[float, float]:
