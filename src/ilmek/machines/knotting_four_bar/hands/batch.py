@@ -40,7 +40,7 @@ CHUNK = 16
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HandBatch:
-    """Hands at the middle of their way; pins [m], of each hand one.
+    """Hands at the middle of their stroke; pins [m], of each hand one.
 
     depth  d of its finger [m]      a0, b0  pivots of crank and rocker      a, b  pins of the coupler
     """
@@ -80,7 +80,7 @@ class MovedHands:
     """The left hands of a batch over the coupler's angle, (hands, samples).
 
     f       angles of the coupler [rad]          crank   unwrapped [rad]
-    a       coupler pins on the crank [m]        active  samples between both ends of the way
+    a       coupler pins on the crank [m]        active  samples between both ends of the stroke
     centre  of the fingers' arcs at f = 0 [m], their radius and span from tip to foot
     """
 
@@ -114,21 +114,21 @@ class MovedHands:
 
     @property
     def transmission(self) -> FloatArray:
-        """Acute angle of coupler and rocker [rad], least over the way."""
+        """Acute angle of coupler and rocker [rad], least over the stroke."""
         coupler, rocker = self.b - self.a, self.b - self.hands.b0[:, None]
         angle = np.arctan2(np.abs(cross(coupler, rocker)), np.abs(dot(coupler, rocker)))
         return np.asarray(np.min(np.where(self.active, angle, turn), axis=1))
 
     @property
     def swing(self) -> FloatArray:
-        """Angle of the crank from one end of the way to the other [rad]; NaN where it turns back on the way."""
+        """Angle of the crank from one end of the stroke to the other [rad]; NaN where it turns back on it."""
         step, both = np.diff(self.crank, axis=1), self.active[:, 1:] & self.active[:, :-1]
         whole = np.sum(np.where(both, step, 0.0), axis=1)
         one_way = np.all(~both | (step * np.sign(whole)[:, None] > 0), axis=1)
         return np.where(one_way, np.abs(whole), np.nan)
 
     def clearance(self, section: InclinedSection, chosen: IntArray, count: int) -> FloatArray:
-        """Least distance of the fingers of chosen hands from the warps over the way [m]; count: points of an edge."""
+        """Least distance of the fingers of chosen hands from the warps over the stroke [m]; count: points of edges."""
         least = np.empty(len(chosen))
         for start in range(0, len(chosen), CHUNK):
             part = chosen[start : start + CHUNK]
@@ -142,7 +142,7 @@ class MovedHands:
 
 
 def moved(section: InclinedSection, hands: HandBatch, samples: int) -> tuple[MovedHands, BoolArray]:
-    """The hands over their ways, and which of them have one: both ends in front of the warps, closed in between."""
+    """The hands over their strokes, and which of them have one: both ends in front of the warps, closed in between."""
     task = section.task
     f = np.linspace(-TURNED, TURNED, samples)[None, :]
     middle = samples // 2

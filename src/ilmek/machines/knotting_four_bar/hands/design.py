@@ -1,7 +1,7 @@
 """The design of hands that tie: the search, the best that can be made, the proof of their knot, and their servos.
 
 Ends of the yarn are led by the fingers' tips, to and fro between the front beside the group, A, and the front over the
-knot's middle, M. Both hands swing together; by which way each leads its end follows from the knot:
+knot's middle, M. Both hands swing together; in which direction each leads its end follows from the knot:
 
     symmetric               both from A to M
     asymmetric, open left   the left one from M to A as it returns, the right one from A to M
@@ -61,7 +61,7 @@ class TyingHands:
 
     ties = computed(
         "",
-        "whether the knot asked for is proved, by hands that keep the limits and can be made",
+        "whether the knot is proved, tied by hands that keep the limits and can be made",
         lambda it: it.tied is not None and it.tied.knot == it.params.knot_after(NEIGHBOURS),
     )
     knot = computed(
@@ -134,7 +134,7 @@ def _made(section: InclinedSection, plane: SearchedPlane) -> HandParts | None:
 
 @lru_cache(maxsize=16)
 def proof(hand: TyingHand) -> TiedKnot:
-    """The knot that the hand and its image tie; the tips lead the ends, clear of the warps by the yarn's own way."""
+    """The knot that the hand and its image tie; the tips lead the ends, clear of the warps by the yarn's own path."""
     section = hand.section
     return knot_of_ends(lambda samples: led_ends(hand, samples), section.warps, keep_out=section.task.warp / 2)
 
@@ -147,9 +147,9 @@ def returning(task: HandsTask) -> str:
 
 def led_ends(hand: TyingHand, samples: int) -> tuple[SampledPath, SampledPath]:
     """Paths of both ends of the yarn in the section, the left hand's first."""
-    way, back = hand.way(samples), returning(hand.section.task)
-    right = SampledPath(-np.conj(way.points), way.lengths)
-    return _led(way, back=back == "left"), _led(right, back=back == "right")
+    path, back = hand.tip_path(samples), returning(hand.section.task)
+    right = SampledPath(-np.conj(path.points), path.lengths)
+    return _led(path, back=back == "left"), _led(right, back=back == "right")
 
 
 def _led(path: SampledPath, *, back: bool) -> SampledPath:
@@ -158,10 +158,10 @@ def _led(path: SampledPath, *, back: bool) -> SampledPath:
 
 
 def loads(made: HandParts) -> CrankLoads:
-    """Torque on a crank [N m] and its speed [rad/s] over a stroke to and fro, with gravity either way along u.
+    """Torque on a crank [N m] and its speed [rad/s] over a stroke to and fro, with gravity either sense along u.
 
-    The yarn pulls the tip against its way. The hands are each other's image, so that weight helps one and hinders the
-    other; to and fro differ by the sign of speed and pull.
+    The yarn pulls the tip against its motion. The hands are each other's image, so that weight helps one and hinders
+    the other; to and fro differ by the sign of speed and pull.
     """
     hand, task = made.hand, made.hand.section.task
     motion, inertias, tip = hand.stroke(), made.inertias(), hand.tip
@@ -172,8 +172,8 @@ def loads(made: HandParts) -> CrankLoads:
     torques, errors = [], []
     for side in (+1, -1):
         weight = Gravity(complex(side * task.gravity * np.sin(hand.section.inclination)))
-        for way in (+1, -1):
-            forces = inverse(motion, inertias, (weight, PointForce("coupler", tip, way * pull)))
+        for sense in (+1, -1):
+            forces = inverse(motion, inertias, (weight, PointForce("coupler", tip, sense * pull)))
             torques.append(forces.effort("crank"))
             errors.append(forces.power_error)
     return CrankLoads(np.concatenate(torques), np.tile(motion.omega("crank"), 4), max(errors))

@@ -21,7 +21,7 @@ HALF = 36
 """Frames of a stroke in the animation."""
 
 ALONG, ARC, EACH = 120, 24, 200
-"""Points of the yarn and of a finger that are drawn; samples of a way in the pictures."""
+"""Points of the yarn and of a finger that are drawn; samples of a path in the pictures."""
 
 SHOWN = 2
 """Warps drawn on each side of the knot."""
@@ -40,7 +40,7 @@ SIDES = {"left": _same, "right": _image}
 
 
 def figures(hands: TyingHands) -> tuple[Figure, ...]:
-    """The hands at the middle of their way, tying, and the yarn's path at five instants; none without hands."""
+    """The hands at the middle of their stroke, tying, and the yarn's path at five instants; none without hands."""
     if hands.made is None:
         return ()
     hand = hands.made.hand
@@ -65,12 +65,12 @@ def _note(section: InclinedSection) -> str:
 
 
 def _arc(hand: TyingHand) -> ComplexArray:
-    """The finger's middle line at the middle of the way, from its tip [m]."""
+    """The finger's middle line at the middle of the stroke, from its tip [m]."""
     return np.asarray(hand.centre - 1j * hand.radius * np.exp(-1j * np.linspace(0, hand.span, ARC)))
 
 
 def at_middle(hand: TyingHand) -> Drawing:
-    """Both hands at the middle of their ways."""
+    """Both hands at the middle of their strokes."""
     links, arc = hand.four_bar, _arc(hand)
     assert links.tracer is not None
     strokes = list(_warps(hand.section))
@@ -87,7 +87,7 @@ def at_middle(hand: TyingHand) -> Drawing:
     dots = [Dot(links.a0, "A0", "pivot"), Dot(links.b0, "B0", "pivot"), Dot(links.a, "A"), Dot(links.b, "B")]
     dots += [Dot(-links.a0.conjugate(), "A0'", "pivot"), Dot(-links.b0.conjugate(), "B0'", "pivot")]
     return Drawing(
-        "knotting-hands", "Hands at the middle of their way", tuple(strokes), tuple(dots), note=_note(hand.section)
+        "knotting-hands", "Hands at the middle of their stroke", tuple(strokes), tuple(dots), note=_note(hand.section)
     )
 
 

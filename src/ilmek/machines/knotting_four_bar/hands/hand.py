@@ -35,11 +35,11 @@ INSTANTS = 241
 
 @record
 class TyingHand:
-    """The left hand at the middle of its way; the right one is the same, turned half about the axis towards the pile.
+    """The left hand at the middle of its stroke; the right one is the same, turned half about y, towards the pile.
 
     four_bar  its tracer is the foot of the finger      pins  the same as numbers of the search
     centre    of the finger's arc, with its radius and its span from tip to foot [m, rad]
-    crank     angles at both ends of the way, as followed [rad]
+    crank     angles at both ends of the stroke, as followed [rad]
     """
 
     section: InclinedSection
@@ -56,7 +56,7 @@ class TyingHand:
         return self.on_coupler(self.centre - 1j * self.radius)
 
     def on_coupler(self, at: complex) -> complex:
-        """A point of the middle of the way in the coupler's frame [m]."""
+        """A point of the middle of the stroke in the coupler's frame [m]."""
         return complex((at - self.four_bar.a) * np.exp(-1j * self.four_bar.coupler_angle))
 
     @property
@@ -71,34 +71,34 @@ class TyingHand:
     def _law(self, samples: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Crank angle, speed and acceleration over the stroke."""
         u, (first, last), time = np.linspace(0.0, 1.0, samples), self.crank, self.section.task.stroke_time
-        way = last - first
+        swing = last - first
         s, v, a = (np.asarray(curve(u)) for curve in (LAW.s, LAW.v, LAW.a))
-        return first + way * s, way / time * v, way / time**2 * a
+        return first + swing * s, swing / time * v, swing / time**2 * a
 
-    def way(self, samples: int) -> SampledPath:
-        """The tip's way in the section, samples evenly over the coupler's angle, and bounds of the length between."""
+    def tip_path(self, samples: int) -> SampledPath:
+        """The tip's path in the section, samples evenly over the coupler's angle, and bounds of the length between."""
         hands, active = _fine(self, samples)
         return SampledPath(self.section.projected(hands.tip[0, active]), _bounds(hands, active, abs(self.tip)))
 
     @property
     def depth(self) -> float:
-        """Of the finger's way behind the warps' axes [m]."""
-        return float(-np.min(self.way(201).points.imag))
+        """Of the finger's path behind the warps' axes [m]."""
+        return float(-np.min(self.tip_path(201).points.imag))
 
     @property
     def led(self) -> float:
-        """Length of the tip's way in its plane [m]."""
+        """Length of the tip's path in its plane [m]."""
         hands, active = _fine(self, FINE)
         return float(np.sum(np.abs(np.diff(hands.tip[0, active]))))
 
     @property
     def transmission(self) -> float:
-        """Least transmission angle over the way [rad]."""
+        """Least transmission angle over the stroke [rad]."""
         return float(_fine(self, FINE)[0].transmission[0])
 
     @property
     def clearance(self) -> float:
-        """Least distance of the finger from all warps that the whole way is sure to keep [m]."""
+        """Least distance of the finger from all warps that the whole stroke is sure to keep [m]."""
         return _sure_clearance(self)
 
     @property
@@ -135,7 +135,7 @@ def _fine(hand: TyingHand, samples: int) -> tuple[MovedHands, FloatArray]:
 
 
 def _bounds(hands: MovedHands, active: FloatArray, arm: float) -> FloatArray:
-    """Bounds of the way of a point at a distance from A [m] between the active samples [m]."""
+    """Bounds of the path of a point at a distance from A [m] between the active samples [m]."""
     crank, f = hands.crank[0, active], hands.f[0, active]
     length = abs(complex(hands.hands.a[0] - hands.hands.a0[0]))
     return np.asarray(length * np.abs(np.diff(crank)) + arm * np.diff(f))

@@ -65,10 +65,10 @@ class HandParts:
     middle: float
 
     finger_clearance = computed(
-        "mm", "least distance of the fingers from all warps, sure over the whole way", lambda it: it.hand.clearance
+        "mm", "least distance of the fingers from all warps, sure over the whole stroke", lambda it: it.hand.clearance
     )
     finger_radius = computed("mm", "of the fingers' arc, its middle line", lambda it: it.hand.radius)
-    finger_depth = computed("mm", "of the fingers' way behind the warps' axes", lambda it: it.hand.depth)
+    finger_depth = computed("mm", "of the fingers' path behind the warps' axes", lambda it: it.hand.depth)
     finger_bent = computed("mm", "bending of a finger's tip in its plane by the yarn", lambda it: it.hand.bent)
     hand_links = computed(
         "", "ground, crank, coupler, rocker of a hand, SI", lambda it: it.hand.four_bar.lengths._asdict(), shown=False
@@ -81,7 +81,7 @@ class HandParts:
     )
     hands_depth = computed("mm", "across the plane over both plates, without servos", lambda it: 2 * plate_back(it))
     knot_time = computed("s", "of a stroke to and fro", lambda it: 2 * it.hand.section.task.stroke_time)
-    yarn_led = computed("mm", "way of a finger's tip, by which an end of the yarn is led", lambda it: it.hand.led)
+    yarn_led = computed("mm", "path of a finger's tip, by which an end of the yarn is led", lambda it: it.hand.led)
 
     @property
     def apart(self) -> float:

@@ -28,7 +28,7 @@ def _finger_checks(made: HandParts) -> tuple[Check, ...]:
     aside = max(task.finger_thickness + task.cloth.carpet_yarns.pressed - gap, 0.0)
     return (
         at_least(
-            "fingers clear of the warps, over the whole way", hand.clearance, task.clearance, "mm", "task.clearance"
+            "fingers clear of the warps, over the whole stroke", hand.clearance, task.clearance, "mm", "task.clearance"
         ).with_cure(WIDER, FINGER),
         at_least(
             "fingers of both hands apart",
@@ -42,7 +42,7 @@ def _finger_checks(made: HandParts) -> tuple[Check, ...]:
             hand.bent * hand.section.cosine,
             hand.clearance,
             "mm",
-            "task.yarn_pull; clearance of the way",
+            "task.yarn_pull; clearance of the stroke",
         ).with_cure("set a larger task.finger_width or a smaller task.yarn_pull", FINGER),
         at_most(
             "gap spread by finger and pressed yarn together",
@@ -100,4 +100,4 @@ def _hand_table(hand: TyingHand) -> Table:
     heads = columns("point", "u [mm] 7", "y [mm] 7")
     named = {"A0": links.a0, "B0": links.b0, "A": links.a, "B": links.b, "foot": links.tracer, "arc": hand.centre}
     rows = tuple((name, at.real, at.imag) for name, at in named.items() if at is not None)
-    return Table("knotting-hand", "The left hand at the middle of its way, 0 the knot's middle", heads, rows)
+    return Table("knotting-hand", "The left hand at the middle of its stroke, 0 the knot's middle", heads, rows)

@@ -2,7 +2,7 @@
 
 At every inclination `tried` four-bars are drawn: the finger's depth, both pivots about its centre C, both pins of the
 coupler about C. Those within all limits but the clearance are ranked by it; then each of the best is varied, by steps
-that shrink. Of several inclinations the least is taken at which the clearance is enough: there the fingers' way along
+that shrink. Of several inclinations the least is taken at which the clearance is enough: there the fingers' path along
 the warps is shortest. The random numbers are the same in every run.
 """
 

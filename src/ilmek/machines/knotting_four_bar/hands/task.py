@@ -45,7 +45,9 @@ class HandsTask(Params):
     )
     transmission_limit: float = kind.angle(40 * deg, above=0.0, at_most=80 * deg, doc="least transmission angle")
     swing_limit: float = kind.angle(150 * deg, above=0.0, at_most=300 * deg, doc="greatest swing of a crank")
-    stroke_time: float = kind.time(0.4, at_least=0.01, at_most=60.0, doc="time of the fingers' way behind the warps")
+    stroke_time: float = kind.time(
+        0.4, at_least=0.01, at_most=60.0, doc="time of a stroke of the fingers behind the warps"
+    )
     yarn_pull: float = kind.force(0.5, at_least=0.0, at_most=1e3, doc="force of the yarn against the finger's tip")
     gravity: float = kind.acceleration(9.81, at_least=0.0, at_most=1e3, doc="gravity, along the warps")
     servo_mass: float = kind.mass(0.06, unit="g", above=0.0, at_most=1.0, doc="heaviest servo that is chosen")
