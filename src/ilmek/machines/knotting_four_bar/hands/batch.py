@@ -31,6 +31,9 @@ LEAST_LINK = 13 * mm
 BETWEEN = 0.5 * mm
 """Least distance of a finger's pillar from the links that it passes [m]."""
 
+COLUMNS = 15 * mm
+"""Height that plates and columns take over all that moves [m]."""
+
 ROUNDING = 1e-9
 """Length that counts as rounding [m]."""
 
@@ -170,14 +173,15 @@ def moved(section: InclinedSection, hands: HandBatch, samples: int) -> tuple[Mov
 
 
 def lacks(section: InclinedSection, hands: MovedHands) -> FloatArray:
-    """What hands lack of the limits of links, transmission, swing and room, and of room about their pillars, summed.
+    """What hands lack of the limits of links, transmission, swing and room, and of room about their pillars.
 
-    Each length in `EYE`, each angle in its limit; 0 within all.
+    The sum of all, each length in `EYE`, each angle in its limit; 0 within all.
     """
     task, at = section.task, hands.hands
     links = [np.abs(p - q) for p, q in ((at.a, at.a0), (at.b, at.b0), (at.b, at.a), (at.b0, at.a0))]
     feet = [np.abs(hands.foot_at - pin) for pin in (at.a, at.b)]
     pillar, still = hands.carried(hands.foot_at), np.ones((1, hands.f.size))
+    outmost = hands.carried(hands.centre - 1j * hands.radius * np.exp(-1j * np.minimum(hands.span, turn / 4)))
     rooms = [(hands.a, EYE), (hands.b, EYE), (pillar, FOOT), *((p[:, None] * still, BEARING) for p in (at.a0, at.b0))]
     off = [_from_segment(pillar, pivot[:, None], pin) for pivot, pin in ((at.a0, hands.a), (at.b0, hands.b))]
     lengths = [
@@ -186,9 +190,11 @@ def lacks(section: InclinedSection, hands: MovedHands) -> FloatArray:
         *(EYE + FOOT + BETWEEN - length for length in feet),
         *(over(hands.active, EYE + FOOT + BETWEEN - length) for length in off),
     ]
-    for points, room in rooms:
-        beyond = np.abs(points.real) + room - task.room_length / 2, points.imag + room - task.room_height
-        lengths += (over(hands.active, one) for one in (*beyond, task.standoff - points.imag + room))
+    for points, room in (*rooms, (outmost, task.finger_width / 2)):
+        aside = np.abs(points.real - section.shift) + room
+        beyond = aside - task.room_length / 2, points.imag + room + COLUMNS - task.room_height
+        lengths += (over(hands.active, one) for one in beyond)
+    lengths += (over(hands.active, task.standoff - points.imag + room) for points, room in rooms)
     angles = [1 - hands.transmission / task.transmission_limit, hands.swing / task.swing_limit - 1]
     wanting = [*(np.where(length > ROUNDING, length / EYE, 0.0) for length in lengths), *angles]
     return np.asarray(np.sum(np.maximum(wanting, 0.0), axis=0))

@@ -73,7 +73,7 @@ class TyingHands:
     searched = computed(
         "",
         "planes searched, SI: inclination, four-bars tried, of these within all limits but the clearance, candidates, "
-        "greatest clearance (null: none within)",
+        "greatest clearance, less by what the finger bends beyond it (null: none within)",
         lambda it: [plane.as_json() for plane in it.planes],
         shown=False,
     )
@@ -121,7 +121,7 @@ def _made(section: InclinedSection, plane: SearchedPlane) -> HandParts | None:
     """The first of the best hands of a plane that is sure to be clear, and can be made."""
     for number in range(min(MADE, plane.candidates, len(plane.hands))):
         hand = hand_of(section, plane.hands, number)
-        if hand.clearance < section.task.clearance:
+        if hand.clearance < max(section.task.clearance, hand.bent * section.cosine):
             continue
         try:
             made = hand_parts(hand)

@@ -103,14 +103,8 @@ class TyingHand:
 
     @property
     def bent(self) -> float:
-        """Bending of the finger's tip by the yarn in its plane [m]: a straight cantilever as long as the arc."""
-        task = self.section.task
-        stiffness = FINGER_STEEL * task.finger_thickness * task.finger_width**3 / 12
-        return task.yarn_pull * (self.radius * self.span) ** 3 / (3 * stiffness)
-
-
-FINGER_STEEL = 206e9
-"""Young's modulus of the fingers' spring steel [Pa]."""
+        """Bending of the finger's tip by the yarn in its plane [m]."""
+        return float(self.section.bent(np.array(self.radius * self.span)))
 
 
 def hand_of(section: InclinedSection, hands: HandBatch, number: int) -> TyingHand:

@@ -18,8 +18,9 @@ from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.micro_servos import MicroServo
 from ilmek.linkage.model import GROUND
-from ilmek.machines.knotting_four_bar.hands.batch import BEARING, EYE
+from ilmek.machines.knotting_four_bar.hands.batch import BEARING, COLUMNS, EYE
 from ilmek.machines.knotting_four_bar.hands.hand import TyingHand
+from ilmek.machines.knotting_four_bar.hands.section import FINGER, FOOT
 from ilmek.machines.link_tree import body_id, inertia_of
 from ilmek.machines.own_linkage.construction import Construction, construction
 from ilmek.machines.own_linkage.shafts import housing_length, shaft_lengths
@@ -42,7 +43,7 @@ STAND, SERVO = f"{NAME}/stand", f"{NAME}/servo"
 LINK = FlatMember(6 * mm, 3 * mm, "aluminium alloy")
 """Section and material of the links; assumed by this project."""
 
-STEEL, FINGER = MATERIALS["structural steel"], MATERIALS["heat-treatable steel"]
+STEEL = MATERIALS["structural steel"]
 
 PILLAR, OVER, CLEAR = 5 * mm, 1 * mm, 1 * mm
 """Diameter of a finger's pillar, its plane over all other parts of the hand, columns off what moves [m]; assumed."""
@@ -82,16 +83,6 @@ class HandParts:
     hands_depth = computed("mm", "across the plane over both plates, without servos", lambda it: 2 * plate_back(it))
     knot_time = computed("s", "of a stroke to and fro", lambda it: 2 * it.hand.section.task.stroke_time)
     yarn_led = computed("mm", "path of a finger's tip, by which an end of the yarn is led", lambda it: it.hand.led)
-
-    @property
-    def apart(self) -> float:
-        """Distance of the fingers' middle planes [m]: e."""
-        return 2 * (self.middle - self.finger) - self.hand.section.task.finger_thickness
-
-    @property
-    def shift(self) -> float:
-        """By which each hand lies off the middle of the knot along u [m]: e tan b / 2."""
-        return self.apart / 2 * math.tan(self.hand.section.inclination)
 
     def inertias(self) -> dict[str, Inertia]:
         """Of the moving bodies, the finger with its coupler."""
@@ -184,28 +175,27 @@ def hands_tree(made: HandParts, servo: MicroServo | None) -> Tree:
 
 def _sides(made: HandParts) -> dict[str, Placement]:
     """The frames of both hands, by the suffix of their bodies."""
-    left = placement(-made.shift, 0.0, -made.middle)
+    left = placement(-made.hand.section.shift, 0.0, -made.middle)
     return {"-left": left, "-right": placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(left)}
 
 
 def reaches(made: HandParts) -> tuple[float, float]:
     """Greatest distance from the knot's middle along u, and height over the warps, of what moves in a hand [m]."""
     hand, motion = made.hand, made.hand.stroke(97)
-    pins = [motion.point(body, name).position for body, name in (("coupler", "A"), ("coupler", "B"))]
-    arc = hand.on_coupler(hand.centre) + (hand.tip - hand.on_coupler(hand.centre)) * np.exp(
-        -1j * np.linspace(0, hand.span, 40)
-    )
+    angles = np.linspace(0.0, hand.span, 40)
+    arc = np.array([hand.on_coupler(complex(at)) for at in hand.centre - 1j * hand.radius * np.exp(-1j * angles)])
     finger = motion.origin("coupler")[:, None] + motion.direction("coupler")[:, None] * arc
-    feet = motion.point("coupler", TRACER).position
-    points = np.concatenate([np.ravel(one) for one in (*pins, finger, feet)]) - made.shift
-    return float(np.max(np.abs(points.real))) + EYE, float(np.max(points.imag)) + EYE
+    rooms = [(motion.point("coupler", name).position, room) for name, room in (("A", EYE), ("B", EYE), (TRACER, FOOT))]
+    rooms.append((finger, hand.section.task.finger_width / 2))
+    wide = max(float(np.max(np.abs(np.real(points) - hand.section.shift))) + room for points, room in rooms)
+    return wide, max(float(np.max(np.imag(points))) + room for points, room in rooms)
 
 
 def _column_feet(made: HandParts) -> tuple[complex, complex]:
     """Axes of the columns in the frame of the knot [m]: over all that moves, as far apart as the pivots at least."""
-    pivots = np.array([made.hand.four_bar.a0, made.hand.four_bar.b0]) - made.shift
+    pivots = np.array([made.hand.four_bar.a0, made.hand.four_bar.b0]) - made.hand.section.shift
     wide = max(float(np.max(np.abs(pivots.real))), 2 * COLUMN)
-    high = max(reaches(made)[1], float(np.max(pivots.imag)) + BEARING) + COLUMN / 2 + CLEAR
+    high = max(reaches(made)[1], float(np.max(pivots.imag)) + BEARING) + COLUMNS - BEARING
     return complex(-wide, high), complex(wide, high)
 
 
@@ -245,7 +235,7 @@ def _standing(
 def _base(made: HandParts, old: Part, feet: tuple[complex, complex], pillars: tuple[complex, ...]) -> Part:
     """The plate of a hand about its pivots and the columns, over the standoff."""
     pivots = [made.hand.four_bar.a0, made.hand.four_bar.b0]
-    local = [foot + made.shift for foot in feet]
+    local = [foot + made.hand.section.shift for foot in feet]
     outline = rounded_hull(np.array([*pivots, *local, *pillars]), BEARING)
     assert isinstance(old.shape, Prism)
     holes = [Hole(complex(*seat.position.origin[:2]), seat.size / 2) for seat in old.seats.values()]

@@ -32,7 +32,7 @@ def _finger_checks(made: HandParts) -> tuple[Check, ...]:
         ).with_cure(WIDER, FINGER),
         at_least(
             "fingers of both hands apart",
-            made.apart - task.finger_thickness,
+            hand.section.apart - task.finger_thickness,
             task.clearance,
             "mm",
             "task.clearance; planes of the hands",

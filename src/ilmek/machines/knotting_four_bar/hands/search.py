@@ -27,10 +27,10 @@ DEPTHS, SPREAD, APART, PINS = (0.6 * mm, 8 * mm), 10 * mm, (LEAST_LINK, 24 * mm)
 """Bounds of the finger's depth beyond the warps, of the pivots' middle from C, of the pivots from each other, and of
 the pins from C [m]."""
 
-POPULATION, HOPELESS = 64, 50
+POPULATION, HOPELESS = 80, 60
 """Hands that are bettered together, and rounds without any hand within the limits after which it ends."""
 
-COARSE, FINE = (100, 121, 49), (28, 401, 121)
+COARSE, FINE = (140, 121, 49), (30, 401, 121)
 """Rounds, samples of the coupler's angle and points of a finger's edges: first, and then for what is promising."""
 
 PROMISING = 0.5
@@ -50,7 +50,7 @@ class SearchedPlane:
     """What was searched at an inclination [rad].
 
     tried       four-bars drawn and varied         within  of these within all limits but the clearance
-    candidates  of these with the clearance        best    greatest clearance of those within [m]; None: none is
+    candidates  of these with the clearance        best    greatest rating of those within [m]; None: none is
     hands       the best, by clearance
     """
 
@@ -140,11 +140,16 @@ def _varied(values: FloatArray, random: np.random.Generator) -> FloatArray:
 
 
 def _rated(section: InclinedSection, hands: HandBatch, stage: tuple[int, int, int]) -> FloatArray:
-    """Clearances [m] of hands within the limits; of others `REFUSED` less what they lack, -inf without a motion."""
+    """Clearances [m] of hands within the limits, less by what their fingers bend beyond them.
+
+    Of others `REFUSED` less what they lack, -inf without a motion.      stage  as `COARSE`
+    """
     with np.errstate(invalid="ignore", divide="ignore"):
         motion, closed = moved(section, hands, stage[1])
         wanting = np.where(closed, lacks(section, motion), np.nan)
     rating = np.where(np.isfinite(wanting), REFUSED - wanting, -np.inf)
     chosen = np.flatnonzero(wanting == 0)
-    rating[chosen] = motion.clearance(section, chosen, stage[2])
+    clear = motion.clearance(section, chosen, stage[2])
+    bent = section.bent(motion.radius[chosen] * motion.span[chosen]) * section.cosine
+    rating[chosen] = np.minimum(clear, 2 * clear - bent)
     return rating

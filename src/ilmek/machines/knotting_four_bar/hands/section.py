@@ -26,12 +26,16 @@ import math
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, FloatArray
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.knotting_four_bar.hands.task import HandsTask
 from ilmek.records import record
 from ilmek.units import mm
 
 NEIGHBOURS = 4
 """Warps on each side of the knot in the proof of the yarn's path."""
+
+FINGER = MATERIALS["heat-treatable steel"]
+"""Of the fingers."""
 
 FOOT = 3 * mm
 """Room about the pillar that joins a finger to its coupler: half the width of the links [m]."""
@@ -76,6 +80,22 @@ class InclinedSection:
     def highest(self) -> float:
         """Top of the highest circle of such arcs over the warps' axes [m]: g²/d."""
         return self.half_chord**2 / self.least_depth
+
+    @property
+    def apart(self) -> float:
+        """Distance of the middle planes of both fingers [m]: e."""
+        return self.task.finger_thickness + 2 * self.task.clearance
+
+    @property
+    def shift(self) -> float:
+        """By which each hand lies off the middle of the knot along u [m]: e tan b / 2."""
+        return self.apart / 2 * math.tan(self.inclination)
+
+    def bent(self, length: FloatArray) -> FloatArray:
+        """Bending of the tip of a finger in its plane by the yarn [m]: a straight cantilever as long as its arc [m]."""
+        task = self.task
+        stiffness = FINGER.modulus * task.finger_thickness * task.finger_width**3 / 12
+        return np.asarray(task.yarn_pull * length**3 / (3 * stiffness))
 
     @property
     def reach(self) -> float:

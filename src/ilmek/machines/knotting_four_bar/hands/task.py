@@ -29,12 +29,12 @@ class HandsTask(Params):
     knot: str = kind.choice(NO_KNOT, (NO_KNOT, *KNOTS), doc="knot to tie; none: no hands are searched")
     cloth: Cloth = nested(Cloth, doc="warps and pile yarn")
     finger_thickness: float = _size(0.5 * mm, doc="of the finger, a blade bent to an arc, across its plane")
-    finger_width: float = _size(1.5 * mm, doc="of the finger, in its plane")
+    finger_width: float = _size(1.8 * mm, doc="of the finger, in its plane")
     clearance: float = kind.length(
         0.1 * mm, at_least=0.0, at_most=10 * mm, doc="least distance of the fingers from warps, and from each other"
     )
     standoff: float = _size(8 * mm, doc="height over the warps that all but the fingers leave free, as for pile")
-    room_length: float = _size(120 * mm, doc="room of the hands in their plane, along the warps")
+    room_length: float = _size(150 * mm, doc="room of the hands in their plane, along the warps")
     room_height: float = _size(80 * mm, doc="room of the hands over the warps")
     inclination: float | None = kind.angle(
         None,
