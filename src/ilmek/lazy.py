@@ -14,7 +14,7 @@ from typing import Any
 def lazy_names(package: str, file: str) -> tuple[list[str], Callable[[str], Any], Callable[[], list[str]]]:
     """`__all__`, `__getattr__` and `__dir__` of a package.
 
-    package  its name      file  its `__init__.py`; the stub beside it has lines like `from package.module import x as x`
+    package  its name      file  its `__init__.py`; the stub beside it has lines `from package.module import x as x`
 
     `__getattr__` raises AttributeError, with the nearest public name, for any other name.
     """

@@ -32,7 +32,9 @@ animation_option = click.option(
     callback=lambda _context, _option, path: checked_animation(path),
     help="Write the machine in motion; MP4 needs the extra video.",
 )
-issue_option = text_option("--issue", "REVISION,DATE", "Revision and date of issue on the drawings.", "issued")
+issue_option = text_option(
+    "--issue", "REVISION,DATE", "Revision and date (ISO 8601) of issue on the drawings.", "issued"
+)
 rates_option = file_option(
     "--rates",
     "FILE",

@@ -110,6 +110,7 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "guide carriage": PriceRates(each=20.0),
     "belt and pulleys": PriceRates(each=40.0, per_m=15.0),
     "belt": PriceRates(each=2.0, per_m=15.0),
+    "toothed pulley": PriceRates(each=10.0, per_kg=40.0),
     "magnet": PriceRates(each=1.0, per_kg=120.0),
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),

@@ -18,6 +18,9 @@ from ilmek.report import Plate
 PITCH, CUTTER, ZERO = "pitch curve", "cutter path", "zero"
 """Names of a cam's paths, of its roller and of the cutter, and of the mark of its angle 0."""
 
+SET_SCREW, CLAMP = "set screw", "clamp"
+"""Names of the seats of what holds a hub along its shaft: of a set screw, of a bush or rings that clamp it."""
+
 
 @record
 class Bought:
