@@ -141,8 +141,11 @@ def test_checks_of_servo_and_finger_fail_where_they_must() -> None:
     hands = made()
     weak = dataclasses.replace(hands, servo=None)
     assert any("servo" in check.name for check in HANDS.checks(weak) if not check.ok)
-    pulled = made(yarn_pull="10N")
-    assert any("bent" in check.name for check in HANDS.checks(pulled) if not check.ok)
+    parts = parts_of(hands)
+    section = parts.hand.section
+    pulled = dataclasses.replace(section, task=dataclasses.replace(section.task, yarn_pull=10.0))
+    bent = dataclasses.replace(parts, hand=dataclasses.replace(parts.hand, section=pulled))
+    assert any("bent" in check.name for check in HANDS.checks(dataclasses.replace(hands, made=bent)) if not check.ok)
 
 
 def test_limits_that_contradict_are_named_together() -> None:

@@ -185,10 +185,11 @@ def reaches(made: HandParts) -> tuple[float, float]:
     angles = np.linspace(0.0, hand.span, 40)
     arc = np.array([hand.on_coupler(complex(at)) for at in hand.centre - 1j * hand.radius * np.exp(-1j * angles)])
     finger = motion.origin("coupler")[:, None] + motion.direction("coupler")[:, None] * arc
-    rooms = [(motion.point("coupler", name).position, room) for name, room in (("A", EYE), ("B", EYE), (TRACER, FOOT))]
-    rooms.append((finger, hand.section.task.finger_width / 2))
-    wide = max(float(np.max(np.abs(np.real(points) - hand.section.shift))) + room for points, room in rooms)
-    return wide, max(float(np.max(np.imag(points))) + room for points, room in rooms)
+    pins = (("A", EYE), ("B", EYE), (TRACER, FOOT))
+    rooms = [(np.asarray(motion.point("coupler", name).position), room) for name, room in pins]
+    rooms.append((np.asarray(finger), hand.section.task.finger_width / 2))
+    wide = max(float(np.max(np.abs(points.real - hand.section.shift))) + room for points, room in rooms)
+    return wide, max(float(np.max(points.imag)) + room for points, room in rooms)
 
 
 def _column_feet(made: HandParts) -> tuple[complex, complex]:
