@@ -21,7 +21,9 @@ def issue_of(words: str | None) -> Issue:
         raise ParameterError(f"--issue {words!r} has no revision", do="write it like B,2026-11-30")
     if comma and not _date(day):
         raise ParameterError(
-            f"--issue {words!r}: {day!r} is no date", allowed="a day of ISO 8601", do=f"write it like {revision},2026-11-30"
+            f"--issue {words!r}: {day!r} is no date",
+            allowed="a day of ISO 8601",
+            do=f"write it like {revision},2026-11-30",
         )
     return Issue(date=_date(day) or "—", revision=revision)
 
