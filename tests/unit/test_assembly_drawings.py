@@ -11,6 +11,7 @@ import ezdxf
 import numpy as np
 import pytest
 from default_machines import default_design
+from manifold3d import CrossSection
 
 from ilmek.elements.materials import find_material
 from ilmek.elements.prices import PRICES
@@ -200,3 +201,35 @@ def test_a_shaft_is_taken_out_of_its_hub_along_their_axis() -> None:
     x, y, z = (blocks["probe/shaft"].shift - blocks["probe/hub"].shift).tolist()
     assert (x, z) == pytest.approx((0.0, 0.0), abs=1e-9)
     assert abs(y) > 0.02  # clear of the hub
+
+
+def middle(points: np.ndarray, axis: np.ndarray) -> float:
+    heights = points @ axis
+    return float(heights.max() + heights.min()) / 2
+
+
+@pytest.mark.parametrize("name", ["automated-loom", "tension-compensator", "beat-up", "weft"])
+def test_what_is_taken_apart_keeps_its_order_along_each_line(name: str) -> None:
+    """By manifold3d: blocks moved along one axis, whose outlines along it have 5 % of the smaller in common."""
+    tree, pairs = machine_tree(name), 0
+    for assembly in assembly_of(tree, name).every:
+        blocks = exploded(tree, assembly, pieces_of_assembly(tree, assembly))
+        meshes = [
+            np.concatenate([own.position.points(own.part.shape.mesh(2e-4).points) for own in block.pieces])
+            for block in blocks
+        ]
+        moves = [block.line[1] - block.line[0] for block in blocks]
+        for k, axis in ((k, move / np.linalg.norm(move)) for k, move in enumerate(moves) if np.linalg.norm(move) > 0):
+            across = np.linalg.svd(axis[None])[2][1:]
+            outline = CrossSection.hull_points(meshes[k] @ across.T)
+            for n, move in enumerate(moves):
+                apart = blocks[k].shift - blocks[n].shift
+                along = np.linalg.norm(move) > 0 and abs(move @ axis) > (1 - 1e-6) * np.linalg.norm(move)
+                if n == k or not along or np.linalg.norm(np.cross(apart, axis)) > 1e-6:
+                    continue
+                other = CrossSection.hull_points(meshes[n] @ across.T)
+                before = middle(meshes[k], axis) - middle(meshes[n], axis)
+                if abs(before) > 1e-4 and (outline ^ other).area() > 0.05 * min(outline.area(), other.area()):
+                    pairs += 1
+                    assert before * (before + apart @ axis) > 0, (assembly.name, blocks[k].pieces[0].part.id)
+    assert pairs > 10

@@ -1,8 +1,9 @@
 """An assembly taken apart: how far each piece is moved out along the axis by which it is joined.
 
-The largest block, by the diagonal of its box, stays. Each further one, the larger first, is moved with that in which it
-lies, and from there along its axis by the least distance at which it is clear by a gap of all whose convex hulls, seen
-along the axis, have room in common with its own.
+Blocks with parallel axes whose convex hulls, seen along the axis, have room in common are on one line. The largest
+block of all, by the diagonal of its box, stays. The blocks of a line are moved with that in which its largest lies, and
+from there outwards along their axis, each by the least distance at which it is clear by a gap of all that it has room
+in common with, on that side of what its line goes through on which it is assembled.
 
 axis of a piece  that of the bore or journal by which it meets another [`meetings`]; else of its body's joint, where it
                  is the only part; else of a turned or bought part its own z, of any other the direction in which it
@@ -16,7 +17,7 @@ from functools import lru_cache
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from ilmek.arrays import ComplexArray, Float
+from ilmek.arrays import BoolArray, ComplexArray, Float, FloatArray
 from ilmek.part.assemblies import AssembledPiece, AssemblyUnit
 from ilmek.part.meetings import meetings
 from ilmek.part.shapes import Shape, Turned, box_corners, shape_box
@@ -31,9 +32,9 @@ GAP, SEEN = 0.02, 0.3
 SHOWN = 16
 """Pieces of a part in a body that are shown; of more the first stands for all."""
 
-_TOUCH, _RIM, _DEVIATION = 0.1 * mm, 0.05, 0.2 * mm
+_TOUCH, _RIM, _DEVIATION, _PARALLEL = 0.1 * mm, 0.05, 0.2 * mm, 1 - 1e-6
 """Depth within which what lies beside each other does not overlap [m]; rim about a box, of its diagonal; deviation of
-the hulls [m].
+the hulls [m]; cosine above which axes are parallel.
 """
 
 Vector = Float[np.ndarray, " 3"]
@@ -55,19 +56,53 @@ def exploded(tree: Tree, assembly: AssemblyUnit, pieces: Sequence[AssembledPiece
     axes = _part_axes(tree)
     blocks = sorted(_blocks(assembly, pieces), key=lambda block: -_diagonal(_box(block)))
     boxes = np.array([_box(block) for block in blocks])
-    corners = [_hull_corners(block) for block in blocks]
+    corners, directions = [_hull_corners(block) for block in blocks], [_axis(block, axes) for block in blocks]
     whole = _diagonal(np.array([boxes[:, 0].min(0), boxes[:, 1].max(0)]))
     gaps = GAP * whole + SEEN * np.sort(boxes[:, 1] - boxes[:, 0], axis=1)[:, 1]
     begins, shifts = np.zeros((2, len(blocks), 3))
-    for number, block in enumerate(blocks[1:], 1):
-        begin = begins[number] = shifts[_carrier(boxes[number], boxes[:number])]
-        axis = _axis(block, axes)
-        standing = [own + shift for own, shift in zip(corners[:number], shifts[:number], strict=True)]
-        shifts[number] = begin + _least_shift(corners[number] + begin, standing, axis, float(gaps[number])) * axis
+    placed: list[int] = []
+    for line in _lines(corners, directions):
+        axis, anchor = directions[line[0]], line[0]
+        if placed:
+            anchor = placed[_carrier(boxes[anchor], boxes[placed])]
+        begin = shifts[anchor].copy()
+        middles = np.array([(points @ axis).max() + (points @ axis).min() for points in corners]) / 2
+        for number in sorted(line, key=lambda own: (abs(middles[own] - middles[anchor]), own)):
+            standing = [corners[own] + shifts[own] for own in placed]
+            away = middles[number] - middles[placed]
+            sides = np.where(abs(away) > _TOUCH, np.sign(away), 0.0)
+            own, along = np.isin(placed, [*line, anchor]), _beside(shifts[placed] - begin, axis)
+            shift = _least_shift(
+                corners[number] + begin, standing, axis, float(gaps[number]), (sides * along, sides * own)
+            )
+            begins[number], shifts[number] = begin, begin + shift * axis
+            placed.append(number)
     lines = boxes.mean(1) + np.array([begins, shifts])
     return tuple(
         Block(block, shift, lines[:, number]) for number, (block, shift) in enumerate(zip(blocks, shifts, strict=True))
     )
+
+
+def _lines(corners: Sequence[Points], directions: Sequence[Vector]) -> list[list[int]]:
+    """Numbers of the blocks on each line, the largest first."""
+    lines: list[list[int]] = []
+    for number, (points, axis) in enumerate(zip(corners, directions, strict=True)):
+        across = _across(axis)
+        own = _flat_hull(points, across)
+        joined, others = [number], list[list[int]]()
+        for line in lines:
+            parallel = abs(directions[line[0]] @ axis) > _PARALLEL
+            if parallel and any(_overlap(own, _flat_hull(corners[k], across)) for k in line):
+                joined += line
+            else:
+                others.append(line)
+        lines = [*others, sorted(joined)]
+    return sorted(lines)
+
+
+def _beside(shifts: Points, axis: Vector) -> BoolArray:
+    """Which shifts are along an axis."""
+    return np.asarray(np.linalg.norm(shifts - np.outer(shifts @ axis, axis), axis=1) < _TOUCH)
 
 
 def _blocks(assembly: AssemblyUnit, pieces: Sequence[AssembledPiece]) -> list[tuple[AssembledPiece, ...]]:
@@ -130,16 +165,31 @@ def _carrier(box: Box, standing: Float[np.ndarray, "n 2 3"]) -> int:
     return int(np.prod(np.maximum(common, 0.0), axis=1).argmax())
 
 
-def _least_shift(points: Points, standing: Sequence[Points], axis: Vector, gap: float) -> float:
-    """The least shift of points along an axis, to either side, at which they are clear of others by a gap [m]."""
-    across = np.linalg.svd(axis[None])[2][1:]
+def _least_shift(
+    points: Points, standing: Sequence[Points], axis: Vector, gap: float, sides: Sequence[FloatArray]
+) -> float:
+    """The least shift of points along an axis at which they are clear of others by a gap [m].
+
+    sides  on which of each of the others they have to be along the axis: +1 beyond, -1 before, 0 either; with the last
+           there always is a shift, that with the first is taken where there is one
+    """
+    across = _across(axis)
     own, height = _flat_hull(points, across), points @ axis
-    behind = [other for other in standing if _overlap(own, _flat_hull(other, across))]
-    low = np.array([(other @ axis).min() - gap - height.max() for other in behind])
-    high = np.array([(other @ axis).max() + gap - height.min() for other in behind])
+    behind = [number for number, other in enumerate(standing) if _overlap(own, _flat_hull(other, across))]
+    low = np.array([(standing[k] @ axis).min() - gap - height.max() for k in behind])
+    high = np.array([(standing[k] @ axis).max() + gap - height.min() for k in behind])
     shifts = np.concatenate([[0.0], low, high])
     clear = ~((shifts[:, None] > low + _TOUCH) & (shifts[:, None] < high - _TOUCH)).any(1)
+    for side in (choice[behind] for choice in sides):
+        allowed = clear & (side * (shifts[:, None] - np.where(side > 0, high, low)) > -_TOUCH).all(1)
+        if allowed.any():
+            return float(min(shifts[allowed], key=abs))
     return float(min(shifts[clear], key=abs))
+
+
+def _across(axis: Vector) -> Float[np.ndarray, "2 3"]:
+    """Two directions across an axis."""
+    return np.asarray(np.linalg.svd(axis[None])[2][1:])
 
 
 def _flat_hull(points: Points, across: Float[np.ndarray, "2 3"]) -> ComplexArray:
@@ -150,7 +200,8 @@ def _flat_hull(points: Points, across: Float[np.ndarray, "2 3"]) -> ComplexArray
 def _overlap(polygon: ComplexArray, other: ComplexArray) -> bool:
     """Whether two convex polygons have more in common than a touch: no side of either separates them."""
     sides = np.concatenate([np.roll(own, -1) - own for own in (polygon, other)])
-    outward = (sides / np.maximum(np.abs(sides), 1e-12))[:, None] * 1j
+    sides = sides[np.abs(sides) > 1e-9]
+    outward = (sides / np.abs(sides))[:, None] * 1j
     own, its = ((outward.conj() * points).real for points in (polygon, other))
     return not bool(((own.max(1) < its.min(1) + _TOUCH) | (its.max(1) < own.min(1) + _TOUCH)).any())
 

@@ -323,7 +323,7 @@ PAPERS = {
     "lift.how": "The loom is moved without guards and creel, its heads and comb locked, on a lifting frame with four "
     "vertical slings in four eye bolts, screwed in to their collars: on the tops of the columns and on the front feet. "
     "Each bears half of the mass, as two slings may hang slack.",
-    "lift.masses": "The whole loom weighs {whole}, what is lifted {lifted}, with {parts} parts that are not weighed.",
+    "lift.masses": "The whole loom weighs {whole}, what is lifted {lifted}.",
     "lift.centre": "The mass centre of what is lifted: {x} to the right of the middle, {y} over the floor, {z} "
     "behind the fell.",
     "lift.point": "lifting point",

@@ -322,7 +322,7 @@ PAPERS = {
     "lift.how": "Tezgâh, koruyucular ve cağlık olmadan, başlıkları ve tarağı kilitli olarak, dört düşey sapanlı bir "
     "kaldırma çerçevesiyle taşınır: yakasına kadar vidalanmış dört mapa, kolonların tepesinde ve ön ayakların üstünde. "
     "İki sapan gevşek kalabileceği için her biri kütlenin yarısını taşır.",
-    "lift.masses": "Bütün tezgâh {whole}, kaldırılan {lifted} gelir; {parts} parça tartılmamıştır.",
+    "lift.masses": "Bütün tezgâh {whole}, kaldırılan {lifted} gelir.",
     "lift.centre": "Kaldırılanın kütle merkezi: ortanın {x} sağında, zeminin {y} üstünde, dokuma çizgisinin {z} "
     "arkasında.",
     "lift.point": "kaldırma noktası",

@@ -12,7 +12,7 @@ from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.visible_lines import DepthPicture, PlacedShape, Rotation, depth_picture, extents
 from ilmek.records import record
 from ilmek.report.sheet import LineKind, SheetLine
-from ilmek.viz.drawings.balloons import Balloon, balloons_about, rows_about, spots
+from ilmek.viz.drawings.balloons import Balloon, CrowdedViewError, balloons_about, crossings, rows_about, spots
 from ilmek.viz.drawings.picture import Box
 from ilmek.viz.drawings.projector import Axis
 
@@ -88,6 +88,8 @@ def balloons_on(
                 point, _ = spots(alone, item + 1)
                 tips[item] = point[item] * (_TO_MM / view.scale) + view.shift
         balloons += balloons_about([names[item] for item in items], tips[items], view.box, view.sides) if items else ()
+    if crossings(np.array([own.tip for own in balloons]), np.array([own.centre for own in balloons])).any():
+        raise CrowdedViewError("leaders of two views cross")
     return tuple(balloons), tuple(dashed)
 
 

@@ -10,7 +10,6 @@ a guide or ball screw is greased each 100 km of travel                          
 import math
 from collections.abc import Iterator
 
-from ilmek.elements.bearings import find_bearing
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
@@ -18,8 +17,8 @@ from ilmek.machines.automated_loom.papers.commissioning import belts
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
 from ilmek.machines.hammer.tree import AXIS as HAMMER_AXIS
 from ilmek.machines.shedding.stack import part_id as shedding_part
+from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
-from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER
 from ilmek.machines.weaver.carriage_guide import GUIDE_CARRIAGE
 from ilmek.machines.weaver.carriage_guide import life as guide_life
 from ilmek.machines.weaver.knife import KNIFE
@@ -28,6 +27,7 @@ from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
 from ilmek.machines.weft.carriers import AXIS as WEFT_AXIS
 from ilmek.machines.weft.carriers import WEFT_CUTTER
+from ilmek.part.blanks import size_of
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.records import record
@@ -151,10 +151,11 @@ GREASED = {
 
 def _speeds(loom: LoomDesign, report: Report) -> dict[str, tuple[float, float]]:
     """Bore [m] and speed of bearings by their ids [rad/s]."""
-    cams, slow, rows = loom.shedding, _slow(loom, report), value_of(report, "warp_tension.bearing")
-    seat = cams.shaft.seat.bearing.bore, cams.params.speed
-    return {shedding_part("bearing", index): seat for index in range(len(cams.shafts))} | {
-        cylinder_part(f"{name}-bearing"): (find_bearing(rows[name]).bore, slow) for name in CYLINDERS
+    cams, slow = loom.shedding, _slow(loom, report)
+    turning = {shedding_part("bearing", index): cams.params.speed for index in range(len(cams.shafts))}
+    bores = {name: cams.shafts[index].seat.bearing.bore for index, name in enumerate(turning)}
+    return {name: (bores[name], speed) for name, speed in turning.items()} | {
+        cylinder_part(f"{own.name}-bearing"): (own.seat.bearing.bore, slow) for own in cylinders(loom.warp_tension)
     }
 
 
@@ -234,7 +235,7 @@ def _lives(wears: tuple[Wear, ...]) -> Table:
 
 def designation(part: Part) -> str:
     """As a part is ordered, in the words of `purchase`; of one that is made its size."""
-    return (part.purchase.row or part.process) if part.purchase else part.size
+    return (part.purchase.row or part.process) if part.purchase else size_of(part)
 
 
 def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:
