@@ -173,7 +173,7 @@ def belts(loom: LoomDesign) -> Iterator[BeltSpan]:
 
 
 def _belts(loom: LoomDesign) -> Rows:
-    named = {part.id: part.purchase.row for part, _ in loom_tree(loom).occurrences() if part.purchase}
+    named = {part.id: part.designation for part, _ in loom_tree(loom).occurrences() if part.purchase}
     return (
         (own.title, format_quantity(own.frequency, "Hz", 3), "± 5%", Sentence("instrument.frequency"), named[own.part])
         for own in belts(loom)

@@ -235,7 +235,7 @@ def _lives(wears: tuple[Wear, ...]) -> Table:
 
 def designation(part: Part) -> str:
     """As a part is ordered, in the words of `purchase`; of one that is made its size."""
-    return (part.purchase.row or part.process) if part.purchase else size_of(part)
+    return (part.designation or part.process) if part.purchase else size_of(part)
 
 
 def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:

@@ -269,7 +269,7 @@ def measures(loom: LoomDesign) -> Iterator[tuple[str, Part, int]]:
 def _measures(loom: LoomDesign) -> PaperSection:
     """The devices that carry out the measures, each in the list of bought parts."""
     rows = tuple(
-        (Sentence(key), part.title, part.purchase.row if part.purchase else "", number)
+        (Sentence(key), part.title, part.designation, number)
         for key, part, number in sorted(measures(loom), key=lambda own: own[0])
     )
     heads = (
