@@ -78,7 +78,7 @@ _KINDS = (
 
 def test_signals_and_devices_of_looms_of_all_kinds_name_each_other() -> None:
     """Each sensor and motor of the list is named by a signal, and each part of a signal is in a loom of some kind."""
-    wired = {signals.RESET, signals.ACTUATOR, signals.SUPPLY, signals.TERMINAL}  # in the safety circuit, or between
+    wired = {signals.RESET, signals.ACTUATOR, signals.ENABLING, signals.TERMINAL}  # in the safety circuit, or between
     named = {part for row in _rows(heads=1) for part in row["parts"].split()}
     kinds, every = {"clutch and brake", *(row.kind for row in ROWS)}, set[str]()
     for kind in _KINDS:

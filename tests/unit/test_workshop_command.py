@@ -60,7 +60,11 @@ def test_an_index_tells_of_every_file_how_exact_it_is(tmp_path: Path) -> None:
     slides = ["slide-left", "slide-left-2"]
     expected |= {f"{slide}.{kind.name}.{kind.suffix}" for slide in slides for kind in FORMATS.values()}
     expected |= {f"{slide}.kollmorgen.csv.txt" for slide in slides}
-    expected |= {"drawings.pdf", "drawings.tr.pdf", *(f"{plate}.sheet.dxf" for plate in plates)}
+    expected |= {
+        "drawings.pdf",
+        "drawings.tr.pdf",
+        *(f"{plate}.sheet{end}.dxf" for plate in plates for end in ("", ".tr")),
+    }
     assert set(names) == expected | set(INDEX_PAGES)
     for entry in index["files"]:
         if entry["kind"] == "dxf":

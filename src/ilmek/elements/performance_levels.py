@@ -51,6 +51,15 @@ def reached_level(failures: float) -> str:
     return next((level for level, limit in _LEVELS if failures < limit), "")
 
 
+def mean_years(b10d: float, hourly: float) -> float:
+    """Mean time to a dangerous failure MTTFd of a contact [years], of its mean life and operations in an hour.
+
+    >>> round(mean_years(1e5, 0.125))
+    913
+    """
+    return b10d / (0.1 * hourly) / (365.25 * 24)
+
+
 def contact_failures(b10d: float, hourly: float) -> float:
     """Dangerous failures of two contacts side by side in an hour [1/h], of the mean life and operations in an hour.
 

@@ -1,7 +1,7 @@
 """The book of drawings of a design: the list of all parts, the assemblies, and a sheet for every made part."""
 
 import importlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -24,8 +24,11 @@ from ilmek.viz.drawings.drawn_part import drawn_piece, drawn_plate
 from ilmek.viz.drawings.index import index_sheets, listed_lines, part_rows
 from ilmek.viz.drawings.projector import Projector
 
-BOOK, ASSEMBLY = "drawings.pdf", "assembly"
-"""File of the book; kind of entries of sheets of assemblies."""
+BOOK = "drawings.pdf"
+"""File of the book."""
+
+ASSEMBLY, SHEET, TRANSLATION = "assembly", "sheet", "translation"
+"""Kinds of entries of sheets of assemblies, of parts, and of both in another language than the usual one."""
 
 
 def write_drawings(  # noqa: PLR0917
@@ -59,14 +62,14 @@ def write_drawings(  # noqa: PLR0917
         progress(0.3 * number / len(assemblies))
         drawn = partial(_assembly_sheets, assembled, assembly, issue)
         for sheet in made_or_left_out(f"assembly {assembly.drawing!r}", drawn, left_out) or ():
-            entries.append(_sheet(sheet, f"assembly-{assembly.number}", work) | {"kind": ASSEMBLY})
+            entries += _sheet(sheet, f"assembly-{assembly.number}", work, ASSEMBLY)
             book.append(sheet)
     for number, part in enumerate(parts):
         progress(0.3 + 0.7 * number / len(parts))
         sheets = made_or_left_out(f"sheet of {part.number!r}", partial(sheets_of, part, issue, project), left_out)
         without += sheets == ()
         for sheet in sheets or ():
-            entries.append(_sheet(sheet, part.name, work))
+            entries += _sheet(sheet, part.name, work, SHEET)
             book.append(sheet)
     if without:
         sheets_of_sums = counted(
@@ -97,12 +100,19 @@ def _assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> tuple[
     return tuple(drawn.sheet for drawn in assembly_sheets(tree, assembly, issue))
 
 
-def _sheet(sheet: DrawingSheet, name: str, work: Path) -> JsonObject:
-    file = f"{name}.sheet.dxf" if sheet.page == 1 else f"{name}.sheet-{sheet.page}.dxf"
-    write_sheet_dxf(work / file, sheet)
+def _sheet(sheet: DrawingSheet, name: str, work: Path, kind: str) -> Iterator[JsonObject]:
+    """Write a sheet in each language; an entry for each file, of other languages than the usual one a translation."""
+    stem, common = f"{name}.sheet" if sheet.page == 1 else f"{name}.sheet-{sheet.page}", _facts(sheet, name)
+    for language in LANGUAGES:
+        usual = language == DEFAULT
+        file = f"{stem}.dxf" if usual else f"{stem}.{language}.dxf"
+        with in_language(language):
+            write_sheet_dxf(work / file, sheet)
+        yield {"file": file, "kind": kind if usual else TRANSLATION, **common, "language": language}
+
+
+def _facts(sheet: DrawingSheet, name: str) -> JsonObject:
     return {
-        "file": file,
-        "kind": "sheet",
         "of": name,
         "title": sheet.title,
         "drawing": sheet.number,

@@ -26,7 +26,7 @@ from ilmek.viz.drawings.paper import scale_words
 PAPER_KINDS = ("page", "list")
 """Kinds of entries of papers: a page for people in a language, a list as CSV."""
 
-DRAWING_KINDS = ("drawings", "assembly", "sheet")
+DRAWING_KINDS = ("drawings", "assembly", "sheet", "translation")
 """Kinds of entries of drawings, in the order of the index."""
 
 

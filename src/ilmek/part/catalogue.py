@@ -7,6 +7,7 @@ import numpy as np
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.belts import BeltType
 from ilmek.elements.columns import STEEL
+from ilmek.elements.holding_brakes import brake_for
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.machine_screws import MachineScrew
 from ilmek.elements.materials import MATERIALS
@@ -18,10 +19,13 @@ from ilmek.part.part import CLAMP, SET_SCREW, Bought, HolePattern, Part, Seat, b
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, disc, rectangle, shape_box, stepped, tube
-from ilmek.part.tree import Occurrence
+from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.plane.contours import as_hole, as_keyed, bounds, circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.units import format_quantity, in_mm, mm
+
+HOLDING_BRAKE = "holding brake"
+"""Kind by which a motor's brake is bought."""
 
 SPECIAL_FACE = 80 * mm
 """Flange of a motor that is in no table [m]; assumed by this project."""
@@ -79,6 +83,20 @@ def motor(  # noqa: PLR0917
     stub = (Placed(bar(*shaft)),) if shaft else ()
     behind = Sum((Placed(room, (placement(z=-room.length),)), *stub))
     return bought_part(name, title, kind, behind, bought)
+
+
+def holding_brake(name: str, title: str, motor: Part, torque: float) -> Part:
+    """The brake behind a motor, in its axes, that holds a torque at its shaft [N m]."""
+    assert motor.shape is not None
+    row, rear = brake_for(torque), float(shape_box(motor.shape)[0][2])
+    room = Sum((Placed(bar(row.diameter, row.length), (placement(z=rear - row.length),)),))
+    return bought_part(name, title, HOLDING_BRAKE, room, Bought(row.name, row.mass, power=row.power))
+
+
+def brakes_of(body: RigidBody) -> dict[str, Part]:
+    """The brakes in a body by the id of the motor behind which each is."""
+    motors = {own.positions: own.part.id for own in body.occurrences if own.part.purchase and own.part.purchase.drives}
+    return {motors[own.positions]: own.part for own in body.occurrences if own.part.process == HOLDING_BRAKE}
 
 
 def motor_shaft(row: Motor | None) -> float:

@@ -18,7 +18,18 @@ from ilmek.report import BillLine
 _SCREWS = "fastener"
 
 _WIRED = frozenset(
-    ("sensor", "yarn sensor", "light barrier", "light grid", "load cell", "interlock", "button", "emergency stop")
+    (
+        "sensor",
+        "yarn sensor",
+        "light barrier",
+        "light grid",
+        "load cell",
+        "interlock",
+        "button",
+        "emergency stop",
+        "enabling device",
+        "holding brake",
+    )
 )
 """Kinds of parts that are wired to the control, beside its axes."""
 

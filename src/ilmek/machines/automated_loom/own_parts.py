@@ -17,7 +17,7 @@ from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.joints import seams, with_throats
 from ilmek.machines.automated_loom.on_rail import guide_parts
 from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
-from ilmek.machines.automated_loom.standing_frame import standing_frame
+from ilmek.machines.automated_loom.standing_frame import ControlNeeds, standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
@@ -33,7 +33,7 @@ from ilmek.units import in_mm
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
-RETREAT_MOTOR = part_id("retreat-motor")
+RETREAT_MOTOR, RETREAT_BRAKE = part_id("retreat-motor"), part_id("retreat-brake")
 
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
@@ -61,10 +61,13 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     chosen = smallest_motor(torque, turning)
     motor = catalogue.motor(RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning, together=2)
+    brake = catalogue.holding_brake(
+        RETREAT_BRAKE, "brake of the rail's retreat", motor, -mass * GRAVITY * RETREAT.imag * PULLEY
+    )
     wider = catalogue.face_of(motor) - RAIL_AXIS
     low = heads.stroke + room
     if not loom.beat.crank_rockers:
-        low = _before_posts(loom, frame, held[0], motor, low)
+        low = _before_posts(loom, frame, held[0], (motor, brake), low)
     axis = bought_part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
@@ -83,17 +86,18 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     outwards = (placement(wider / 2), placement(-wider / 2))
     ends = zip(stations[: len(held[0].stations)], outwards, strict=True)
+    flanges = tuple(end.after(aside).after(flange) for end, aside in ends)
     parts = (
         Occurrence(axis, tuple(station.after(upper) for station in stations)),
-        Occurrence(motor, tuple(end.after(aside).after(flange) for end, aside in ends)),
+        *(Occurrence(part, flanges) for part in (motor, brake)),
     )
     return RigidBody(part_id("retreat"), parts)
 
 
-def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, motor: Part, low: float) -> float:
-    """Lower end of the axes of the retreat [m], at least `low`: the motors there lie before the posts beside them."""
-    assert motor.shape is not None
-    face, rear_end = catalogue.face_of(motor), float(shape_box(motor.shape)[0][2])
+def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, drive: tuple[Part, Part], low: float) -> float:
+    """Lower end of the axes of the retreat [m], at least `low`: motors and brakes there lie before the posts beside."""
+    face = catalogue.face_of(drive[0])
+    rear_end = min(float(shape_box(part.shape)[0][2]) for part in drive if part.shape is not None)
     aside, beat = -face / 2 * RETREAT.imag, supports(loom, frame).post.side / 2
     front = aside - rear_end * RETREAT.real
     posts = [(post_depth(loom, frame) - held.axis.real, beat)]
@@ -106,12 +110,12 @@ def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, motor: 
     return low
 
 
-def frame_tree(loom: LoomDesign, frame: LoomFrame, axes: int, retreat: SceneMotion | None = None) -> Tree:
+def frame_tree(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds, retreat: SceneMotion | None = None) -> Tree:
     """The frame with all that stands on it, and the rail that retreats with the heads, if any.
 
-    axes  of the control      retreat  motion of the rail to the front; default: it stands
+    needs  of the control      retreat  motion of the rail to the front; default: it stands
     """
-    standing = with_throats(standing_frame(loom, frame, axes), seams(loom, frame))
+    standing = with_throats(standing_frame(loom, frame, needs), seams(loom, frame))
     return Tree((standing, _rail(loom, frame, retreat)) if loom.heads else (standing,))
 
 

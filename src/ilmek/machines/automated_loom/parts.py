@@ -1,7 +1,7 @@
 """The loom's parts list: the parts of its machines, its own, and the frame that carries them."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache, partial
 from itertools import chain
@@ -10,6 +10,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.signals import signal_count
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, RailTask, frame_for
 from ilmek.machines.automated_loom.frame_modes import sway_checks
@@ -18,7 +19,7 @@ from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.shaking import least_frequency
-from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, foot_reach
+from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, ControlNeeds, control_needs, foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import least_rail
@@ -55,9 +56,10 @@ class PartsList:
         return sum(price_of(part, self.prices) for part in self.parts)
 
 
-def motors(parts: tuple[BillLine, ...]) -> int:
-    """Motors of a parts list, each with an amplifier."""
-    return sum(part.number for part in parts if part.drives)
+def needs_of(loom: LoomDesign, parts: Iterable[BillLine]) -> ControlNeeds:
+    """What the cabinet has room for, by the motors of a parts list, each with an amplifier."""
+    motors = ((part.kind, part.power, part.number) for part in parts if part.drives)
+    return control_needs(motors, signal_count(loom.heads, loom.weavers))
 
 
 @lru_cache(maxsize=16)
@@ -79,7 +81,7 @@ def _listed(
 ) -> PartsList:
     """The parts list with a frame, and this with its mass and its feet."""
     carried = (*machines, *bill(carried_tree(loom, frame)))
-    own = bill(frame_tree(loom, frame, motors(carried)))
+    own = bill(frame_tree(loom, frame, needs_of(loom, carried)))
     load = sum(line.mass_all for line in (*carried, *own)) * GRAVITY / (2 * frame.number)
     mass = sum(line.mass_all for line in own if line.kind in _OF_FRAME)
     frame = replace(frame, mass=mass, foot=foot_for(load), foot_load=load)
@@ -114,7 +116,7 @@ def own_tree(loom: LoomDesign) -> Tree:
     """The loom's own bodies that are in none of its machines."""
     listed = parts_of_loom(loom)
     return Tree(
-        (*carried_tree(loom, listed.frame).bodies, *frame_tree(loom, listed.frame, motors(listed.parts)).bodies)
+        (*carried_tree(loom, listed.frame).bodies, *frame_tree(loom, listed.frame, needs_of(loom, listed.parts)).bodies)
     )
 
 

@@ -25,7 +25,7 @@ from ilmek.machines.automated_loom.joints import joint_checks
 from ilmek.machines.automated_loom.machine_cost import price_shares
 from ilmek.machines.automated_loom.off_loom import off_loom
 from ilmek.machines.automated_loom.params import COST
-from ilmek.machines.automated_loom.parts import PartsList, motors
+from ilmek.machines.automated_loom.parts import PartsList, needs_of
 from ilmek.machines.automated_loom.price_tables import parts_table, price_table, prices_tables
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.rate_limits import RateLimits, rate_limits
@@ -129,7 +129,7 @@ class LoomAnalysis:
 def analyse(loom: LoomDesign) -> LoomAnalysis:
     """Time, parts and energy of a loom."""
     listed = whole_list(loom)
-    energy, time = energy_of(loom, motors(listed.parts)), estimated_time(loom)
+    energy, time = energy_of(loom, needs_of(loom, listed.parts).axes), estimated_time(loom)
     cost = carpet_cost(loom, listed, time, energy.total)
     return LoomAnalysis(loom, time, time_shares(loom), listed, energy, loom.beat, cost)
 

@@ -5,9 +5,13 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 """
 
 import cmath
+import math
 from collections.abc import Iterable, Iterator
 
+from ilmek.elements.cabinet_devices import fuse_of, supply_for
 from ilmek.elements.columns import STEEL
+from ilmek.elements.field_devices import TERMINAL
+from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -21,10 +25,14 @@ from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, 
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
+from ilmek.records import record
 from ilmek.units import format_quantity, mm
 
-CABINET, WALL = (0.8, 1.0, 0.3), 2 * mm
-"""Least width, height and depth of the control's cabinet, and its wall [m]; assumed by this project."""
+CABINET, WALL = (0.8, (1.0, 1.2, 1.4, 1.6, 1.8, 2.0), 0.3), 2 * mm
+"""Least width, heights and depth of the control's cabinet, and its wall [m]; assumed by this project."""
+
+RAIL_ENDS = 50 * mm
+"""Of the cabinet's height above and below a mounting rail [m]; assumed by this project."""
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
@@ -42,10 +50,33 @@ def back_rest_tube(loom: LoomDesign) -> Tube:
     return max(TUBES.values(), key=lambda row: (-abs(row.outer - outer), row.wall))
 
 
-def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
+@record
+class ControlNeeds:
+    """What the cabinet has room for: amplifiers of axes, and the length of mounting rails [m]."""
+
+    axes: int
+    rail: float
+
+
+def control_needs(motors: Iterable[tuple[str, float, int]], signals: int) -> ControlNeeds:
+    """The needs of a control of so many signals; motors: kind, power [W] and number of those of each part."""
+    loads = [(MotorLoad(kind, power), number) for kind, power, number in motors]
+    fuses = (number * load.poles * load.fused.row.size[0] for load, number in loads)
+    steppers = math.fsum(number * load.apparent for load, number in loads if load.volts == STEPPER_VOLTS)
+    row, number = supply_for(STEPPER_VOLTS, steppers)
+    each = row.size[0] + row.phases * fuse_of(_LEAST_FUSE, MAINS).row.size[0]
+    terminals = math.ceil(signals / 2) * TERMINAL.size[0]
+    return ControlNeeds(sum(number for _, number in loads), _OTHERS + number * each + terminals + math.fsum(fuses))
+
+
+_OTHERS, _LEAST_FUSE = 0.75, 2.0
+"""Length of what is on the rails beside fuses, supplies of steppers, terminals [m], and rating of their fuses [A]."""
+
+
+def standing_frame(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds) -> RigidBody:
     """Two columns with their feet and brackets, the beams across between them, posts under a rail of several spans.
 
-    axes  of the control
+    needs  of the control
     """
     made = brackets_of(loom)
     parts = (
@@ -58,7 +89,7 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, axes: int) -> RigidBody:
             made.face + frame.column.side,
             loom.side.floor,
             loom.side.column - frame.column.side / 2 - frame.task.depth,
-            axes,
+            needs,
         ),
         *support_bodies(loom, frame, made.face),
         *steady_posts(loom, frame, made),
@@ -184,17 +215,20 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
         yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
 
 
-def control_parts(right: float, floor: float, rear: float, axes: int) -> Iterator[Occurrence]:
+def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) -> Iterator[Occurrence]:
     """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there.
 
-    right, rear  outer side of the column, and end of its rear foot [m]      axes  of the control
+    right, rear  outer side of the column, and end of its rear foot [m]      needs  of the control
     """
-    columns, (across, upwards), (least, high, deep) = -(-axes // _MODULE_ROWS), _MODULE_PITCH, CABINET
+    axes, (across, upwards), (least, heights, deep) = needs.axes, _MODULE_PITCH, CABINET
+    columns = -(-axes // _MODULE_ROWS)
+    high = next((high for high in heights if 2 * (high - 2 * RAIL_ENDS) >= needs.rail), heights[-1])
     wide = max(least, columns * across + 2 * WALL)
     inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
     sides = Prism(Profile(rectangle(wide, high), (inside,)), deep)
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
-    control = bought_part(part_id("control"), "control", "control", shape, Bought("cabinet"))
+    named = "cabinet " + " x ".join(f"{size / mm:.0f}" for size in (wide, high, deep)) + " mm, sheet steel"
+    control = bought_part(part_id("control"), "control", "control", shape, Bought(named, shape.volume * STEEL.density))
     module = bought_part(
         AMPLIFIER,
         "axis of the control",

@@ -45,6 +45,9 @@ MOTOR, CLUTCH, FLYWHEEL = "beat-up/motor", "beat-up/clutch", "beat-up/flywheel"
 CLUTCHES = (7.5, 15.0, 30.0, 60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0, 7680.0)
 """Torques of clutches and brakes to choose from [N m], each twice the one before: usual sizes."""
 
+CLUTCH_POWER = 8.0
+"""Power of the coils of clutch and brake of 1 N m [W]; of a torque times its power 0.4: assumed by this project."""
+
 CLUTCH_MASS = 0.1
 """Mass of clutch and brake for each N m of their torque [kg]: assumed by this project."""
 
@@ -193,7 +196,7 @@ def _coupled(start: CrankStart) -> Iterator[Part]:
     size = start.clutch or start.clutch_torque
     mass = CLUTCH_MASS * size
     wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
-    bought = Bought(format_quantity(size, "Nm"), mass)
+    bought = Bought(format_quantity(size, "Nm"), mass, power=CLUTCH_POWER * size**0.4)
     name = "clutch and brake"
     yield bought_part(CLUTCH, f"{name} of the beat-up", name, bar(wide, wide / 2), bought)
     if start.start_flywheel > 0:

@@ -37,7 +37,7 @@ from ilmek.units import format_quantity, in_mm, mm
 COMB = "hammer/comb"
 """Body of the comb."""
 
-MOTOR = "hammer/motor"
+MOTOR, BRAKE, AXIS = "hammer/motor", "hammer/motor-brake", "hammer/axis"
 
 AXIS_SIDE = 80 * mm
 """Side of the section of a vertical axis [m]; assumed by this project."""
@@ -184,16 +184,18 @@ def _before_axes(hammer: Hammer) -> float:
 
 @lru_cache(maxsize=4)
 def _driving(hammer: Hammer) -> tuple[Part, ...]:
-    """Reducer and motor of a vertical axis."""
+    """Reducer, motor and brake of a vertical axis."""
     found = hammer.axis
     assert found is not None
     drive, load = found.drive, found.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     row = drive.motor if drive else None
     motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
-    if drive is None or drive.reducer.ratio == 1:
-        return (motor,)
-    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer, row), motor
+    ratio = drive.reducer.ratio if drive else 1.0
+    brake = catalogue.holding_brake(BRAKE, "brake of a vertical axis", motor, found.brake / ratio)
+    if drive is None or ratio == 1:
+        return motor, brake
+    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer, row), motor, brake
 
 
 def _axis_data(params: HammerParams) -> str:
@@ -207,11 +209,11 @@ def _axis_data(params: HammerParams) -> str:
 
 @lru_cache(maxsize=4)
 def _on_axes(hammer: Hammer) -> Tree:
-    params, (*geared, motor) = hammer.params, _driving(hammer)
+    params, (*geared, motor, brake) = hammer.params, _driving(hammer)
     number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
     shape = box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT)
     bought = Bought(params.axis, length=params.stroke, data=_axis_data(params))
-    axis = bought_part("hammer/axis", "vertical axis", "linear axis", shape, bought, size=params.axis)
+    axis = bought_part(AXIS, "vertical axis", "linear axis", shape, bought, size=params.axis)
     edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
@@ -232,11 +234,12 @@ def _on_axes(hammer: Hammer) -> Tree:
     def standing(height: float) -> tuple[Placement, ...]:
         return tuple(placement(front, height, float(z)).after(upright) for z in stations)
 
+    upside = tuple(placement(front, top, float(z)).after(flipped) for z in stations)
     parts = (
         *_beam_before_axes(hammer),
         Occurrence(axis, standing(low)),
         *(Occurrence(part, standing(end)) for part in geared),
-        Occurrence(motor, tuple(placement(front, top, float(z)).after(flipped) for z in stations)),
+        *(Occurrence(part, upside) for part in (motor, brake)),
     )
     axes = RigidBody("hammer/axes", parts)
     comb = (*_comb(hammer), Occurrence(block, blocks))

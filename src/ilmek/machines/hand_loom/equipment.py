@@ -11,7 +11,7 @@ from ilmek.machines.automated_loom.equipment.circuit import circuit, circuit_che
 from ilmek.machines.automated_loom.equipment.guard_parts import guards
 from ilmek.machines.automated_loom.equipment.guards import guard_checks
 from ilmek.machines.automated_loom.equipment.sensors import encoder, sensor_tree
-from ilmek.machines.automated_loom.equipment.signals import BEAT_ANGLE, OF_A_BEAT
+from ilmek.machines.automated_loom.equipment.signals import BEAT_ANGLE, beat_signals
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.station import station_checks, station_of, station_tree
 from ilmek.machines.automated_loom.equipment.stopping import BEAT as BEAT_AXIS
@@ -20,8 +20,6 @@ from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, h
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.beat_up.beam import BEAM
-from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
-from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
 from ilmek.machines.hand_loom.driven_beat import BEAT, two_beats
 from ilmek.machines.hand_shed.tree import SHED
 from ilmek.part.extents import extents
@@ -43,7 +41,7 @@ def beat_site(drive: BeatDrive, tree: Tree, floor: float, weavers: int) -> LoomS
         stops=StoppingTime(circuit_time(GRID), {BEAT_AXIS: beat_stop(drive, two_beats(drive.beat))}),
         floor=floor,
         width=drive.task.cloth.width,
-        signals=len(OF_A_BEAT) + weavers - 1,
+        signals=beat_signals(weavers),
         heads=0,
         weavers=weavers,
     )
@@ -52,13 +50,34 @@ def beat_site(drive: BeatDrive, tree: Tree, floor: float, weavers: int) -> LoomS
 @lru_cache(maxsize=4)
 def equipment(site: LoomSite) -> tuple[MachineTree, ...]:
     """The trees of guards, circuit, station, and of the encoder on the beat's carriage."""
-    own = (MachineTree(OWN, made(site)) for made in (guards, circuit, station_tree))
-    return (*own, sensor_tree(encoder(site.near, BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)), OWN))
+    others = watched(site)
+    return (*others, MachineTree(OWN, circuit(site, with_equipment(site))))
+
+
+@lru_cache(maxsize=4)
+def watched(site: LoomSite) -> tuple[MachineTree, ...]:
+    """The equipment without its circuit."""
+    own = (MachineTree(OWN, made(site)) for made in (guards, station_tree))
+    return (*own, sensor_tree(encoder(site.near, BEAT_ANGLE, "encoder of the beat"), OWN))
+
+
+@lru_cache(maxsize=4)
+def with_equipment(site: LoomSite) -> Tree:
+    """All bodies but those of the circuit."""
+    tree = site.near.tree
+    for own in watched(site):
+        tree = tree.carrying(own.parent, own.tree, own.position)
+    return tree
 
 
 def equipment_checks(site: LoomSite) -> tuple[Check, ...]:
     """The checks of guards, circuit and station, and of the room for arms over what stands before the warps."""
-    return (*guard_checks(site), *circuit_checks(site), *station_checks(site), *_arms_checks(site))
+    return (
+        *guard_checks(site),
+        *circuit_checks(site, with_equipment(site)),
+        *station_checks(site),
+        *_arms_checks(site),
+    )
 
 
 ARM_ROOM = 60 * mm

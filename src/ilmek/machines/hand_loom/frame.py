@@ -19,13 +19,14 @@ from ilmek.machines.automated_loom.equipment.bench import (
     bench_for,
     bench_parts,
 )
+from ilmek.machines.automated_loom.equipment.signals import beat_signals
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.feet import FOOT, Foot, foot_for
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.beating import beat_branch
 from ilmek.machines.automated_loom.in_space.machines import joined
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.standing_frame import control_parts
+from ilmek.machines.automated_loom.standing_frame import control_needs, control_parts
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.hand_beat import HandBeat
 from ilmek.machines.hand_beat.report import tree as tools_tree
@@ -107,8 +108,9 @@ def _of_a_drive(loom: HandLoom, drive: BeatDrive) -> Iterator[Occurrence]:
     x, over = layout.face + section.side / 2, layout.floor + FOOT + layout.base.side
     post = member("beat-post", "post of the beat", posts.section, posts.height)
     yield Occurrence(post, tuple(placement(side, over, posts.depth).after(UPRIGHT) for side in (-x, x)))
-    axes = sum(line.number for line in drive.parts if line.drives)
-    yield from control_parts(layout.face + section.side, layout.floor, layout.depth - layout.reach, axes)
+    motors = ((line.kind, line.power, line.number) for line in drive.parts if line.drives)
+    needs = control_needs(motors, beat_signals(loom.weavers))
+    yield from control_parts(layout.face + section.side, layout.floor, layout.depth - layout.reach, needs)
 
 
 @lru_cache(maxsize=4)

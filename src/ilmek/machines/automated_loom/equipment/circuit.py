@@ -1,74 +1,170 @@
-"""The safety circuit and the control's own devices in the cabinet, on mounting rails at its side walls.
+"""What stands in the cabinet on mounting rails at its side walls: supply, fuses, safety circuit, control, terminals.
 
-Supply, motion controller, safety relay, and a level of a terminal for each signal that has an address [`signals`]. The
-amplifiers of the axes stand on the rear wall [`standing_frame`]; the rails stand before them.
+Main switch and fuses; supplies of 24 V and of 48 V, with what burns the energy of braking steppers [`power_plan`];
+motion controller, safety relay, inputs for sensors that no terminal takes, and a level of a terminal for each signal
+that has an address [`signals`]. The amplifiers of the axes stand on the rear wall [`standing_frame`]; the rails stand
+before them. A fan in the door where the walls do not pass the heat.
 """
 
 import math
 from collections.abc import Iterator
+from functools import lru_cache
 
-from ilmek.elements.field_devices import CONTROLLER, RELAY, SUPPLY, TERMINAL, FieldDevice
+from ilmek.elements.cabinet_devices import BRAKING, PROTECTOR, WARMER, fan_for, main_switch, passed
+from ilmek.elements.columns import STEEL
+from ilmek.elements.field_devices import (
+    CHANNELS,
+    CONTROLLER,
+    INPUTS,
+    OUTPUTS,
+    RELAY,
+    STRAIN_AMPLIFIER,
+    TERMINAL,
+    FieldDevice,
+)
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
+from ilmek.machines.automated_loom.equipment.power_plan import PowerPlan, power_plan
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.frame import part_id
-from ilmek.machines.automated_loom.standing_frame import WALL
+from ilmek.machines.automated_loom.standing_frame import RAIL_ENDS, WALL
 from ilmek.part.extents import Extent
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.records import record
 from ilmek.report import Check, at_most
 from ilmek.units import format_quantity, mm, turn
 
 RAIL, RAIL_MASS = (35 * mm, 7.5 * mm), 0.32
 """Width and height of a mounting rail [m], and its mass per length [kg/m]: EN 60715, TH 35-7.5."""
 
-_FREE = 50 * mm
-"""Of the cabinet's height above and below a rail [m]; assumed by this project."""
-
 CIRCUIT = part_id("circuit")
 """Id of the body."""
+
+GROWING = frozenset(("terminal", "fuse", "power supply"))
+"""Processes of what there is more of, or larger, for more motors and signals."""
 
 _DEPTH = 125 * mm
 """Of the cabinet before its amplifiers [m]."""
 
 _QUARTER = placement(about=(0.0, 0.0, 1.0), angle=turn / 4)
 
-_DEVICES: tuple[tuple[str, str, FieldDevice], ...] = (
-    (signals.SUPPLY, "power supply of the control", SUPPLY),
-    (signals.CONTROLLER, "motion controller", CONTROLLER),
-    (signals.RELAY, "safety relay", RELAY),
-)
+
+@record
+class RailDevice:
+    """A device on the rails: part, row, pieces."""
+
+    part: Part
+    row: FieldDevice
+    number: int
 
 
-def terminals(site: LoomSite) -> int:
-    """Terminals of two levels, a level for each signal."""
-    return math.ceil(site.signals / 2)
+@record
+class CabinetCircuit:
+    """What stands in the cabinet: its power plan, the devices on the rails in their order, the fan if any, its surface.
+
+    carried  heat that walls and fan carry at `WARMER` [W]
+    """
+
+    plan: PowerPlan
+    devices: tuple[RailDevice, ...]
+    fan: FieldDevice | None
+    carried: float
+
+    @property
+    def length(self) -> float:
+        """Of the rails that all devices take [m]."""
+        return math.fsum(own.number * own.row.size[0] for own in self.devices)
 
 
-def circuit(site: LoomSite) -> Tree:
+def _on_rail(name: str, title: str, row: FieldDevice, number: int, power: float = 0.0) -> RailDevice:
+    return RailDevice(device(name, title, row, power), row, number)
+
+
+@lru_cache(maxsize=8)
+def circuit_of(site: LoomSite, tree: Tree) -> CabinetCircuit:
+    """The circuit of a loom; tree: all its bodies but those of the circuit."""
+    numbers = {part.id: number for part, number in tree.occurrences()}
+    control = [
+        _on_rail(signals.CONTROLLER, "motion controller", CONTROLLER, 1),
+        _on_rail(signals.RELAY, "safety relay", RELAY, 1),
+    ]
+    if signals.TENSION in numbers:
+        control.append(_on_rail(signals.STRAIN_AMPLIFIER, "amplifier of the strain", STRAIN_AMPLIFIER, 1))
+    read = sum(numbers.get(name, 0) // share for name, share in signals.READ.items())
+    if read:
+        modules = math.ceil(read / CHANNELS)
+        control.append(_on_rail(signals.INPUTS, "inputs of the motion controller", INPUTS, modules))
+    switched = sum(numbers.get(name, 0) for name in signals.SWITCHED)
+    if switched:
+        modules = math.ceil(switched / CHANNELS)
+        control.append(_on_rail(signals.OUTPUTS, "outputs of the motion controller", OUTPUTS, modules))
+    drawn = {own.part.id: own.number * own.row.power for own in control}
+    (cabinet,) = site.near.of(CONTROL)
+    surface, heat = _surface(cabinet), power_plan(tree, site.heads, drawn).heat
+    carried, fan = fan_for(heat, surface) or (0.0, None)
+    plan = power_plan(tree, site.heads, drawn if fan is None else drawn | {signals.FAN: fan.power})
+    terminals = _on_rail(signals.TERMINAL, "terminal of two signals", TERMINAL, math.ceil(site.signals / 2))
+    return CabinetCircuit(plan, (*_of_supply(plan), *control, terminals), fan, passed(surface) + carried)
+
+
+def _of_supply(plan: PowerPlan) -> Iterator[RailDevice]:
+    """Main switch, supplies, fuses."""
+    yield _on_rail(signals.SWITCH, "main switch", main_switch(plan.main_fuse), 1)
+    for source in plan.sources:
+        title = "power supply of the control" if source is plan.control else "power supply of the steppers"
+        yield _on_rail(source.part, title, source.row, source.number, source.row.rated)
+    yield _on_rail(signals.PROTECTOR, "fuses of 24 V", PROTECTOR, plan.control.number)
+    if plan.steppers is not None:
+        yield _on_rail(signals.BRAKING, "braking module of the steppers", BRAKING, 1)
+    for fuse, number in sorted(plan.fuses.items(), key=lambda own: (own[0].row.size, own[0].rating)):
+        yield _on_rail(part_id(f"fuse-{fuse.form}-{fuse.rating:g}"), "fuse", fuse.row, number)
+
+
+def _surface(cabinet: Extent) -> float:
+    """Of the walls of a cabinet that stands with its rear at a loom [m²]: sides, front, roof."""
+    wide, high, deep = (cabinet.high - cabinet.low).tolist()
+    return float(2 * high * deep + wide * (high + deep))
+
+
+def circuit(site: LoomSite, tree: Tree) -> Tree:
     """The devices on both side walls of the cabinet; those of the right one only where the left one is full."""
     (control,) = site.near.of(CONTROL)
-    long, base = _rail_length(control), float(control.low[1]) + _FREE
-    height, stands = base, list[Occurrence]()
-    for name, title, row in _DEVICES:
-        height += row.size[0]
-        position = _on_wall(control, height - row.size[0] / 2, left=True)
-        stands.append(Occurrence(device(name, title, row), (position,)))
-    number, wide = terminals(site), TERMINAL.size[0]
-    left = min(number, int((base + long - height) / wide))
-    levels = [(height + (k + 0.5) * wide, True) for k in range(left)]
-    levels += [(base + (k + 0.5) * wide, False) for k in range(number - left)]
-    terminal = device(signals.TERMINAL, "terminal of two signals", TERMINAL)
-    stands.append(Occurrence(terminal, tuple(_on_wall(control, y, left=at) for y, at in levels)))
-    stands.append(Occurrence(_rail(long), tuple(_rails(control, both=number > left))))
+    made, long, base = circuit_of(site, tree), rail_length(control), float(control.low[1]) + RAIL_ENDS
+    stands, height, left = list[Occurrence](), base, True
+    for own in made.devices:
+        wide, positions = own.row.size[0], []
+        for _ in range(own.number):
+            if left and height + wide > base + long:
+                height, left = base, False
+            positions.append(_on_wall(control, height + wide / 2, left=left))
+            height += wide
+        stands.append(Occurrence(own.part, tuple(positions)))
+    stands.append(Occurrence(_rail(long), tuple(_rails(control, both=not left))))
+    if made.fan is not None:
+        x, y, _ = ((control.low + control.high) / 2).tolist()
+        behind = placement(x, y, float(control.low[2]))
+        stands.append(Occurrence(device(signals.FAN, "fan in the door of the cabinet", made.fan), (behind,)))
+    stands.append(_door(control))
     return Tree((RigidBody(CIRCUIT, tuple(stands)),))
 
 
-def _rail_length(control: Extent) -> float:
-    return float(control.high[1] - control.low[1]) - 2 * _FREE
+def _door(control: Extent) -> Occurrence:
+    """The door of the cabinet, before its open side."""
+    wide, high, _ = (control.high - control.low).tolist()
+    shape = box(wide, high, WALL)
+    bought = Bought(f"door {wide / mm:.0f} x {high / mm:.0f} mm, with lock", shape.volume * STEEL.density)
+    door = bought_part(signals.DOOR, "door of the cabinet", "cabinet door", shape, bought)
+    x, y, _ = ((control.low + control.high) / 2).tolist()
+    return Occurrence(door, (placement(x, y, float(control.low[2]) - WALL),))
+
+
+def rail_length(control: Extent) -> float:
+    """Length of a mounting rail in the cabinet [m]."""
+    return float(control.high[1] - control.low[1]) - 2 * RAIL_ENDS
 
 
 def _rail(long: float) -> Part:
@@ -82,7 +178,7 @@ def _rail(long: float) -> Part:
 def _rails(control: Extent, *, both: bool) -> Iterator[Placement]:
     """Upright, on the side walls."""
     turned = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4).after(_QUARTER)
-    base, middle = float(control.low[1]) + _FREE, _middle(control)
+    base, middle = float(control.low[1]) + RAIL_ENDS, _depth(control)
     for x in (_wall(control, left=True), _wall(control, left=False))[: 1 + both]:
         towards = RAIL[1] / 2 if x < (control.low[0] + control.high[0]) / 2 else -RAIL[1] / 2
         yield placed(x + towards, base, middle, turned)
@@ -93,7 +189,7 @@ def _wall(control: Extent, *, left: bool) -> float:
     return float(control.low[0]) + WALL if left else float(control.high[0]) - WALL
 
 
-def _middle(control: Extent) -> float:
+def _depth(control: Extent) -> float:
     """Middle of the devices' heights in the cabinet's depth [m]."""
     return float(control.low[2]) + _DEPTH / 2
 
@@ -101,16 +197,38 @@ def _middle(control: Extent) -> float:
 def _on_wall(control: Extent, y: float, *, left: bool) -> Placement:
     """A device on a rail: its depth into the cabinet, its width upwards."""
     x = _wall(control, left=left) + (RAIL[1] if left else -RAIL[1])
-    return placed(x, y, _middle(control), (TO_THE_RIGHT if left else TO_THE_LEFT).after(_QUARTER))
+    return placed(x, y, _depth(control), (TO_THE_RIGHT if left else TO_THE_LEFT).after(_QUARTER))
 
 
-def circuit_checks(site: LoomSite) -> tuple[Check, ...]:
-    """Whether the terminals of all signals have room on two rails."""
+def circuit_checks(site: LoomSite, tree: Tree) -> tuple[Check, ...]:
+    """Room for all devices on two rails, load of the supplies, heat of the cabinet; tree as in `circuit`."""
     (control,) = site.near.of(CONTROL)
-    needed = math.fsum(row.size[0] for _, _, row in _DEVICES) + terminals(site) * TERMINAL.size[0]
-    source = f"two side walls of the cabinet; {site.signals} signals, two on a terminal"
+    made = circuit_of(site, tree)
+    plan, fewer = made.plan, "set fewer heads or weavers"
+    loads = (
+        at_most(
+            f"control: load of its supplies of {own.row.volts:g} V",
+            own.load,
+            own.number * own.row.rated,
+            "W",
+            f"{own.number} x {own.row.name}; all consumers at their rated power",
+        ).with_cure(fewer, own.part)
+        for own in plan.sources
+    )
     return (
-        at_most("control: length of its mounting rails", needed, 2 * _rail_length(control), "mm", source).with_cure(
-            "set fewer heads or weavers", signals.TERMINAL, part_id("mounting-rail")
-        ),
+        at_most(
+            "control: length of its mounting rails",
+            made.length,
+            2 * rail_length(control),
+            "mm",
+            f"two side walls of the cabinet; {site.signals} signals, two on a terminal",
+        ).with_cure(fewer, signals.TERMINAL, part_id("mounting-rail")),
+        *loads,
+        at_most(
+            "control: heat in its cabinet",
+            plan.heat,
+            made.carried,
+            "W",
+            f"walls and fan at {WARMER:g} K over the room; IEC TR 60890",
+        ).with_cure(fewer, CONTROL),
     )

@@ -7,10 +7,11 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
-from ilmek.elements.field_devices import BRAKE, YARN_SENSOR
+from ilmek.elements.field_devices import BRAKE, CHANNELS, FIELD_INPUTS, YARN_SENSOR
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import (
+    BETWEEN,
     BRAKE_ID,
     CONDUIT,
     CORE,
@@ -23,7 +24,7 @@ from ilmek.machines.automated_loom.equipment.creel import (
     creel_of,
     foot_under_duct,
 )
-from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
+from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, TO_THE_LEFT, TO_THE_RIGHT, device, placed
 from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
@@ -32,7 +33,7 @@ from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
 from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
+from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, box, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
@@ -77,8 +78,32 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     yield Occurrence(peg, on_pegs)
     yield Occurrence(package, on_pegs)
     yield Occurrence(brake, tuple(placed(creel.inner, y, z, outwards) for y, z in creel.axes))
+    yield _yarn_inputs(loom, creel)
     above = (BRAKE.size[1] + YARN_SENSOR.size[1]) / 2
     yield Occurrence(sensor, tuple(placed(creel.inner, y + above, z, outwards) for y, z in creel.axes))
+
+
+def _yarn_inputs(loom: LoomDesign, creel: Creel) -> Occurrence:
+    """For each head the modules that read the sensors of its yarns, one over the other on the ends of the uprights."""
+    number = loom.heads * math.ceil(creel.number / loom.heads / CHANNELS)
+    part = device(signals.YARN_INPUTS, "inputs for the yarns of a head", FIELD_INPUTS)
+    high, (begin, end) = FIELD_INPUTS.size[1] + BETWEEN, creel.ends
+    each, out = max(1, int(_top(loom, creel) // high)), POST / 2
+    xs = creel.base + 1.5 * creel.hand * POST, creel.inner
+    stations = [(x, z, turned) for z, turned in ((end + out, IDENTITY), (begin - out, TO_THE_BACK)) for x in xs]
+    return Occurrence(
+        part,
+        tuple(
+            placed(x, loom.side.floor + (index % each + 0.5) * high, z, turned)
+            for index in range(number)
+            for x, z, turned in [stations[min(index // each, len(stations) - 1)]]
+        ),
+    )
+
+
+def _top(loom: LoomDesign, creel: Creel) -> float:
+    """Of the uprights over the floor [m]."""
+    return creel.rows[-1] + creel.size / 2 + POST - loom.side.floor
 
 
 def _stand(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
@@ -88,7 +113,7 @@ def _stand(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     rail = member("creel-rail", "rail of the creel", _SECTION, end - begin + POST)
     behind, before = creel.base + out / 2, creel.inner - out / 2
     yield Occurrence(rail, tuple(placement(x, y, begin - half) for x in (behind, before) for y in creel.rows))
-    top = creel.rows[-1] + creel.size / 2 + POST
+    top = floor + _top(loom, creel)
     every = max(1, math.floor(_UPRIGHTS / creel.pitch))
     between = [(a + b) / 2 for a, b in pairwise(creel.columns)]
     stations = (begin, *between[every - 1 :: every], end)

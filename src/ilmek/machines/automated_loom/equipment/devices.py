@@ -7,9 +7,9 @@ from ilmek.part.shapes import box
 from ilmek.units import turn
 
 
-def device(name: str, title: str, row: FieldDevice) -> Part:
-    """A device with the room that it takes: width along x, height along y, from z = 0 along z."""
-    shape, bought = box(*row.size), Bought(row.name, row.mass)
+def device(name: str, title: str, row: FieldDevice, power: float = 0.0) -> Part:
+    """A device with the room that it takes: width along x, height along y, along z from 0; power of a supply [W]."""
+    shape, bought = box(*row.size), Bought(row.name, row.mass, power=power)
     return bought_part(name, title, row.kind, shape, bought)
 
 

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
-from ilmek.elements.field_devices import ACTUATOR, BUTTON, GRID, INTERLOCK, STOP
+from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
     TO_THE_BACK,
@@ -36,7 +36,7 @@ from ilmek.machines.automated_loom.equipment.guards import (
     side_posts,
 )
 from ilmek.machines.automated_loom.equipment.site import LoomSite
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, Surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
@@ -224,6 +224,9 @@ def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
     yield Occurrence(stop, (*before, back))
     reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
     yield Occurrence(reset, (placement(right, fence.floor + _RESET_HEIGHT, outer),))
+    enabling = device(signals.ENABLING, "enabling switch for setting up", ENABLING)
+    under = height - (STOP.size[1] + ENABLING.size[1]) / 2 - GAP
+    yield Occurrence(enabling, (placement(right, under, outer),))
 
 
 def _stations(front: tuple[float, ...]) -> Iterable[float]:

@@ -10,7 +10,7 @@ The warps pull down on the beam with P, and to the back with as much, which bend
 all: it is strained by P l c / (8 E I).                                           [beam theory; Timoshenko and Gere]
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import product
 
@@ -26,9 +26,7 @@ from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
-from ilmek.machines.hammer.tree import MOTOR as HAMMER_MOTOR
-from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
+from ilmek.part.catalogue import brakes_of
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import Corner, shape_box
@@ -37,7 +35,7 @@ from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
 from ilmek.units import mm
 
-ROW_MOTORS = (CRANK_MOTOR, HAMMER_MOTOR, signals.SHEDDING_MOTOR)
+ROW_MOTORS = (*signals.ENCODED[signals.BEAT_ANGLE], *signals.ENCODED[signals.SHED_ANGLE])
 """Motors of beat and shedding, each with an encoder behind it."""
 
 _STEP = 10 * mm
@@ -63,11 +61,11 @@ def mounted_sensors(loom: LoomDesign) -> tuple[MountedSensor, ...]:
     near = surroundings(loom)
     of_heads: tuple[MountedSensor, ...] = ()
     if loom.heads:
-        of_heads = encoder(near, signals.HEAD_ANGLE, "encoder of a head", (HEAD_MOTOR,)), _on_the_axis(near)
+        of_heads = encoder(near, signals.HEAD_ANGLE, "encoder of a head"), _on_the_axis(near)
     return (
         *of_heads,
-        encoder(near, signals.BEAT_ANGLE, "encoder of the beat", (CRANK_MOTOR, HAMMER_MOTOR)),
-        encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams", (signals.SHEDDING_MOTOR,)),
+        encoder(near, signals.BEAT_ANGLE, "encoder of the beat"),
+        encoder(near, signals.SHED_ANGLE, "encoder of the shedding cams"),
         _strain(near),
         _barriers(loom, near),
         _weft_sensor(loom, near),
@@ -85,11 +83,12 @@ def sensor_tree(mounted: MountedSensor, machine: str) -> MachineTree:
     return MachineTree(machine, Tree((body,)), parent=mounted.carrier)
 
 
-def encoder(near: Surroundings, name: str, title: str, motors: Sequence[str]) -> MountedSensor:
-    """An encoder behind a motor, whose flange is at z = 0 and whose body lies behind it."""
-    body, motor, position = near.occurrence(motors)
-    assert motor.shape is not None
-    rear = float(shape_box(motor.shape)[0][2])
+def encoder(near: Surroundings, name: str, title: str) -> MountedSensor:
+    """An encoder behind its motor, or behind the brake of that: the flange is at z = 0 and all lies behind it."""
+    body, motor, position = near.occurrence(signals.ENCODED[name])
+    last = brakes_of(body).get(motor.id, motor)
+    assert last.shape is not None
+    rear = float(shape_box(last.shape)[0][2])
     return MountedSensor(device(name, title, ENCODER), body.id, (position.after(placement(z=rear - ENCODER.size[2])),))
 
 

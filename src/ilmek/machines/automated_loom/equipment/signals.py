@@ -32,7 +32,12 @@ STOP, RESET = part_id("emergency-stop"), part_id("reset-button")
 HANDS, GRID = part_id("hand-button"), part_id("light-grid")
 INTERLOCK, ACTUATOR = part_id("door-interlock"), part_id("interlock-actuator")
 RELAY, CONTROLLER, SUPPLY = part_id("safety-relay"), part_id("motion-controller"), part_id("power-supply")
-TERMINAL = part_id("terminal")
+TERMINAL, STEPPER_SUPPLY, BRAKING = part_id("terminal"), part_id("stepper-supply"), part_id("braking-module")
+SWITCH, PROTECTOR, FAN = part_id("main-switch"), part_id("circuit-protector"), part_id("cabinet-fan")
+DOOR = part_id("cabinet-door")
+STRAIN_AMPLIFIER, YARN_INPUTS = part_id("strain-amplifier"), part_id("yarn-inputs")
+INPUTS, OUTPUTS = part_id("inputs"), part_id("outputs")
+BENCH_STOP, ENABLING = part_id("bench-stop"), part_id("enabling-switch")
 TENSION, RETREATED = part_id("tension-sensor"), part_id("retreat-sensor")
 HEAD_ANGLE, BEAT_ANGLE, SHED_ANGLE = part_id("head-encoder"), part_id("beat-encoder"), part_id("shed-encoder")
 WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-sensor"), part_id("yarn-sensor")
@@ -41,24 +46,36 @@ WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-se
 SHEDDING_MOTOR, CYLINDER_MOTOR = shedding_part("motor"), cylinder_part("motor")
 """Ids of motors."""
 
+ENCODED: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {HEAD_ANGLE: (HEAD_MOTOR,), BEAT_ANGLE: (CRANK_MOTOR, HAMMER_MOTOR), SHED_ANGLE: (SHEDDING_MOTOR,)}
+)
+"""Encoders, and the motors of which each is on the one that a loom has: its amplifier reads it."""
+
+READ: Mapping[str, int] = MappingProxyType({INDEX_SENSOR: 1, WEFT_STOP: 1, WARP_STOP: 2})
+"""Sensors that inputs in the cabinet read, and the pieces that give one signal: sender and receiver of a barrier."""
+
+SWITCHED = (CLUTCH,)
+"""Coils that outputs in the cabinet switch, one each; brakes and solenoids are switched by amplifiers."""
+
+
 _KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR, SOLENOID)
-_TUBE = (COLOUR_MOTOR, TIER_MOTOR, INDEX_SENSOR)
+_TUBE = (COLOUR_MOTOR, TIER_MOTOR, INPUTS, INDEX_SENSOR)
 _ROW = (SHEDDING_MOTOR, RETREAT_MOTOR, WEFT_MOTOR, BOX_MOTOR, EDGE_MOTOR)
-_BEAT = (CRANK_MOTOR, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)
+_BEAT = (CRANK_MOTOR, OUTPUTS, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)
 
 _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EmergencyStop": (STOP, RELAY),
     "DoorClosed": (INTERLOCK, RELAY),
-    "WarpTensionKnown": (TENSION,),
-    "WarpTension": (TENSION,),
-    "GrippersOpen": (HEAD_ANGLE,),
+    "WarpTensionKnown": (STRAIN_AMPLIFIER, TENSION),
+    "WarpTension": (STRAIN_AMPLIFIER, TENSION),
+    "GrippersOpen": (CONTROLLER, HEAD_ANGLE),
     "HeadsClear": (RETREATED,),
-    "BeaterBack": (BEAT_ANGLE,),
-    "ShedClosed": (SHED_ANGLE,),
+    "BeaterBack": (CONTROLLER, BEAT_ANGLE),
+    "ShedClosed": (CONTROLLER, SHED_ANGLE),
     "TieDone": (CONTROLLER,),
-    "TieFault": (CONTROLLER, YARN_STOP),
+    "TieFault": (CONTROLLER, YARN_INPUTS, YARN_STOP),
     "EndDone": (CONTROLLER,),
-    "EndFault": (CONTROLLER, WEFT_STOP, WARP_STOP),
+    "EndFault": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
     "Halt": (RELAY,),
     "TieStart": (CONTROLLER, *_KNOT),
     "TieColumn": (CONTROLLER, CARRIAGE_MOTOR),
@@ -98,8 +115,19 @@ def signals_of(heads: int, weavers: int = 0) -> tuple[tuple[str, tuple[str, ...]
             for index in range(heads if name in PER_HEAD else 1)
         )
     hands, grid = OF_WEAVERS
-    alike = ((name, parts) for name, parts in SIGNALS.items() if name not in PER_HEAD and name not in OF_HEADS)
+    stops = {"EmergencyStop": (STOP, BENCH_STOP, RELAY)}
+    every = {**SIGNALS, **stops}.items()
+    alike = ((name, parts) for name, parts in every if name not in PER_HEAD and name not in OF_HEADS)
     return (*alike, *((f"{hands}[{index}]", (HANDS, RELAY)) for index in range(weavers)), (grid, (GRID, RELAY)))
+
+
+def beat_signals(weavers: int) -> int:
+    """Number of the signals of a loom of which the beat alone is driven.
+
+    >>> beat_signals(2)
+    11
+    """
+    return len(OF_A_BEAT) + weavers - 1
 
 
 def signal_count(heads: int, weavers: int = 0) -> int:

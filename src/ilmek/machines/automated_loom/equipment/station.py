@@ -120,7 +120,7 @@ def _on_board(station: WeaversStation) -> Iterator[Occurrence]:
     button = device(signals.HANDS, "button that a weaver holds", BUTTON)
     xs = (middle + side * ASIDE for middle in station.middles for side in (-1, 1))
     yield Occurrence(button, tuple(placed(x, top, z, UPWARDS) for x in xs))
-    stop = device(part_id("bench-stop"), "emergency stop of the weavers", STOP)
+    stop = device(signals.BENCH_STOP, "emergency stop of the weavers", STOP)
     aside = bench.half - STOP.size[0] / 2
     yield Occurrence(stop, tuple(placed(x, top, z, UPWARDS) for x in (-aside, aside)))
 

@@ -15,7 +15,7 @@ from ilmek.machines.automated_loom.in_space.maker import (
 )
 from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
-from ilmek.machines.automated_loom.parts import motors, parts_of_loom
+from ilmek.machines.automated_loom.parts import needs_of, parts_of_loom
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.slot import over, turned_slot
@@ -41,7 +41,7 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     winding, slotted = (tuple(body for body in turned if (SPACER in body.id) is own) for own in (False, True))
     beside = tuple(body for body in warps if body not in turned)
     return (
-        MachineTree("automated-loom", frame_tree(loom, listed.frame, motors(listed.parts), retreat)),
+        MachineTree("automated-loom", frame_tree(loom, listed.frame, needs_of(loom, listed.parts), retreat)),
         MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
         MachineTree("warp-tension", Tree(winding), deviations=(FINE, COARSE)),
         MachineTree("warp-tension", Tree(slotted), deviations=(COARSE,)),

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.records import record
 from ilmek.report.sheet import LineKind, Schematic, SheetLine, SheetText
 from ilmek.sentences import Sentence
 
@@ -56,49 +57,84 @@ def _switch(at: complex, words: str, *, closed: bool) -> Iterator[Mark]:
     yield _text(at + 4 + 4.2j, words)
 
 
-def single_line(
-    mains: str, feed: str, rows: Sequence[tuple[str, str, str, str, str, str]], supply: tuple[str, str]
-) -> Schematic:
-    """Mains, switch, fuse, busbar; of each motor circuit fuse, amplifier, wire, motor; the supply of the control.
+@record
+class MotorRow:
+    """A motor circuit in words: its number, phases of the motor, fuse, amplifier, wire, motor, its power."""
 
-    rows    of each motor circuit: phases of the motor, fuse, amplifier, wire, motor, its power
-    supply  its fuse, and what it supplies
-    """
+    number: str
+    kind: str
+    fuse: str
+    drive: str
+    wire: str
+    motor: str
+    power: str
+
+
+@record
+class FedRow:
+    """Supplies of direct current in words: sign, fuse, rating, what they give; the motor circuits on their bar."""
+
+    sign: str
+    fuse: str
+    rating: str
+    given: str
+    rows: Sequence[MotorRow]
+
+
+def single_line(mains: str, feed: str, servos: Sequence[MotorRow], supplies: Sequence[FedRow]) -> Schematic:
+    """Mains, switch, fuse, busbar; of each motor circuit fuse, amplifier, wire, motor; supplies with their own bars."""
 
     def marks() -> Iterator[Mark]:
-        low = -_PITCH * (len(rows) + 1)
         yield _text(-72 + 2.5j, mains, anchor="left")
         yield _line(-72, -50)
         yield from _switch(-50 + 0j, "Q1", closed=False)
         yield _line(-42, -34)
         yield from _fuse(-34 + 0j, f"F0: {feed}")
         yield _line(-26, _BUS)
+        low = -_PITCH * (len(servos) + len(supplies))
         yield SheetLine(LineKind.FRAME, np.array([complex(_BUS, 4), complex(_BUS, low - 4)]))
-        for number, (kind, fuse, drive, wire, motor, power) in enumerate(rows, 1):
+        for number, row in enumerate(servos, 1):
+            yield from _motor(row, -_PITCH * number)
+        below = low
+        for number, own in enumerate(supplies, len(servos) + 1):
             y = -1j * _PITCH * number
             yield _line(_BUS + y, _FUSE + y)
-            yield from _fuse(_FUSE + y, f"F{number}: {fuse}")
+            yield from _fuse(_FUSE + y, f"F{own.sign}: {own.fuse}")
             yield _line(_FUSE + 8 + y, _DRIVE + y)
             yield _box(_DRIVE + y - 4j, 26 + 8j)
-            yield _text(_DRIVE + 13 + y + 0.6j, f"T{number}")
-            yield _text(_DRIVE + 13 + y - 2.8j, drive)
-            yield _line(_DRIVE + 26 + y, _MOTOR - 4.5 + y)
-            yield _text((_DRIVE + 26 + _MOTOR - 4.5) / 2 + y + 1.2j, wire)
-            yield _circle(_MOTOR + y, 4.5)
-            yield _text(_MOTOR + y + 0.4j, "M")
-            yield _text(_MOTOR + y - 3j, kind)
-            yield _text(_WORDS + y + 0.5j, f"M{number}: {motor}", anchor="left")
-            yield _text(_WORDS + y - 3j, power, anchor="left")
-        y = 1j * low
-        yield _line(_BUS + y, _FUSE + y)
-        yield from _fuse(_FUSE + y, f"F{len(rows) + 1}: {supply[0]}")
-        yield _line(_FUSE + 8 + y, _DRIVE + y)
-        yield _box(_DRIVE + y - 4j, 26 + 8j)
-        yield _text(_DRIVE + 13 + y - 0.8j, f"T{len(rows) + 1}")
-        yield _line(_DRIVE + 26 + y, _WORDS - 2 + y)
-        yield _text(_WORDS + y - 1j, supply[1], anchor="left")
+            yield _text(_DRIVE + 13 + y + 0.6j, own.sign)
+            yield _text(_DRIVE + 13 + y - 2.8j, own.rating)
+            yield _line(_DRIVE + 26 + y, _WORDS - 2 + y)
+            yield _text(_WORDS + y - 1j, own.given, anchor="left")
+            if own.rows:
+                # From the end of the line down, and back to the bar of its motors.
+                bar, x = below - 1.2 * _PITCH, _WORDS - 12 - 3 * (number - len(servos))
+                yield _line(x + y, complex(x, bar), complex(_BUS, bar))
+                yield _text(complex(_BUS + 2, bar + 1.2), own.given, anchor="left")
+                below = bar - _PITCH * len(own.rows)
+                yield SheetLine(LineKind.FRAME, np.array([complex(_BUS, bar + 2), complex(_BUS, below - 4)]))
+                for index, row in enumerate(own.rows, 1):
+                    yield from _motor(row, bar - _PITCH * index)
 
     return _schematic("single-line", Sentence("electric.single-line"), marks())
+
+
+def _motor(row: MotorRow, height: float) -> Iterator[Mark]:
+    """A motor circuit from its busbar: fuse, amplifier, wire, motor."""
+    y = 1j * height
+    yield _line(_BUS + y, _FUSE + y)
+    yield from _fuse(_FUSE + y, f"F{row.number}: {row.fuse}")
+    yield _line(_FUSE + 8 + y, _DRIVE + y)
+    yield _box(_DRIVE + y - 4j, 26 + 8j)
+    yield _text(_DRIVE + 13 + y + 0.6j, f"T{row.number}")
+    yield _text(_DRIVE + 13 + y - 2.8j, row.drive)
+    yield _line(_DRIVE + 26 + y, _MOTOR - 4.5 + y)
+    yield _text((_DRIVE + 26 + _MOTOR - 4.5) / 2 + y + 1.2j, row.wire)
+    yield _circle(_MOTOR + y, 4.5)
+    yield _text(_MOTOR + y + 0.4j, "M")
+    yield _text(_MOTOR + y - 3j, row.kind)
+    yield _text(_WORDS + y + 0.5j, f"M{row.number}: {row.motor}", anchor="left")
+    yield _text(_WORDS + y - 3j, row.power, anchor="left")
 
 
 def safety_circuit(guards: Sequence[tuple[str, int, str]], amplifiers: int, halt: str) -> Schematic:

@@ -17,21 +17,26 @@ from ilmek.machines.automated_loom.equipment.signals import GRID, HANDS, INTERLO
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.values import known, value_of
+from ilmek.machines.automated_loom.papers.wiring import SIGNS, bought_of, brakes, numbers_of, plan_of
 from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.carriage_belt import BELT, CLAMP
+from ilmek.machines.weaver.carriage_drive import HEADS_BELT
 from ilmek.machines.weaver.drive_parts import CAM_BELT
 from ilmek.machines.weaver.opener_checks import points_room
 from ilmek.machines.weaver.tree import drive_of
 from ilmek.part.placement import IDENTITY
 from ilmek.part.space import rotations
 from ilmek.part.tree import RigidBody
+from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import format_quantity, in_mm
 
-Rows = Iterator[tuple[str, str, str]]
-"""Settings: what is measured, the value expected, and where it is from."""
+Setting = tuple[str, str, str, str, str]
+"""What is measured, the value expected, its tolerance, the instrument, and where the value is from."""
+
+Rows = Iterator[Setting]
 
 _SLANTED = 0.3
 """Component of a unit vector from which a direction names it."""
@@ -48,7 +53,13 @@ def plucked(tension: float, mass: float, length: float) -> float:
 
 def commissioning(loom: LoomDesign, report: Report) -> Paper:
     """The settings, the belts, the directions of the axes, the angles of both cyclograms, the safety circuit."""
-    heads = Column(Sentence("setting.what")), Column(Sentence("setting.expected")), Column(Sentence("setting.source"))
+    heads = (
+        Column(Sentence("setting.what")),
+        Column(Sentence("setting.expected")),
+        Column(Sentence("setting.tolerance")),
+        Column(Sentence("setting.instrument")),
+        Column(Sentence("setting.source")),
+    )
 
     def ticked(name: str, title: str, rows: Rows, text: str = "") -> PaperSection:
         return PaperSection(title, (text,) if text else (), Table(name, title, heads, tuple(rows)), boxes=True)
@@ -71,56 +82,86 @@ def commissioning(loom: LoomDesign, report: Report) -> Paper:
             _angles(row, Sentence("setting.row", period=format_quantity(row.period, "s"))),
             _angles(knot, Sentence("setting.knot", period=format_quantity(knot.period, "s"))),
             ticked("safety", Sentence("setting.safety"), _safety(loom)),
+            ticked("electrics", Sentence("setting.electrics"), _electrics(loom), Sentence("setting.electrics-how")),
         ),
     )
 
 
 def _stand(loom: LoomDesign, report: Report) -> Rows:
-    yield Sentence("setting.level"), "0.1 mm/m", Sentence("setting.assumed")
-    yield Sentence("setting.foot"), f"≤ {format_quantity(value_of(report, 'foot_load'), 'N')}", "foot_load"
-    yield Sentence("setting.fell"), in_mm(value_of(report, "fell_height")), "fell_height"
+    yield _set("level", "0.1 mm/m", "level", 0.02, "mm/m", Sentence("setting.assumed"))
+    yield _set("foot", f"≤ {format_quantity(value_of(report, 'foot_load'), 'N')}", "jack", 0.05, "%", "foot_load")
+    yield _set("fell", in_mm(value_of(report, "fell_height")), "rule", 2, "mm", "fell_height")
     if loom.heads:
-        yield Sentence("setting.rail"), f"≤ {in_mm(loom.params.rail_sag)}", "rail_sag"
+        yield _set("rail", f"≤ {in_mm(loom.params.rail_sag)}", "wire", 0.02, "mm", "rail_sag")
 
 
 def _warp(loom: LoomDesign, report: Report) -> Rows:
     tension, warps = value_of(report, "tension"), value_of(report, "warps")
-    yield Sentence("setting.tension"), format_quantity(tension, "N"), "tension"
-    yield Sentence("setting.pull"), format_quantity(tension * warps, "N"), f"{warps} × tension"
-    yield Sentence("setting.strain"), f"{beam_strain(loom) * 1e6:.4g} µm/m", "tension"
-    yield Sentence("setting.shed"), in_mm(value_of(report, "shedding.shed_opening")), "shedding.shed_opening"
-    yield Sentence("setting.room"), f"≥ {in_mm(loom.shedding.params.shuttle_height)}", "shedding.shuttle_height"
+    strain = f"{beam_strain(loom) * 1e6:.4g} µm/m"
+    yield _set("tension", format_quantity(tension, "N"), "tension-meter", 0.1, "%", "tension")
+    yield _set("pull", format_quantity(tension * warps, "N"), "strain-reading", 0.05, "%", f"{warps} × tension")
+    yield _set("strain", strain, "strain-reading", 0.05, "%", "tension")
+    opening = value_of(report, "shedding.shed_opening")
+    yield _set("shed", in_mm(opening), "rule", 1, "mm", "shedding.shed_opening")
+    room = f"≥ {in_mm(loom.shedding.params.shuttle_height)}"
+    yield _set("room", room, "block", 0.1, "mm", "shedding.shuttle_height")
     lifted = known(report, "warp_tension.tension_lifted")
-    yield Sentence("setting.lifted"), f"≤ {format_quantity(lifted, 'N')}", "warp_tension.tension_lifted"
+    if lifted is not None:
+        most = f"≤ {format_quantity(lifted, 'N')}"
+        yield _set("lifted", most, "tension-meter", 0.1, "%", "warp_tension.tension_lifted")
 
 
 def _tools(loom: LoomDesign, report: Report) -> Rows:
     """Strokes, heights and clearances, of those that this loom has."""
-    lengths = {
-        "beat_stroke": Sentence("setting.beat-stroke"),
-        "row_pitch_left": Sentence("setting.row-pitch"),
-        "weft_height": Sentence("setting.weft-height"),
-        "head_retreat": Sentence("setting.retreat"),
-        "weaver.pair_opened": Sentence("setting.pair"),
-        "weaver.gripper_clearance": Sentence("setting.gripper"),
-        "weaver.centre_depth": Sentence("setting.behind"),
-    }
-    found = ((name, title, known(report, name)) for name, title in lengths.items())
-    yield from ((title, in_mm(value), name) for name, title, value in found if value is not None)
+    lengths = (
+        ("beat-stroke", "beat_stroke", "rule", 1.0),
+        ("row-pitch", "row_pitch_left", "rule", 0.1),
+        ("weft-height", "weft_height", "rule", 1.0),
+        ("retreat", "head_retreat", "rule", 1.0),
+        ("pair", "weaver.pair_opened", "calliper", 0.1),
+        ("gripper", "weaver.gripper_clearance", "feeler", 0.05),
+        ("behind", "weaver.centre_depth", "calliper", 0.1),
+    )
+    found = ((key, name, tool, error, known(report, name)) for key, name, tool, error in lengths)
+    for key, name, tool, error, value in found:
+        if value is not None:
+            yield _set(key, in_mm(value), tool, error, "mm", name)
     if loom.heads:
-        yield Sentence("setting.points"), f"≤ {in_mm(points_room(loom.weaver))}", "warp_pitch"
-        yield Sentence("setting.yarn"), f"≤ {format_quantity(value_of(report, 'yarn_tension'), 'N')}", "yarn_tension"
-        yield Sentence("setting.brake"), format_quantity(value_of(report, "yarn_brake"), "N"), "yarn_brake"
+        points = f"≤ {in_mm(points_room(loom.weaver))}"
+        yield _set("points", points, "calliper", 0.02, "mm", "warp_pitch")
+        pull = f"≤ {format_quantity(value_of(report, 'yarn_tension'), 'N')}"
+        yield _set("yarn", pull, "tension-meter", 0.1, "%", "yarn_tension")
+        brake = format_quantity(value_of(report, "yarn_brake"), "N")
+        yield _set("brake", brake, "tension-meter", 0.1, "%", "yarn_brake")
 
 
-def belts(loom: LoomDesign) -> Iterator[tuple[str, float, str]]:
-    """The belts of the heads with their tension at rest: the frequency of a span by which it is measured [Hz], row."""
+def _set(  # noqa: PLR0917 - the columns of a row
+    key: str, expected: str, instrument: str, error: float, unit: str, source: str
+) -> Setting:
+    """A setting by the keys of its sentence and of its instrument's, with its tolerance ± in a unit; "%": a share."""
+    tolerance = f"± {error:.0%}" if unit == "%" else f"± {error:g} {unit}"
+    return Sentence(f"setting.{key}"), expected, tolerance, Sentence(f"instrument.{instrument}"), source
+
+
+@record
+class BeltSpan:
+    """A free span of a belt: id of the belt, title, tension at rest [N], frequency of the span [Hz]."""
+
+    part: str
+    title: str
+    tension: float
+    frequency: float
+
+
+def belts(loom: LoomDesign) -> Iterator[BeltSpan]:
+    """The belts of the heads with their tension at rest, and the frequency of a span by which it is measured."""
+    if not loom.heads:
+        return
     head, heads = loom.weaver, loom.heads
     drive = drive_of(head)
     tension, span = drive.force * (heads + 1) / 2, head.belt_length - 2 * CLAMP - heads * loom.head_width
-    hertz = plucked(tension, BELT.belt.mass * drive.width, span)
     title = Sentence("setting.heads-belt", span=in_mm(span), tension=format_quantity(tension, "N", 3))
-    yield title, hertz, f"{BELT.belt.name}, {in_mm(drive.width)}"
+    yield BeltSpan(HEADS_BELT, title, tension, plucked(tension, BELT.belt.mass * drive.width, span))
     part = next(part for part, _ in loom_tree(loom).occurrences() if part.id == CAM_BELT)
     assert part.purchase is not None
     teeth = round(part.purchase.length / PROFILE.pitch)
@@ -128,11 +169,30 @@ def belts(loom: LoomDesign) -> Iterator[tuple[str, float, str]]:
     free = math.sqrt(made.distance**2 - (made.radii[1] - made.radii[0]) ** 2)
     rest = head.belt.pull / 2
     title = Sentence("setting.cam-belt", span=in_mm(free), tension=format_quantity(rest, "N", 3))
-    yield title, plucked(rest, PROFILE.mass * head.belt.width, free), part.purchase.row
+    yield BeltSpan(CAM_BELT, title, rest, plucked(rest, PROFILE.mass * head.belt.width, free))
 
 
 def _belts(loom: LoomDesign) -> Rows:
-    return ((title, format_quantity(hertz, "Hz", 3), row) for title, hertz, row in belts(loom))
+    named = {part.id: part.designation for part, _ in loom_tree(loom).occurrences() if part.purchase}
+    return (
+        (own.title, format_quantity(own.frequency, "Hz", 3), "± 5%", Sentence("instrument.frequency"), named[own.part])
+        for own in belts(loom)
+    )
+
+
+def _electrics(loom: LoomDesign) -> Rows:
+    """What is measured before the first motion: protective conductor, insulation, voltages, brakes."""
+    yield _set("protective", "≤ 0.1 Ω", "ohmmeter", 0.01, "Ω", "IEC 60204-1, 18.2")
+    yield _set("insulation", "≥ 1 MΩ", "insulation-meter", 0.1, "%", "IEC 60204-1, 18.3")
+    for own in plan_of(loom).sources:
+        title = Sentence("setting.voltage", sign=SIGNS[own.part])
+        meter = Sentence("instrument.voltmeter")
+        yield title, f"{own.row.volts:g} V", "± 5%", meter, f"{own.number} × {own.row.name}"
+    numbers = numbers_of(loom)
+    for _, sign, part in brakes(loom):
+        title = Sentence("setting.held", sign=sign, part=part.title)
+        count = Sentence("setting.each", count=numbers[part.id])
+        yield title, count, "± 0.1 mm", Sentence("instrument.dial"), bought_of(part).row
 
 
 def _axes(loom: LoomDesign) -> PaperSection:
@@ -220,7 +280,9 @@ def _safety(loom: LoomDesign) -> Rows:
         (HANDS, Sentence("setting.hands")),
     ):
         if part in numbers:
-            yield title, Sentence("setting.each", count=numbers[part]), part
+            count = Sentence("setting.each", count=numbers[part])
+            yield title, count, "–", Sentence("instrument.trial"), part
     for axis in stops.axes:
         limit = format_quantity(stops.circuit + stops.axes[axis], "s", 3)
-        yield Sentence("setting.stands", axis=axis), f"≤ {limit}", Sentence("setting.circuit")
+        stand, source = Sentence("setting.stands", axis=axis), Sentence("setting.circuit")
+        yield stand, f"≤ {limit}", "± 0.01 s", Sentence("instrument.stop-meter"), source

@@ -1,166 +1,151 @@
-"""The electrical plan of a loom: supply, motors with fuses and wires, sensors, terminals, safety circuit.
+"""The electrical plan of a loom: supply, motors with fuses and wires, sensors, terminals, cabinet, safety circuit.
 
-    servo     I = P / (sqrt(3) U e),  U 230 V of three phases       stepper   I = P / (U e),  U 48 V of its amplifier
-    supply    I = sum P / e / (sqrt(3) U),  U 400 V, all at their rated power
-
-e is efficiency times power factor, 0.75; all assumed by this project.
+What feeds what is `equipment.power_plan`, what stands in the cabinet `equipment.circuit`.
 """
 
-import math
 from collections.abc import Iterator, Mapping
 
-from ilmek.elements.field_devices import AMPLIFIERS, RELAY, SUPPLY
-from ilmek.elements.motors import STEPPER
-from ilmek.elements.wiring import fuse_for, protective_section, section_for
+import numpy as np
+
+from ilmek.elements.cabinet_devices import WARMER
+from ilmek.elements.field_devices import RELAY
+from ilmek.elements.motor_loads import CONTROL_VOLTS, MAINS, PHASE, STEPPER_VOLTS
+from ilmek.elements.wiring import protective_section, section_for
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
+from ilmek.machines.automated_loom.equipment.circuit import CIRCUIT
+from ilmek.machines.automated_loom.equipment.power_plan import MotorCircuit, PowerPlan
 from ilmek.machines.automated_loom.equipment.signals import signals_of
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
+from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.automated_loom.papers.circuit_diagrams import safety_circuit, single_line
+from ilmek.machines.automated_loom.papers.circuit_diagrams import FedRow, MotorRow, safety_circuit, single_line
 from ilmek.machines.automated_loom.papers.safety_functions import safety_functions
 from ilmek.machines.automated_loom.papers.values import value_of
+from ilmek.machines.automated_loom.papers.wiring import (
+    SENSING,
+    SIGNS,
+    bought_of,
+    braked,
+    brakes,
+    channels,
+    connected_at,
+    feeds,
+    numbers_of,
+    plan_of,
+    run_of,
+    signs_of,
+    terminal_rows,
+)
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
-from ilmek.machines.weaver.tree import HEAD
-from ilmek.part.part import Part
-from ilmek.records import record
+from ilmek.part.shapes import shape_box
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, mm
 
-MAINS, SERVO_VOLTS, STEPPER_VOLTS, EFFICIENCY = 400.0, 230.0, 48.0, 0.75
-
-CONTROL_POWER = 24.0 * 10.0
-"""Of the supply of the control [W], between two phases of 230 V."""
-
-SENSING = frozenset(("sensor", "load cell", "yarn sensor", "light barrier"))
-SAFE = frozenset(("emergency stop", "interlock", "light grid", "button", "safety relay"))
-"""Processes of sensors, and of devices of the safety circuit."""
-
-
-@record
-class MotorCircuit:
-    """Motors of a part, by their sign in the plan: pieces, cables that lie together."""
-
-    sign: str
-    part: Part
-    number: int
-    together: int
-
-    @property
-    def power(self) -> float:
-        """Rated power of each [W]."""
-        assert self.part.purchase is not None
-        return self.part.purchase.power
-
-    @property
-    def current(self) -> float:
-        """At the rated power [A]."""
-        volts = STEPPER_VOLTS if self.part.process == STEPPER else math.sqrt(3) * SERVO_VOLTS
-        return self.power / (volts * EFFICIENCY)
-
-    @property
-    def fuse(self) -> float:
-        """Rating of its fuse [A]."""
-        return fuse_for(self.current)
-
-    @property
-    def phases(self) -> int:
-        """Phases of its windings."""
-        return 2 if self.part.process == STEPPER else 3
-
-    @property
-    def wires(self) -> int:
-        """Wires of its cable: both ends of the two windings of a stepper, or three phases; and the protective one."""
-        return {2: 4, 3: 3}[self.phases] + 1
-
-    @property
-    def amplifier(self) -> float:
-        """Rated current of its amplifier [A]; nan above the series."""
-        return next((rated for rated in AMPLIFIERS if rated >= self.current), math.nan)
-
-    @property
-    def section(self) -> float:
-        """Section of its wires [mm²]."""
-        return section_for(self.fuse, self.together)
-
-
-def motor_circuits(loom: LoomDesign) -> tuple[MotorCircuit, ...]:
-    """The circuits of all motors; the cables of those on a head lie together in its energy chain."""
-    tree = loom_tree(loom)
-    ridden = tree.carried_by(HEAD) if loom.heads else ()
-    on_head = {own.part.id for name in ridden for own in tree.body(name).occurrences}
-    motors = [
-        (part, number) for part, number in tree.occurrences() if part.purchase is not None and part.purchase.drives
-    ]
-    together = sum(number // loom.heads for part, number in motors if part.id in on_head)
-    return tuple(
-        MotorCircuit(f"M{sign}", part, number, together if part.id in on_head else 1)
-        for sign, (part, number) in enumerate(motors, 1)
-    )
+SAFE = frozenset(("emergency stop", "interlock", "actuator", "light grid", "button", "safety relay", "enabling device"))
+"""Processes of devices of the safety circuit."""
 
 
 def electrical(loom: LoomDesign, report: Report) -> Paper:
-    """Supply, motors, sensors, terminals, safety circuit."""
-    circuits = motor_circuits(loom)
+    """Supply, what feeds what, motors, brakes, sensors, inputs, terminals, cabinet, safety circuit."""
+    plan = plan_of(loom)
     return Paper(
         "electrical",
         Sentence("electric.title"),
         Sentence("electric.lead"),
         (
-            _supply(report, circuits),
-            _motors(circuits),
+            _supply(loom, report, plan),
+            _motors(plan),
             _sensors(loom),
             _terminals(loom),
             _safety(loom, report),
+            _feeds(loom, plan),
+            *_brakes(loom),
+            *_channels(loom),
+            _cabinet(loom, plan),
         ),
     )
 
 
-def connected_load(circuits: tuple[MotorCircuit, ...]) -> float:
-    """Apparent power of all motors at their rated power [VA]."""
-    return math.fsum(one.number * one.power for one in circuits) / EFFICIENCY
-
-
-def _supply(report: Report, circuits: tuple[MotorCircuit, ...]) -> PaperSection:
-    load = connected_load(circuits)
-    current = load / (math.sqrt(3) * MAINS)
-    fuse = fuse_for(current)
-    section = section_for(fuse)
-    rows = [
+def _supply(loom: LoomDesign, report: Report, plan: PowerPlan) -> PaperSection:
+    fuse, section = plan.main_fuse, section_for(plan.main_fuse)
+    sources = (
+        (
+            Sentence("electric.direct", volts=f"{own.row.volts:g} V"),
+            f"{SIGNS[own.part]}: {own.number} × {own.row.name}, {format_quantity(own.load, 'W', 3)}",
+        )
+        for own in plan.sources
+    )
+    rows = (
         (Sentence("electric.mains"), f"3 x {MAINS:g} V, N, PE"),
-        (Sentence("electric.connected"), f"{load / 1e3:.3g} kVA"),
+        (Sentence("electric.connected"), f"{plan.connected / 1e3:.3g} kVA"),
         (Sentence("electric.mean"), format_quantity(value_of(report, "power_mean"), "W", 3)),
-        (Sentence("electric.main-current"), f"{current:.3g} A"),
-        (Sentence("electric.main-fuse"), f"3 x {fuse:g} A gG"),
+        (Sentence("electric.main-current"), f"{plan.current:.3g} A"),
+        (Sentence("electric.main-fuse"), f"F0: 3 x {fuse:g} A gG"),
         (Sentence("electric.main-wire"), f"5 x {section:g} mm² Cu, PE {protective_section(section):g} mm²"),
-    ]
-    if math.isnan(section):  # more than one cable
-        del rows[-2:]
+        *sources,
+    )
     title = Sentence("electric.supply")
     heads = Column(Sentence("electric.what")), Column(Sentence("electric.value"))
+    held = braked(loom)
+    own = {volts: [_drawn(one, held) for one in plan.motors if one.load.volts == volts] for volts in _VOLTS}
     picture = single_line(
         f"3 × {MAINS:g} V N PE",
-        f"{fuse:g} A",
+        f"3 × {fuse:g} A",
+        [*own[MAINS], *own[PHASE]],
         [
-            (
-                f"{one.phases}~",
-                f"{one.number} × {one.fuse:g} A",
-                f"{one.amplifier:g} A, STO",
-                f"{one.wires} × {one.section:g} mm²",
-                f"{one.number} × {one.part.title}",
-                f"{format_quantity(one.power, 'W', 3)}, {one.current:.3g} A",
+            FedRow(
+                SIGNS[source.part],
+                f"{source.number * source.row.phases} × {source.fused.rating:g} A",
+                f"{source.number} × {source.row.amperes:g} A",
+                Sentence("electric.direct", volts=f"{source.row.volts:g} V"),
+                own[source.row.volts],
             )
-            for one in circuits
+            for source in plan.sources
         ],
-        (f"{fuse_for(CONTROL_POWER / SERVO_VOLTS / EFFICIENCY):g} A", Sentence("electric.control", supply=SUPPLY.name)),
     )
-    return PaperSection(
-        title, (Sentence("electric.supply-how"),), Table("supply", title, heads, tuple(rows)), figure=picture
+    return PaperSection(title, (Sentence("electric.supply-how"),), Table("supply", title, heads, rows), figure=picture)
+
+
+_VOLTS = (MAINS, PHASE, STEPPER_VOLTS, CONTROL_VOLTS)
+
+
+def _drawn(one: MotorCircuit, held: Mapping[str, str]) -> MotorRow:
+    load, brake = one.load, held.get(one.part.id, "")
+    return MotorRow(
+        one.sign[1:],
+        f"{load.phases}~",
+        f"{one.number * load.poles} × {load.fuse:g} A",
+        f"{load.amplifier:g} A, STO",
+        f"{load.wires} × {one.section:g} mm²",
+        f"{one.number} × {one.part.title}",
+        f"{format_quantity(load.power, 'W', 3)}, {load.current:.3g} A" + (f", {brake}" if brake else ""),
     )
 
 
-def _motors(circuits: tuple[MotorCircuit, ...]) -> PaperSection:
+def _brakes(loom: LoomDesign) -> Iterator[PaperSection]:
+    numbers = numbers_of(loom)
+    rows = tuple(
+        (sign, part.title, row.row, numbers[part.id], row.power, row.power / CONTROL_VOLTS, f"T{sign[1:]}: BR+, BR-")
+        for _, sign, part in brakes(loom)
+        for row in [bought_of(part)]
+    )
+    heads = (
+        Column(Sentence("electric.sign")),
+        Column(Sentence("electric.device")),
+        Column(Sentence("electric.designation")),
+        Column(Sentence("electric.pieces")),
+        Column(Sentence("electric.power"), "W", 3),
+        Column(Sentence("electric.current"), "", 3),
+        Column(Sentence("electric.terminal")),
+    )
+    title = Sentence("electric.brakes")
+    if rows:
+        yield PaperSection(title, (Sentence("electric.brakes-how"),), Table("brakes", title, heads, rows))
+
+
+def _motors(plan: PowerPlan) -> PaperSection:
     heads = (
         Column(Sentence("electric.sign")),
         Column(Sentence("electric.motor")),
@@ -177,35 +162,88 @@ def _motors(circuits: tuple[MotorCircuit, ...]) -> PaperSection:
         (
             one.sign,
             one.part.title,
-            one.part.purchase.row if one.part.purchase else "",
+            bought_of(one.part).row,
             one.number,
-            one.power,
-            one.current,
-            one.amplifier,
-            one.fuse,
+            one.load.power,
+            one.load.current,
+            one.load.amplifier,
+            one.load.fuse,
             one.section,
             one.together,
         )
-        for one in circuits
+        for one in plan.motors
     )
     title = Sentence("electric.motors")
     return PaperSection(title, (Sentence("electric.motors-how"),), Table("motors", title, heads, rows))
 
 
+def _feeds(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
+    heads = (
+        Column(Sentence("electric.consumer")),
+        Column(Sentence("electric.pieces")),
+        Column(Sentence("electric.volts"), "", 3),
+        Column(Sentence("electric.all-power"), "W", 3),
+        Column(Sentence("electric.fed-by")),
+    )
+    rows = tuple((own.part.title, own.number, own.volts, own.power, own.sign) for own in feeds(loom))
+    title = Sentence("electric.feeds")
+    texts = tuple(
+        Sentence(
+            "electric.source",
+            sign=SIGNS[own.part],
+            row=f"{own.number} × {own.row.name}",
+            load=format_quantity(own.load, "W", 3),
+            rated=format_quantity(own.number * own.row.rated, "W", 3),
+        )
+        for own in plan.sources
+    )
+    braking = (Sentence("electric.braking"),) if plan.steppers else ()
+    return PaperSection(title, (*texts, *braking), Table("feeds", title, heads, rows))
+
+
+def _channels(loom: LoomDesign) -> Iterator[PaperSection]:
+    """A row for each run of inputs of a module that read pieces of one sensor."""
+    titles = {part.id: part.title for part, _ in loom_tree(loom).occurrences()}
+    signs, runs = signs_of(loom), dict[tuple[str, str], list[tuple[int, int]]]()
+    for module, number, name, piece in channels(loom):
+        runs.setdefault((module, name), []).append((number, piece))
+    rows = tuple(
+        (module, run_of([own[0] for own in run]), signs[name], titles[name], run_of([own[1] for own in run]))
+        for (module, name), run in runs.items()
+    )
+    heads = (
+        Column(Sentence("electric.module")),
+        Column(Sentence("electric.inputs")),
+        Column(Sentence("electric.sign")),
+        Column(Sentence("electric.device")),
+        Column(Sentence("electric.piece")),
+    )
+    title = Sentence("electric.channels")
+    if rows:
+        yield PaperSection(title, (Sentence("electric.channels-how"),), Table("channels", title, heads, rows))
+
+
 def _sensors(loom: LoomDesign) -> PaperSection:
-    sensors = [part.id for part, _ in loom_tree(loom).occurrences() if part.process in SENSING]
-    signs = {part: f"B{number}" for number, part in enumerate(sensors, 11)}
-    return _devices(loom, Sentence("electric.sensors"), SENSING, signs)
+    return _devices(loom, Sentence("electric.sensors"), SENSING, signs_of(loom), connected_at(loom))
 
 
-def _devices(loom: LoomDesign, title: str, kinds: frozenset[str], signs: Mapping[str, str]) -> PaperSection:
-    """Devices of some kinds with their signs, by their ids, and the signals that they give."""
+def _devices(
+    loom: LoomDesign, title: str, kinds: frozenset[str], signs: Mapping[str, str], at: Mapping[str, str] | None = None
+) -> PaperSection:
+    """Devices of some kinds with their signs, by their ids, the signals that they give, and where each is connected."""
     given = dict[str, list[str]]()
     for name, parts in signals_of(loom.heads, loom.weavers):
         for part in parts:
             given.setdefault(part, []).append(name)
     rows = tuple(
-        (signs.get(part.id, ""), part.title, part.purchase.row, number, ", ".join(given.get(part.id, ())))
+        (
+            signs.get(part.id, ""),
+            part.title,
+            part.purchase.row,
+            number,
+            ", ".join(given.get(part.id, ())),
+            *(() if at is None else (at.get(part.id, ""),)),
+        )
         for part, number in loom_tree(loom).occurrences()
         if part.process in kinds and part.purchase is not None
     )
@@ -215,15 +253,9 @@ def _devices(loom: LoomDesign, title: str, kinds: frozenset[str], signs: Mapping
         Column(Sentence("electric.designation")),
         Column(Sentence("electric.pieces")),
         Column(Sentence("electric.signals")),
+        *(() if at is None else (Column(Sentence("electric.connected-at")),)),
     )
     return PaperSection(title, (), Table("devices", title, heads, rows))
-
-
-def terminal_rows(loom: LoomDesign) -> Iterator[tuple[str, int, str, str]]:
-    """Each signal of the control with an address: its name, its terminal and level, its parts."""
-    there = {part.id for part, _ in loom_tree(loom).occurrences()}
-    for number, (name, parts) in enumerate(signals_of(loom.heads, loom.weavers)):
-        yield name, number // 2 + 1, "ab"[number % 2], " ".join(part for part in parts if part in there)
 
 
 def _terminals(loom: LoomDesign) -> PaperSection:
@@ -238,11 +270,40 @@ def _terminals(loom: LoomDesign) -> PaperSection:
     return PaperSection(title, (Sentence("electric.terminals-how"),), table)
 
 
+def _cabinet(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
+    """What stands in the cabinet, its size, mass and heat."""
+    tree = loom_tree(loom)
+    (cabinet,) = (part for part, _ in tree.occurrences() if part.id == CONTROL)
+    inside = [own.part for own in tree.body(CIRCUIT).occurrences]
+    numbers = numbers_of(loom)
+    amplifiers = [part for part, _ in tree.occurrences() if part.id == AMPLIFIER]
+    rows = tuple(
+        (SIGNS.get(part.id, ""), part.title, bought_of(part).row, numbers[part.id]) for part in (*amplifiers, *inside)
+    )
+    heads = (
+        Column(Sentence("electric.sign")),
+        Column(Sentence("electric.device")),
+        Column(Sentence("electric.designation")),
+        Column(Sentence("electric.pieces")),
+    )
+    assert cabinet.shape is not None
+    size = " × ".join(f"{own / mm:.0f}" for own in np.ptp(shape_box(cabinet.shape), axis=0).tolist())
+    mass = sum(numbers[part.id] * part.mass for part in inside if part.mass > 0) + cabinet.mass
+    how = Sentence(
+        "electric.cabinet-how",
+        size=size,
+        mass=format_quantity(mass, "kg", 3),
+        heat=format_quantity(plan.heat, "W", 3),
+        rise=f"{WARMER:g} K",
+    )
+    title = Sentence("electric.cabinet")
+    return PaperSection(title, (how,), Table("cabinet", title, heads, rows))
+
+
 def _safety(loom: LoomDesign, report: Report) -> PaperSection:
     functions, stops = tuple(safety_functions(loom, report)), stopping_time(loom)
-    signs = {own.part: own.sign + ("1" if own.number == 1 else f"1 … {own.number}") for own in functions}
-    signs |= {signals.RELAY: "K1", signals.RESET: "S0"}
-    made = _devices(loom, Sentence("electric.safety"), SAFE, signs)
+    signs = {name: sign for own in functions for name, sign in own.signs.items()}
+    made = _devices(loom, Sentence("electric.safety"), SAFE, signs | {name: SIGNS[name] for name in _SAFE_SIGNS})
     text = Sentence(
         "electric.safety-how",
         relay=RELAY.name,
@@ -254,6 +315,9 @@ def _safety(loom: LoomDesign, report: Report) -> PaperSection:
         part: f"X1:{number}{level}" for _, number, level, parts in terminal_rows(loom) for part in parts.split()[:1]
     }
     devices = [(own.sign, own.number, addresses.get(own.part, "")) for own in functions]
-    (axes,) = (number for part, number in loom_tree(loom).occurrences() if part.id == AMPLIFIER)
-    picture = safety_circuit(devices, axes, addresses[signals.RELAY])
-    return PaperSection(made.title, (text, Sentence("electric.residual")), made.table, figure=picture)
+    picture = safety_circuit(devices, numbers_of(loom)[AMPLIFIER], addresses[signals.RELAY])
+    texts = text, Sentence("electric.enabling-how", sign=SIGNS[signals.ENABLING]), Sentence("electric.residual")
+    return PaperSection(made.title, texts, made.table, figure=picture)
+
+
+_SAFE_SIGNS = signals.RELAY, signals.RESET, signals.ENABLING

@@ -10,18 +10,25 @@ a guide or ball screw is greased each 100 km of travel                          
 import math
 from collections.abc import Iterator
 
-from ilmek.elements.bearing_table import RollingBearing
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.commissioning import belts
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
-from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.hammer.tree import AXIS as HAMMER_AXIS
+from ilmek.machines.shedding.stack import part_id as shedding_part
+from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
+from ilmek.machines.warp_tension.cylinders import part_id as cylinder_part
+from ilmek.machines.weaver.carriage_guide import GUIDE_CARRIAGE
 from ilmek.machines.weaver.carriage_guide import life as guide_life
 from ilmek.machines.weaver.knife import KNIFE
+from ilmek.machines.weaver.parts import BEARING as HEAD_BEARING
 from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
+from ilmek.machines.weft.carriers import AXIS as WEFT_AXIS
 from ilmek.machines.weft.carriers import WEFT_CUTTER
 from ilmek.part.blanks import size_of
+from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
@@ -29,6 +36,12 @@ from ilmek.sentences import Sentence
 from ilmek.units import day, format_quantity, hour, mm, rpm, turn
 
 YEAR = 365.25 * day
+
+CYLINDERS = UPPER, LOWER, SPACER
+"""Names of the warps' cylinders."""
+
+RAIL_GUIDE, RETREAT_AXIS = part_id("rail-guide"), part_id("retreat-axis")
+"""Ids of parts."""
 
 GREASE_AGES = 3 * YEAR
 """After which grease is changed however little a bearing turns; assumed by this project."""
@@ -39,20 +52,21 @@ TRAVEL = 100e3
 SLACK = 0.8
 """Share of its tension at which a belt is tightened again; assumed by this project."""
 
-WEARING = frozenset(("belt", "belt and pulleys", "spring", "yarn brake"))
+BELTS = frozenset(("belt", "belt and pulleys"))
+"""Processes of belts."""
+
+WEARING = BELTS | {"spring", "yarn brake"}
 """Processes of parts that wear, and of which no life is computed: a set is kept."""
 
 
 @record
 class Wear:
-    """A part that wears.
+    """A part that wears, and its pieces in the loom.
 
-    title  for people        designation  of its catalogue      number  of it in the loom
     life   in `unit`: turns, strokes or metres                  use     of them in a year
     """
 
-    title: str
-    designation: str
+    part: Part
     number: int
     life: float
     use: float
@@ -70,61 +84,92 @@ class Wear:
 
 def wearing_parts(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[Wear]:
     """The parts of which a life is computed, each with its use in a year."""
+    parts = {part.id: (part, number) for part, number in loom_tree(loom).occurrences()}
+    lasting = ((name, *lasts) for name, lasts in _lasting(loom, report, year) if name in parts)
+    return (Wear(*parts[name], life, use, unit) for name, life, use, unit in lasting)
+
+
+def _lasting(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[tuple[str, tuple[float, float, str]]]:
+    """Id of a part, its life and its use in a year, and their unit."""
     cams = loom.shedding
-    shafts, seat = len(cams.shafts), cams.shaft.seat
-    title, row = Sentence("wear.shed-bearing"), cams.shafts[0].seat.bearing
-    yield Wear(title, row.name, 2 * shafts, seat.life * cams.params.speed / turn, year.rows, "turns")
+    for index in range(len(cams.shafts)):
+        yield shedding_part("bearing", index), (cams.shaft.seat.life * cams.params.speed / turn, year.rows, "turns")
     lives, radius = value_of(report, "warp_tension.bearing_life"), value_of(report, "warp_tension.outer_radius")
-    for name, (title, row) in _cylinder_bearings(loom).items():
-        around = turn * (value_of(report, "warp_tension.spacer_radius") if name == "spacer" else radius)
-        use = year.rows * loom.task.cloth.row_distance / around
-        yield Wear(title, row.name, 2, lives[name], use, "turns")
+    for name in CYLINDERS:
+        around = turn * (value_of(report, "warp_tension.spacer_radius") if name == SPACER else radius)
+        yield (
+            cylinder_part(f"{name}-bearing"),
+            (lives[name], year.rows * loom.task.cloth.row_distance / around, "turns"),
+        )
     nut = known(report, "hammer.screw_life")
     if nut is not None:
         strokes = nut / value_of(report, "cycle_time_row") * value_of(report, "beat_strokes") * 2
-        thick = format_quantity(value_of(report, "hammer.screw_diameter"), "mm")
-        use = 2 * year.rows * value_of(report, "beat_strokes")
-        yield Wear(Sentence("wear.screw-nut"), thick, value_of(report, "hammer.axes"), strokes, use, "strokes")
+        yield HAMMER_AXIS, (strokes, 2 * year.rows * value_of(report, "beat_strokes"), "strokes")
     if loom.heads:
-        yield from _of_heads(loom, year)
+        head = loom.weaver
+        row, turns = bearing_life(head)
+        if row is not None:
+            yield HEAD_BEARING, (turns, year.knots, "turns")
+        lasts = guide_life(head, head_mass(head), carriage_guide(head))
+        yield GUIDE_CARRIAGE, (lasts, 2 * loom.knot_pitch * year.knots, "m")
 
 
-def _of_heads(loom: LoomDesign, year: YearOfWork) -> Iterator[Wear]:
-    head = loom.weaver
-    row, turns = bearing_life(head)
-    if row is not None:
-        yield Wear(Sentence("wear.head-bearing"), row.name, 2 * loom.heads, turns, year.knots, "turns")
-    guide = carriage_guide(head)
-    travel = 2 * loom.knot_pitch * year.knots
-    lasts = guide_life(head, head_mass(head), guide)
-    yield Wear(Sentence("wear.head-guide"), guide.name, loom.heads, lasts, travel, "m")
+@record
+class Greasing:
+    """How a part is lubricated: the rule in words, time between two times [s]."""
+
+    part: Part
+    number: int
+    rule: str
+    every: float
 
 
-def greasings(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[tuple[str, str, float]]:
-    """What is greased, by which rule, and the time between two greasings [s], while the loom weaves all the year."""
-    cams, rule, slow = loom.shedding, Sentence("grease.bearing-rule"), _slow(loom, report)
-    greased = [(Sentence("wear.shed-bearing"), cams.shafts[0].seat.bearing, cams.params.speed)]
-    greased += [(title, row, slow) for title, row in _cylinder_bearings(loom).values()]
-    for title, row, speed in greased:
-        yield title, rule, min(bearing_greasing(row.bore, speed), GREASE_AGES)
-    by_travel, beats = Sentence("grease.travel-rule", travel=format_quantity(TRAVEL, "km")), 2 * year.rows
-    travels = [(Sentence("grease.carrier"), 2 * (2 if loom.weft.passage.back else 1) * loom.weft.passage.stroke / 2)]
+def greasings(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[Greasing]:
+    """Every bearing, guide, axis, reducer and chain of the tree, while the loom weaves all the year."""
+    speeds, travels = _speeds(loom, report), dict(_travels(loom, report, year))
+    for part, number in loom_tree(loom).occurrences():
+        if part.process not in GREASED:
+            continue
+        key, every = GREASED[part.process]
+        if part.id in speeds:
+            key, every = "grease.bearing-rule", min(bearing_greasing(*speeds[part.id]), GREASE_AGES)
+        elif part.id in travels:
+            key, every = "grease.travel-rule", min(TRAVEL / travels[part.id] * YEAR, GREASE_AGES)
+        yield Greasing(part, number, Sentence(key, travel=format_quantity(TRAVEL, "km")), every)
+
+
+GREASED = {
+    "bearing": ("grease.sealed", GREASE_AGES),
+    "linear axis": ("grease.half-year", YEAR / 2),
+    "linear guide": ("grease.half-year", YEAR / 2),
+    "guide carriage": ("grease.half-year", YEAR / 2),
+    "reducer": ("grease.reducer", YEAR),
+    "energy chain": ("grease.dry", YEAR / 2),
+}
+"""Rule and time [s] of a part whose speed or travel is not computed, by its process; assumed by this project."""
+
+
+def _speeds(loom: LoomDesign, report: Report) -> dict[str, tuple[float, float]]:
+    """Bore [m] and speed of bearings by their ids [rad/s]."""
+    cams, slow = loom.shedding, _slow(loom, report)
+    turning = {shedding_part("bearing", index): cams.params.speed for index in range(len(cams.shafts))}
+    bores = {name: cams.shafts[index].seat.bearing.bore for index, name in enumerate(turning)}
+    return {name: (bores[name], speed) for name, speed in turning.items()} | {
+        cylinder_part(f"{own.name}-bearing"): (own.seat.bearing.bore, slow) for own in cylinders(loom.warp_tension)
+    }
+
+
+def _travels(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[tuple[str, float]]:
+    """Travel in a year of guides and axes by their ids [m]."""
+    passage = loom.weft.passage
+    yield WEFT_AXIS, 2 * year.rows * 2 * (2 if passage.back else 1) * passage.stroke / 2
     if known(report, "hammer.screw_life") is not None:
-        travels.append(
-            (Sentence("wear.screw-nut"), 2 * value_of(report, "beat_stroke") * value_of(report, "beat_strokes"))
-        )
-    yield from ((title, by_travel, min(TRAVEL / (beats * each) * YEAR, GREASE_AGES)) for title, each in travels)
+        beats = 2 * year.rows * value_of(report, "beat_strokes")
+        yield HAMMER_AXIS, 2 * beats * value_of(report, "beat_stroke")
     if loom.heads:
         along = 2 * loom.knot_pitch * year.knots
-        yield Sentence("wear.head-guide"), by_travel, min(TRAVEL / along * YEAR, GREASE_AGES)
-
-
-def _cylinder_bearings(loom: LoomDesign) -> dict[str, tuple[Sentence, RollingBearing]]:
-    """Title and row of the bearings of each cylinder, as they are on its brackets."""
-    return {
-        cylinder.name: (Sentence(f"wear.{cylinder.name}-bearing"), cylinder.seat.bearing)
-        for cylinder in cylinders(loom.warp_tension)
-    }
+        yield from ((GUIDE_CARRIAGE, along), (RAIL_GUIDE, along))
+        yield RETREAT_AXIS, 2 * year.rows * value_of(report, "head_retreat")
 
 
 def bearing_greasing(bore: float, speed: float) -> float:
@@ -182,37 +227,56 @@ def _lives(wears: tuple[Wear, ...]) -> Table:
         "m": Sentence("maintenance.metres"),
     }
     rows = tuple(
-        (one.title, one.designation, one.number, one.life, units[one.unit], one.use, one.years) for one in wears
+        (own.part.title, designation(own.part), own.number, own.life, units[own.unit], own.use, own.years)
+        for own in wears
     )
     return Table("lives", Sentence("maintenance.lives"), heads, rows)
+
+
+def designation(part: Part) -> str:
+    """As a part is ordered, in the words of `purchase`; of one that is made its size."""
+    return (part.designation or part.process) if part.purchase else size_of(part)
 
 
 def _grease(loom: LoomDesign, report: Report, year: YearOfWork) -> Table:
     heads = (
         Column(Sentence("maintenance.part")),
+        Column(Sentence("maintenance.designation")),
+        Column(Sentence("maintenance.number")),
         Column(Sentence("maintenance.rule")),
         Column(Sentence("maintenance.every"), "day", 3),
     )
-    return Table("grease", Sentence("maintenance.grease"), heads, tuple(greasings(loom, report, year)))
+    rows = (
+        (own.part.title, designation(own.part), own.number, own.rule, own.every)
+        for own in greasings(loom, report, year)
+    )
+    return Table("grease", Sentence("maintenance.grease"), heads, tuple(rows))
 
 
 def _belts(loom: LoomDesign) -> PaperSection:
-    """The frequency of each belt's span as it is set, and that below which it is set again."""
+    """Of each belt its tension and the frequency of a span as it is set, and that below which it is set again."""
     heads = (
         Column(Sentence("maintenance.part")),
         Column(Sentence("maintenance.designation")),
+        Column(Sentence("maintenance.number")),
+        Column(Sentence("maintenance.tension"), "N", 3),
         Column(Sentence("maintenance.set"), "Hz", 3),
         Column(Sentence("maintenance.least"), "Hz", 3),
     )
-    rows = tuple((title, row, hertz, math.sqrt(SLACK) * hertz) for title, hertz, row in belts(loom))
+    spans, rows = {span.part: span for span in belts(loom)}, list[tuple[str | int | float, ...]]()
+    for part, number in loom_tree(loom).occurrences():
+        if part.process in BELTS:
+            span = spans.get(part.id)
+            set_to = (math.nan, math.nan) if span is None else (span.tension, span.frequency)
+            rows.append((part.title, designation(part), number, *set_to, math.sqrt(SLACK) * set_to[1]))
     title, how = Sentence("setting.belts"), Sentence("maintenance.belts-how", share=f"{SLACK:.0%}")
-    return PaperSection(title, (how,), Table("belts", title, heads, rows), boxes=True)
+    return PaperSection(title, (how,), Table("belts", title, heads, tuple(rows)), boxes=True)
 
 
 def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Table:
     """What is replaced within the years of the loom, and a set of what wears without a computed life."""
     computed = (
-        (one.title, one.designation, one.spare(year.years), Sentence("maintenance.by-life"))
+        (one.part.title, designation(one.part), one.spare(year.years), Sentence("maintenance.by-life"))
         for one in wears
         if one.spare(year.years)
     )
@@ -223,12 +287,7 @@ def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]
     """A set for one of some machines that are alike, of what wears and has no computed life."""
     for part, number in tree.occurrences():
         if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
-            yield (
-                part.title,
-                part.purchase.row if part.purchase else size_of(part),
-                max(1, number // alike),
-                Sentence("maintenance.by-set"),
-            )
+            yield part.title, designation(part), max(1, number // alike), Sentence("maintenance.by-set")
 
 
 def spares_of(tree: Tree) -> Paper | None:

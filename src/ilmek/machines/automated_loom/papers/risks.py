@@ -9,22 +9,35 @@ body [ISO 13854, table 1, formerly EN 349]. The clearances in space report parts
 import math
 from collections.abc import Iterable, Iterator
 
+from ilmek.elements.field_devices import AMPLIFIER_FAILURES, ENABLING, RELAY
+from ilmek.elements.holding_brakes import find_brake
 from ilmek.elements.materials import GRAVITY
-from ilmek.elements.performance_levels import HARMLESS_ENERGY, HARMLESS_FORCE, limit_of, required_level
+from ilmek.elements.performance_levels import (
+    COVERED,
+    HARMLESS_ENERGY,
+    HARMLESS_FORCE,
+    limit_of,
+    mean_years,
+    required_level,
+)
 from ilmek.elements.safety_distances import through
 from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
+from ilmek.machines.automated_loom.equipment.lifting_eyes import EYE_BOLT, eye_bolt_of
 from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
 from ilmek.machines.automated_loom.nearest_parts import HORIZON
-from ilmek.machines.automated_loom.own_parts import RAIL
-from ilmek.machines.automated_loom.papers.safety_functions import safety_functions
+from ilmek.machines.automated_loom.own_parts import RAIL, RETREAT_BRAKE
+from ilmek.machines.automated_loom.papers.safety_functions import TESTED, safety_functions, starters
 from ilmek.machines.automated_loom.papers.transport import lifting_of, lifting_picture, lifting_rows
 from ilmek.machines.automated_loom.papers.values import known, value_of
+from ilmek.machines.automated_loom.papers.wiring import bought_of
 from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.catalogue import HOLDING_BRAKE
 from ilmek.part.contacts import TOUCHING
 from ilmek.part.moving_energy import moving_energies
+from ilmek.part.part import Part
 from ilmek.part.poses import moments_at_rest
 from ilmek.part.tree import Tree
 from ilmek.records import record
@@ -63,6 +76,8 @@ def risks(loom: LoomDesign, report: Report) -> Paper:
             _energies(loom, report),
             _others(loom, report),
             _functions(loom, report, hazards),
+            _failures(loom, report),
+            _measures(loom),
             _transport(loom),
         ),
     )
@@ -187,6 +202,86 @@ def _functions(loom: LoomDesign, report: Report, hazards: Iterable[MovingHazard]
     )
 
 
+def _failures(loom: LoomDesign, report: Report) -> PaperSection:
+    """The failure rate of each device of the safety functions, and where it is from."""
+    functions = {own.part: own for own in safety_functions(loom, report)}
+    started = ((device, hourly) for _, _, parts, device, hourly in starters(report) if functions.keys() & {*parts})
+    rows = tuple(
+        (
+            device.name,
+            device.b10d or math.nan,
+            hourly if device.b10d else math.nan,
+            mean_years(device.b10d, hourly) if device.b10d and hourly else math.nan,
+            f"{COVERED:.0%}" if device.b10d else "–",
+            math.nan if device.b10d else device.failures,
+            Sentence("risk.source-table") if device.tabled else Sentence("risk.source-assumed"),
+        )
+        for device, hourly in (*started, (ENABLING, 1 / TESTED), (RELAY, 0.0))
+    )
+    amplifier = (
+        Sentence("electric.amplifiers"),
+        *3 * (math.nan,),
+        "–",
+        AMPLIFIER_FAILURES,
+        Sentence("risk.source-assumed"),
+    )
+    heads = (
+        Column(Sentence("electric.device")),
+        Column("B10d", "", 3),
+        Column(Sentence("risk.hourly"), "", 3),
+        Column(Sentence("risk.mttfd"), "", 3),
+        Column("DCavg"),
+        Column("PFHd [1/h]", "", 3),
+        Column(Sentence("setting.source")),
+    )
+    title = Sentence("risk.failure-rates")
+    table = Table("failures", title, heads, (*rows, amplifier))
+    return PaperSection(title, (Sentence("risk.failure-rates-how"),), table)
+
+
+MEASURES = {
+    "guard mesh": "risk.by-fence",
+    "interlock": "risk.by-stops",
+    "actuator": "risk.by-stops",
+    "light grid": "risk.by-stops",
+    "button": "risk.by-stops",
+    "emergency stop": "risk.by-stops",
+    "safety relay": "risk.by-stops",
+    "enabling device": "risk.by-enabling",
+    HOLDING_BRAKE: "risk.by-brake",
+    "main switch": "risk.by-switch",
+    "cabinet door": "risk.by-switch",
+}
+BY_ID = {EYE_BOLT: "risk.by-eyes"}
+"""Measures that are bought parts: key of the measure's sentence by the process of the part, or by its id."""
+
+
+def measures(loom: LoomDesign) -> Iterator[tuple[str, Part, int]]:
+    """The devices of the measures: key of the sentence, part, pieces."""
+    return (
+        (key, part, number)
+        for part, number in loom_tree(loom).occurrences()
+        for key in [MEASURES.get(part.process, BY_ID.get(part.id, ""))]
+        if key
+    )
+
+
+def _measures(loom: LoomDesign) -> PaperSection:
+    """The devices that carry out the measures, each in the list of bought parts."""
+    rows = tuple(
+        (Sentence(key), part.title, part.designation, number)
+        for key, part, number in sorted(measures(loom), key=lambda own: own[0])
+    )
+    heads = (
+        Column(Sentence("risk.taken")),
+        Column(Sentence("electric.device")),
+        Column(Sentence("electric.designation")),
+        Column(Sentence("electric.pieces")),
+    )
+    title = Sentence("risk.devices")
+    return PaperSection(title, (Sentence("risk.devices-how"),), Table("measures", title, heads, rows))
+
+
 def safety_checks(loom: LoomDesign, report: Report) -> tuple[Check, ...]:
     """Whether each safety function reaches what the hazards require."""
     limit = limit_of(required_of(moving_hazards(loom)))
@@ -238,7 +333,10 @@ def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str
         carried = _carried(tree, rail.id)
         if motion is not None:
             drop = float((rail.positions[0].rotation @ (motion.shift - motion.shift[0]).T)[1].min())
-            yield Sentence("risk.rail-falls"), carried * GRAVITY * -drop, Sentence("risk.prop")
+            (behind,) = (part for part, _ in tree.occurrences() if part.id == RETREAT_BRAKE)
+            row = find_brake(bought_of(behind).row)
+            prop = Sentence("risk.prop", torque=format_quantity(row.torque, "Nm", 3))
+            yield Sentence("risk.rail-falls"), carried * GRAVITY * -drop, prop
 
 
 def _energies(loom: LoomDesign, report: Report) -> PaperSection:
@@ -278,8 +376,10 @@ def _transport(loom: LoomDesign) -> PaperSection:
         Column(Sentence("lift.z"), "mm"),
         Column(Sentence("lift.load"), "kN", 3),
         Column(Sentence("lift.sling"), "kg", 3),
+        Column(Sentence("lift.eye")),
+        Column(Sentence("lift.bears"), "kg", 4),
     )
-    rows = tuple(lifting_rows(lifting, loom.side.floor))
+    rows = tuple(lifting_rows(lifting, loom.side.floor, eye_bolt_of(loom)))
     title = Sentence("risk.transport")
     table, picture = Table("transport", title, heads, rows), lifting_picture(loom, lifting)
     return PaperSection(title, (Sentence("lift.how"), text, centre), table, figure=picture)

@@ -3,7 +3,10 @@
 What is reached is the sum over the chain: all devices that open it, the relay, and every amplifier that it stops.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
 
 from ilmek.elements.field_devices import AMPLIFIER_FAILURES, BUTTON, GRID, INTERLOCK, RELAY, STOP, FieldDevice
 from ilmek.elements.performance_levels import contact_failures, reached_level
@@ -23,13 +26,34 @@ TESTED = 8.0
 
 @record
 class SafetyFunction:
-    """What stops all axes: its title, the sign, part and pieces of what starts it, its dangerous failures [1/h]."""
+    """What stops all axes.
+
+    title, sign  of it      pieces   of the parts that start it, by their ids      failures  dangerous ones [1/h]
+    """
 
     title: str
     sign: str
-    part: str
-    number: int
+    pieces: Mapping[str, int]
     failures: float
+
+    @property
+    def part(self) -> str:
+        """The first of its parts."""
+        return next(iter(self.pieces))
+
+    @property
+    def number(self) -> int:
+        """Pieces that start it; sender and receiver of a light grid are one."""
+        return 1 if self.part == signals.GRID else sum(self.pieces.values())
+
+    @property
+    def signs(self) -> dict[str, str]:
+        """Signs of its pieces by the ids of their parts."""
+        ends = np.cumsum([*self.pieces.values()]).tolist()
+        return {
+            part: f"{self.sign}{end}" if number == 1 else f"{self.sign}{end - number + 1} … {end}"
+            for end, (part, number) in zip(ends, self.pieces.items(), strict=True)
+        }
 
     @property
     def level(self) -> str:
@@ -41,14 +65,19 @@ def safety_functions(loom: LoomDesign, report: Report) -> Iterator[SafetyFunctio
     """The safety functions of the devices that are in a loom."""
     numbers = {part.id: number for part, number in loom_tree(loom).occurrences()}
     stops = RELAY.failures + numbers[AMPLIFIER] * AMPLIFIER_FAILURES
-    rows: tuple[tuple[str, str, str, FieldDevice, float], ...] = (
-        (Sentence("risk.by-stop"), "S", signals.STOP, STOP, 1 / TESTED),
-        (Sentence("risk.by-door"), "B", signals.INTERLOCK, INTERLOCK, 0.0),
-        (Sentence("risk.by-grid"), "B", signals.GRID, GRID, 0.0),
-        (Sentence("risk.by-hands"), "H", signals.HANDS, BUTTON, hour / value_of(report, "row_time")),
-    )
-    for title, sign, part, device, hourly in rows:
-        if part in numbers:
+    for title, sign, parts, device, hourly in starters(report):
+        pieces = {part: numbers[part] for part in parts if part in numbers}
+        if pieces:
             each = device.failures + (contact_failures(device.b10d, hourly) if device.b10d else 0.0)
-            pieces = 1 if device is GRID else numbers[part]  # sender and receiver are one device
-            yield SafetyFunction(title, sign, part, pieces, pieces * each + stops)
+            bare = SafetyFunction(title, sign, pieces, 0.0)
+            yield replace(bare, failures=bare.number * each + stops)
+
+
+def starters(report: Report) -> tuple[tuple[str, str, tuple[str, ...], FieldDevice, float], ...]:
+    """What starts the safety functions: title, sign, parts, row, operations in an hour."""
+    return (
+        (Sentence("risk.by-stop"), "S", (signals.STOP, signals.BENCH_STOP), STOP, 1 / TESTED),
+        (Sentence("risk.by-door"), "B", (signals.INTERLOCK,), INTERLOCK, 0.0),
+        (Sentence("risk.by-grid"), "B", (signals.GRID,), GRID, 0.0),
+        (Sentence("risk.by-hands"), "H", (signals.HANDS,), BUTTON, hour / value_of(report, "row_time")),
+    )

@@ -1,24 +1,22 @@
-"""How a loom is lifted: by four vertical slings on a lifting frame, at the tops of its columns and at its front feet.
+"""How a loom is lifted: by four vertical slings on a lifting frame, in eye bolts on its columns and its front feet.
 
     load of the front pair        W (z - z rear) / (z front - z rear)
     share of the right one of it  (x - x left) / (x right - x left)
 
-W weight, x and z of the mass centre. A sling stands where nothing of the loom is above its lifting point.
+W weight, x and z of the mass centre.
 """
 
 from collections.abc import Iterator
 
 import numpy as np
 
+from ilmek.elements.eye_bolts import EyeBolt
 from ilmek.elements.materials import GRAVITY
-from ilmek.errors import LoomError
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.creel_parts import CREEL, YARN_DUCT
 from ilmek.machines.automated_loom.equipment.guards import GUARDS
-from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
-from ilmek.machines.automated_loom.frame import part_id
+from ilmek.machines.automated_loom.equipment.lifting_eyes import eye_bolt_of, eye_height, seats_of_eyes
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.part.extents import Extent
 from ilmek.part.moments import Moments
 from ilmek.part.poses import moments_at_rest
 from ilmek.part.projection import View, outlines
@@ -26,12 +24,8 @@ from ilmek.part.shapes import Corner
 from ilmek.records import record
 from ilmek.report import Dot, Drawing, Stroke
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity
 
-SLING = 60 * mm
-"""Width of a round sling [m]: EN 1492-2, 2 t."""
-
-_STEP = 10 * mm
 _MOST_CURVES = 400
 
 
@@ -46,15 +40,12 @@ class Lifting:
 
 
 def lifting_of(loom: LoomDesign) -> Lifting:
-    """The lifting points of a loom without guards and creel: the rear pair, then the front one, the left one first.
-
-    Raises LoomError where nothing at the front can be reached from above.
-    """
-    tree, near = loom_tree(loom), surroundings(loom)
+    """The lifting points of a loom without guards and creel: the rear pair, then the front one, the left one first."""
+    tree, up = loom_tree(loom), np.array([0.0, eye_height(eye_bolt_of(loom)), 0.0])
     there = {body.id for body in tree.bodies}
     left = frozenset(name for own in (*GUARDS, CREEL, YARN_DUCT) if own in there for name in tree.carried_by(own))
     moved = moments_at_rest(tree, left)
-    points = (*map(_top, near.of(part_id("column"))), *(_free(near, foot) for foot in near.of(part_id("front-foot"))))
+    points = tuple(seat + up for _, seat in seats_of_eyes(loom))
     rear, front = points[:2], points[2:]
     forward = share(float(moved.centre[2]), float(rear[0][2]), float(front[0][2]))
     weight = moved.zeroth * GRAVITY
@@ -76,27 +67,10 @@ def share(middle: float, first: float, second: float) -> float:
     return (middle - first) / (second - first)
 
 
-def _top(extent: Extent) -> Corner:
-    return np.array([(extent.low[0] + extent.high[0]) / 2, extent.high[1], (extent.low[2] + extent.high[2]) / 2])
-
-
-def _free(near: Surroundings, foot: Extent) -> Corner:
-    """The foremost point on a foot from which a sling goes up past all parts."""
-    point = _top(foot)
-    for z in np.arange(foot.high[2] - SLING, foot.low[2], -_STEP).tolist():
-        point[2] = z
-        half = np.array([SLING / 2, 0.0, SLING / 2])
-        if near.free(point - half, point + half + (0.0, _HIGH, 0.0), but=foot.part):
-            return point
-    raise LoomError("no part of a front foot is free above", do="lift the loom by its columns, and from below in front")
-
-
-_HIGH = 10.0
-"""Of a sling over a foot [m]."""
-
-
-def lifting_rows(lifting: Lifting, floor: float) -> Iterator[tuple[float | str, ...]]:
-    """Of each lifting point its title, x, height over the floor, z [m], its load [N], and the mass of that [kg]."""
+def lifting_rows(lifting: Lifting, floor: float, row: EyeBolt) -> Iterator[tuple[float | str, ...]]:
+    """Of each lifting point its title, x, height over the floor, z [m], its load [N], and the mass of that [kg]; its
+    eye bolt, and the mass that this bears [kg].
+    """
     titles = (
         Sentence("lift.rear-left"),
         Sentence("lift.rear-right"),
@@ -105,7 +79,7 @@ def lifting_rows(lifting: Lifting, floor: float) -> Iterator[tuple[float | str, 
     )
     for title, point, load in zip(titles, lifting.points, lifting.loads, strict=True):
         x, y, z = point.tolist()
-        yield title, x, y - floor, z, load, load / GRAVITY
+        yield title, x, y - floor, z, load, load / GRAVITY, row.name, row.upright
 
 
 def lifting_picture(loom: LoomDesign, lifting: Lifting) -> Drawing:

@@ -1,0 +1,165 @@
+"""What feeds a machine in its cabinet: supplies of direct current, fuses, the main switch; its heat, and its fans.
+
+    supply     1.25 of the load is what one, or several side by side, are rated for       [makers: 80 % of the rating]
+    heat       P <= k A dT + P fan,   P fan = V dT / 3.1     k 5.5 W/m²K of painted sheet steel, A free surface [m²],
+                                                             V flow of air [m³/h]              [IEC TR 60890; makers]
+
+Sizes, masses and efficiencies are those that makers have in common; a part of another make differs by some millimetres.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+from ilmek.elements.field_devices import FieldDevice
+from ilmek.units import g, mm
+
+CLASS = "class of catalogue parts; makers differ by some millimetres"
+
+
+@dataclass(frozen=True, slots=True)
+class PowerSupply(FieldDevice):
+    """A supply of direct current: its voltage [V] and rated current [A], phases of its mains, efficiency."""
+
+    volts: float = 24.0
+    amperes: float = 0.0
+    phases: int = 1
+    efficiency: float = 0.94
+
+    @property
+    def rated(self) -> float:
+        """Power that it gives [W]."""
+        return self.volts * self.amperes
+
+
+_SIZES = (
+    (240.0, (60, 120, 115), 900 * g, 1),
+    (480.0, (85, 125, 130), 1.5, 1),
+    (960.0, (110, 125, 150), 2.4, 3),
+)
+"""Rated power [W], size [mm], mass [kg], phases of the mains of supplies."""
+
+SUPPLIES = tuple(
+    PowerSupply(
+        f"power supply {volts:g} V, {power / volts:g} A",
+        "power supply",
+        (size[0] * mm, size[1] * mm, size[2] * mm),
+        mass,
+        CLASS,
+        volts=volts,
+        amperes=power / volts,
+        phases=phases,
+    )
+    for volts in (24.0, 48.0)
+    for power, size, mass, phases in _SIZES
+)
+
+LOADED = 1.25
+"""Rated power of supplies over their load."""
+
+
+def supply_for(volts: float, load: float) -> tuple[PowerSupply, int]:
+    """The least supply of a voltage for a load [W], or so many of the largest side by side.
+
+    >>> [(row.name, number) for row, number in (supply_for(24.0, 100.0), supply_for(48.0, 2800.0))]
+    [('power supply 24 V, 10 A', 1), ('power supply 48 V, 20 A', 4)]
+    """
+    rows = [row for row in SUPPLIES if row.volts == volts]
+    row = next((row for row in rows if row.rated >= LOADED * load), rows[-1])
+    return row, max(1, math.ceil(LOADED * load / row.rated - 1e-9))
+
+
+def _device(name: str, kind: str, size: tuple[float, float, float], mass: float, source: str = CLASS) -> FieldDevice:
+    wide, high, deep = size
+    return FieldDevice(name, kind, (wide * mm, high * mm, deep * mm), mass, source)
+
+
+BRAKING = _device("braking module 48 V, with resistor", "braking module", (40, 120, 115), 600 * g)
+"""It burns what steppers give back while they brake: one on the bars of 48 V."""
+
+PROTECTOR = _device("circuit protector 24 V, 4 x 6 A", "circuit protector", (45, 90, 115), 250 * g, "UL 2367")
+"""It parts the wires of 24 V in groups: control, sensors, safety circuit, brakes."""
+
+_FUSES = (
+    (6.0, 250.0, "5x20", _device("fuse terminal 5 x 20 mm", "fuse", (8.2, 80, 60), 25 * g, "IEC 60947-7-3")),
+    (32.0, 690.0, "10x38", _device("fuse holder 10 x 38 mm", "fuse", (17.5, 85, 62), 70 * g, "IEC 60269-2")),
+    (125.0, 690.0, "22x58", _device("fuse holder 22 x 58 mm", "fuse", (35, 125, 77), 300 * g, "IEC 60269-2")),
+    (math.inf, 690.0, "nh00", _device("fuse base NH 00", "fuse", (36, 125, 85), 350 * g, "IEC 60269-2")),
+)
+"""Largest rating [A] and voltage [V], form and holder of fuses."""
+
+_SWITCHES = (25.0, 40.0, 63.0, 100.0, 160.0, 250.0)
+"""Rated currents of main switches [A]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fuse:
+    """A fuse of one pole with its holder: rating [A], form, row as ordered."""
+
+    rating: float
+    form: str
+    row: FieldDevice
+
+
+@cache
+def fuse_of(rating: float, volts: float) -> Fuse:
+    """The fuse of a rating [A] at a voltage [V].
+
+    >>> fuse_of(16.0, 230.0).row.name, fuse_of(2.0, 400.0).form
+    ('fuse holder 10 x 38 mm, 16 A gG', '10x38')
+    """
+    offered = (own for own in _FUSES if volts <= own[1] and not rating > own[0])
+    _, _, form, row = next(offered)
+    return Fuse(rating, form, replace(row, name=f"{row.name}, {rating:g} A gG"))
+
+
+def main_switch(fuse: float) -> FieldDevice:
+    """The lockable main switch behind main fuses of a rating [A].
+
+    >>> main_switch(20.0).name
+    'main switch 4 poles, 25 A, lockable'
+    """
+    rated = next((rated for rated in _SWITCHES if rated >= fuse), _SWITCHES[-1])
+    wide = 70 if rated <= 63 else 105
+    return _device(f"main switch 4 poles, {rated:g} A, lockable", "main switch", (wide, 90, 80), 400 * g, "IEC 60947-3")
+
+
+WARMER, THROUGH = 20.0, 5.5
+"""Temperature in a cabinet over that of its room [K], at most: 55 °C at 35 °C; and what its walls pass [W/m²K]."""
+
+_AIR = 3.1
+"""Flow of air [m³/h] that carries 1 W at 1 K."""
+
+FANS = tuple(
+    (flow, replace(_device(f"filter fan, {flow:g} m³/h", "fan", size, mass), power=power))
+    for flow, size, mass, power in (
+        (60.0, (150, 150, 60), 900 * g, 8.0),
+        (180.0, (250, 250, 70), 1.8, 20.0),
+        (400.0, (290, 290, 90), 3.0, 45.0),
+        (900.0, (290, 290, 130), 5.0, 95.0),
+    )
+)
+"""Flow of air [m³/h] and fans that blow it, on 24 V."""
+
+
+def passed(area: float) -> float:
+    """Heat that walls of an area pass [W].
+
+    >>> round(passed(2.0), 9)
+    220.0
+    """
+    return THROUGH * area * WARMER
+
+
+def fan_for(heat: float, area: float) -> tuple[float, FieldDevice] | None:
+    """Heat that a fan carries [W], and the fan, for the heat that walls of an area do not pass; None: they do.
+
+    Where none is enough it is the largest.
+    """
+    left = heat - passed(area)
+    if left <= 0:
+        return None
+    return next(
+        ((flow * WARMER / _AIR, row) for flow, row in FANS if flow * WARMER / _AIR >= left),
+        (FANS[-1][0] * WARMER / _AIR, FANS[-1][1]),
+    )
