@@ -1,8 +1,8 @@
 """What is put in as one when a tree is put together: its parts and bodies as units, each where it stands.
 
-A body that moves comes as one; of bodies that stand, and of what fastens, each part; of a body that is there several
-times, it with all that it carries. Directions: the axes of the tree, and those of the unit's joint and parts; screws
-along their axes only.
+A body that moves comes as one, with the keys between its parts; of bodies that stand each part, and screws that lie side
+by side; of a body that is there several times, it with all that it carries. Directions: of a part along its seat, of a
+body along its joint, and along the axes of the tree; of screws along their axes only.
 """
 
 from collections import Counter, defaultdict
@@ -22,7 +22,8 @@ from ilmek.part.part import Part
 from ilmek.part.part_lists import FASTENER
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.shapes import Shape
+from ilmek.part.seat_axes import meeting_axes, seat_axis
+from ilmek.part.shapes import Shape, shape_box
 from ilmek.part.straight_moves import FIT, FittedSolid, MovedSolids, Vector, fitted
 from ilmek.part.tree import JointKind, Tree
 from ilmek.records import record
@@ -52,8 +53,8 @@ class InsertedUnit:
     """What is put in as one.
 
     number  in the order of the tree      name  of its body      pieces  its parts
-    directions  in which it may begin to leave      carriers  bodies that move and carry it
-    inner   the units that it is made of on the bench; none: it is a part, or a row of like parts
+    directions  in which it may begin to leave: of a part along its seat first      carriers  bodies that carry it
+    inner   the units that it is made of on the bench, or one by one of screws; none: a part, or a row of like parts
     fastens whether it is a screw or key
     """
 
@@ -72,14 +73,15 @@ class InsertedUnit:
 
     @property
     def fastens(self) -> bool:
-        """Whether it is a screw or a key."""
-        return len(self.pieces) == 1 and self.pieces[0].part.process == FASTENER
+        """Whether it is screws, or a key."""
+        return len(self.parts) == 1 and self.pieces[0].part.process == FASTENER
 
     @property
     def first_moves(self) -> tuple[float, ...]:
         """Lengths by which it comes out of what it is in [m]: of a screw its thread."""
-        screw = self.fastens and self.pieces[0].part.purchase and screw_of(self.pieces[0].part.purchase.row)
-        return (float(np.ptp(self.solid.box, axis=0).max()) - screw.head + 2 * FIT,) if screw else ()
+        part = self.pieces[0].part
+        screw = screw_of(part.purchase.row) if self.fastens and part.purchase else None
+        return (float(np.ptp(shape_box(part.shape), axis=0).max()) - screw.head + 2 * FIT,) if screw else ()
 
     @cached_property
     def solid(self) -> MovedSolids:
@@ -128,10 +130,12 @@ def _hull(points: Float[np.ndarray, "points 3"]) -> Solid:
 
 def units_of(tree: Tree) -> tuple[InsertedUnit, ...]:
     """The units of a tree with every drive at angle 0; parts without a shape are left out."""
-    return tuple(_units(list(chains(tree)), 0, count()))
+    return tuple(_units(list(chains(tree)), 0, count(), meeting_axes(tree)))
 
 
-def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterator[InsertedUnit]:
+def _units(
+    every: Sequence[Chain], depth: int, numbers: Iterator[int], seats: Mapping[str, Vector]
+) -> Iterator[InsertedUnit]:
     """The units of chains beyond their first links, which carry all of them."""
     grouped: dict[Chain, list[Chain]] = defaultdict(list)
     for links in every:
@@ -142,18 +146,18 @@ def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterat
         carriers = frozenset(before.name for before in prefix[depth:-1] if before.body.joint.kind not in _STANDING)
         pieces = tuple(piece for links in own for piece in _pieces(links))
         if pieces and len(prefix) > depth and len(link.body.positions) > 1:
-            inner = tuple(_units(own, len(prefix), numbers)) if link.index == 0 else ()
+            inner = tuple(_units(own, len(prefix), numbers, seats)) if link.index == 0 else ()
             yield InsertedUnit(next(numbers), link.name, pieces, axes, carriers, inner)
             continue
-        single = tuple(_of_body(pieces, axes, carriers, numbers))
+        single = tuple(_of_body(pieces, axes, carriers, numbers, seats))
         if len(prefix) <= depth or link.body.joint.kind in _STANDING:
             yield from single
             continue
-        kept = tuple(unit for unit in single if not unit.fastens)
+        kept = tuple(unit for unit in single if not _comes_after(unit, single))
         if kept:
             whole = tuple(piece for unit in kept for piece in unit.pieces)
             yield InsertedUnit(next(numbers), link.name, whole, axes, carriers, kept if len(kept) > 1 else ())
-        yield from (unit for unit in single if unit.fastens)
+        yield from (unit for unit in single if unit not in kept)
 
 
 _STANDING = {JointKind.FIXED, JointKind.MISSING}
@@ -170,23 +174,50 @@ def _pieces(links: Chain) -> Iterator[StandingPart]:
 
 
 def _of_body(
-    pieces: Sequence[StandingPart], axes: Axes, carriers: frozenset[str], numbers: Iterator[int]
+    pieces: Sequence[StandingPart],
+    axes: Axes,
+    carriers: frozenset[str],
+    numbers: Iterator[int],
+    seats: Mapping[str, Vector],
 ) -> Iterator[InsertedUnit]:
-    """The parts of a body, each as a unit; `MANY` like ones as one."""
+    """The parts of a body, each as a unit; `MANY` like ones as one, and screws of one kind that lie side by side."""
     for _, same in groupby(pieces, key=lambda piece: piece.part.id):
         alike = tuple(same)
-        for own in [alike] if len(alike) >= MANY else [(piece,) for piece in alike]:
+        rows = [(piece,) for piece in alike] if len(alike) < MANY else [alike]
+        if _is_screw(alike[0].part):
+            rows = [tuple(own) for _, own in groupby(sorted(alike, key=_end), key=_end)]
+        for own in rows:
             part, along = own[0].part, own[0].position.rotation[:, 2]
-            screwed = part.purchase is not None and screw_of(part.purchase.row) is not None
-            ends = _both(along)[1:] if screwed else (*axes, *_both(along))
-            yield InsertedUnit(next(numbers), own[0].body, own, tuple(dict.fromkeys(ends)), carriers)
+            seat = own[0].position.rotation @ seat_axis(part, seats)
+            ends = _both(along)[1:] if _is_screw(part) else (*_both(seat), *axes, *_both(along))
+            ends = tuple(dict.fromkeys(ends))
+            several = own if _is_screw(part) and len(own) > 1 else ()
+            inner = tuple(InsertedUnit(next(numbers), own[0].body, (piece,), ends, carriers) for piece in several)
+            yield InsertedUnit(next(numbers), own[0].body, own, ends, carriers, inner)
+
+
+def _comes_after(unit: InsertedUnit, body: Sequence[InsertedUnit]) -> bool:
+    """Whether it comes after its body: screws, and a key of which no hub is in the body."""
+    low, high = unit.solid.box
+    meet = [own for own in body if (low < own.solid.box[1]).all() and (own.solid.box[0] < high).all()]
+    return _is_screw(unit.pieces[0].part) or (unit.fastens and len(meet) < len({"key", "shaft", "hub"}))
+
+
+def _end(screw: StandingPart) -> tuple[float, ...]:
+    """Direction of a screw, and where it begins along it [m], rounded."""
+    along = screw.position.rotation[:, 2]
+    return (*(along.round(3) + 0.0).tolist(), round(float(along @ screw.position.origin), 4))
+
+
+def _is_screw(part: Part) -> bool:
+    return part.purchase is not None and screw_of(part.purchase.row) is not None
 
 
 def _axes(links: Chain) -> Axes:
-    """Directions of the tree's axes, and of the joint of the last body of a chain."""
+    """Directions of the joint of the last body of a chain, and of the tree's axes."""
     here = poses(links, "", np.zeros(1))
     joint = here.rotation[0] @ np.array(links[-1].body.joint.axis, dtype=float)
-    return tuple(dict.fromkeys((*MAIN, *_both(joint))))
+    return tuple(dict.fromkeys((*_both(joint), *MAIN)))
 
 
 def _both(axis: Vector) -> Axes:
