@@ -168,7 +168,9 @@ class _Plan:
         """In which a unit may leave, along its seat first, then upwards; into the floor only what stands on it."""
         if unit not in self.leaving:
             on_floor = float((unit.solid.box @ self.up).min()) < self.floor + FIT
-            order = sorted(unit.directions, key=lambda own: (own not in unit.directions[:2], -round(self._rise(own), 2)))
+            order = sorted(
+                unit.directions, key=lambda own: (own not in unit.directions[:2], -round(self._rise(own), 2))
+            )
             self.leaving[unit] = [own for own in order if on_floor or self._open(own)]
         return self.leaving[unit]
 
@@ -200,7 +202,7 @@ class _Plan:
         """What stands and may be in the way of a unit by their boxes, what touches it first."""
         key = unit, direction
         if key not in self.near:
-            low, high = swept_box(unit.solid.box, self._far(direction))
+            low, high = swept_box(unit.opened.box, self._far(direction))
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
             others = [self.units[k] for k in np.flatnonzero(within).tolist() if self.units[k] is not unit]
             self.near[key] = sorted(others, key=lambda other: other not in self.beside[unit])
@@ -211,7 +213,7 @@ class _Plan:
         if key not in self.met:
             move = length * np.array(direction) if length else self._far(direction)
             free = frozenset((unit, other)) in self.through
-            self.met[key] = not free and meets(unit.solid, other.solid, move)
+            self.met[key] = not free and meets(unit.opened, other.solid, move)
         return self.met[key]
 
     def _far(self, direction: Direction) -> Vector:
@@ -318,17 +320,17 @@ class _Plan:
         return ()
 
     def _clear(self, group: set[InsertedUnit], move: Vector, start: Vector, met: set[InsertedUnit]) -> bool:
-        """Whether a group meets nothing that stands by a move from a distance to its seat [m]; else what joins `met`."""
+        """Whether a group meets nothing that stands by a move from a distance to its seat [m]."""
         for unit in group:
             key = unit, tuple(move.tolist()), tuple(start.tolist())
             known = self.known.get(key)
             if known in self.standing and known not in group:
                 met.add(known)
                 return False
-            low, high = swept_box(unit.solid.box + start, move)
+            low, high = swept_box(unit.opened.box + start, move)
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
             for other in {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group:
-                if frozenset((unit, other)) not in self.through and meets(unit.solid, other.solid, move, start):
+                if frozenset((unit, other)) not in self.through and meets(unit.opened, other.solid, move, start):
                     self.known[key] = other
                     met.add(other)
                     return False

@@ -36,4 +36,4 @@ def seat_axis(part: Part, axes: Mapping[str, Vector]) -> Vector:
     if isinstance(part.shape, Turned) or part.purchase is not None:
         return np.array([0.0, 0.0, 1.0])
     low, high = shape_box(part.shape)
-    return np.eye(3)[int((high - low).argmin())]
+    return np.asarray(np.eye(3)[int((high - low).argmin())])

@@ -114,8 +114,9 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
 
 
 def guide(weaver: Weaver) -> Occurrence:
-    """Two plates between the side plates that meet on the cams' line, with half of a slot for each follower: neither its
-    fork nor its rail goes through a whole one.
+    """Two plates between the side plates that meet on the cams' line, with half of a slot for each follower.
+
+    Neither its fork nor its rail goes through a whole one.
     """
     params, half = weaver.params, follower_half(weaver)
     wide, shape = stack_width(params), weaver.shape
