@@ -1,4 +1,4 @@
-"""The papers of a machine that has none of its own: how it is put together, what wears in it, and lists of its parts."""
+"""The papers of a machine that has none of its own: how it is put together, what wears in it, lists of parts."""
 
 from ilmek.elements.prices import PRICES
 from ilmek.machines.automated_loom.papers.maintenance import spares_of

@@ -1,4 +1,4 @@
-"""Parts that lie alternately along one axis, as cams, guide cams and shims on a shaft: their order as runs that repeat."""
+"""Parts that lie alternately along an axis, as cams and shims on a shaft: their order in runs that repeat."""
 
 import math
 from collections.abc import Sequence
@@ -31,8 +31,9 @@ def stack_runs(pieces: Sequence[tuple[Part, Placement]]) -> tuple[StackRun, ...]
     >>> from ilmek.part.placement import placement
     >>> from ilmek.elements.materials import MATERIALS
     >>> from ilmek.part.shapes import bar
-    >>> cam, ring = (Part(name, name, "", shape=bar(0.1, 0.01), material=MATERIALS["steel"]) for name in ("cam", "ring"))
-    >>> row = [(cam, placement(z=0.02 * k)) for k in range(3)] + [(ring, placement(z=0.02 * k + 0.01)) for k in range(3)]
+    >>> steel, disc = MATERIALS["structural steel"], bar(0.1, 0.01)
+    >>> cam, ring = (Part(name, name, "", shape=disc, material=steel) for name in ("cam", "ring"))
+    >>> row = [(part, placement(z=0.02 * k + at)) for part, at in ((cam, 0.0), (ring, 0.01)) for k in range(3)]
     >>> [([part.id for part, _ in run.pieces], run.times) for run in stack_runs(row)]
     [(['cam', 'ring'], 3)]
     """

@@ -305,7 +305,7 @@ PAPERS = {
     "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. What "
     "is there several times is put together once in the list. What comes from below comes while the machine is lifted.",
     "manual.stack": "Order along the axis, step {step}",
-    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of its kind.",
+    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind.",
     "manual.times": "times",
     "manual.run": "parts that follow each other",
     # List
