@@ -359,8 +359,8 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     }
     assert titles | shapeless == expected
     (stack,) = (table for table in tables if table.name.startswith("stack"))
-    lying = [title for times, run in stack.rows for title in int(times) * str(run).split(", ")]
-    kinds = {re.sub(r" [\d.]+ deg$", "", title) for title in lying}
+    lying = [title for times, run in stack.rows for title in int(times) * str(run).split("; ")]
+    kinds = {re.sub(r", [\d.]+ deg$", "", title) for title in lying}
     assert len(kinds) == 4
     assert len(lying) == sum(int(part["quantity"]) for part in listed("parts") if part["title"] in kinds)
     assert not any("cam" in first and "guide" not in first and first == second for first, second in pairwise(lying))

@@ -137,13 +137,13 @@ def _stack_section(number: int, stack: Sequence[StackRun]) -> PaperSection:
     """The order along their axis of the parts of a step: a row for each run."""
     title = Sentence("manual.stack", step=str(number))
     heads = Column(Sentence("manual.times")), Column(Sentence("manual.run"))
-    rows = tuple((run.times, ", ".join(map(_stacked, run.pieces))) for run in stack)
+    rows = tuple((run.times, "; ".join(map(_stacked, run.pieces))) for run in stack)
     return PaperSection(title, (Sentence("manual.stack-how"),), Table(f"stack-{number}", title, heads, rows))
 
 
 def _stacked(piece: StackPiece) -> str:
     part, angle = piece
-    return f"{part.title} {format_quantity(angle, 'deg', 3)}" if angle else part.title
+    return f"{part.title}, {format_quantity(angle, 'deg', 3)}" if angle else part.title
 
 
 def _section(

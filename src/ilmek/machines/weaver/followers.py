@@ -130,8 +130,7 @@ def guide(weaver: Weaver) -> Occurrence:
         corners += [complex(0.0, -low), complex(-half, -low), complex(-half, -high), complex(0.0, -high)]
     size = f"{in_mm(GUIDE)} thick"
     section = Profile(polygon(np.array(corners)[::-1]))
-    title = "half of the guide of the followers"
-    part = Part(FOLLOWER_GUIDE, title, "machined link", size, Prism(section, GUIDE), ALUMINIUM)
+    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
     front = placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING)
     return Occurrence(part, (front, front.after(placement(z=GUIDE, about=(0.0, 1.0, 0.0), angle=turn / 2))))
 
