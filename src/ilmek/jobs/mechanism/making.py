@@ -16,7 +16,6 @@ from ilmek.machines.own_linkage.report import (
     made_inertias,
 )
 from ilmek.machines.own_linkage.tree import own_tree
-from ilmek.machines.tree_papers import tree_papers
 from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
@@ -42,7 +41,9 @@ class MadeMechanism:
 
     @property
     def papers(self) -> Papers:
-        """How it is put together, what wears in it, and the lists of its parts."""
+        """How it is put together, what wears in it, lists of its parts; what makes them is imported here."""
+        from ilmek.machines.tree_papers import tree_papers
+
         return tree_papers(self.tree, in_space=True)
 
 
