@@ -57,8 +57,7 @@ class Insertion:
 def insertions(tree: Tree, up: Vector, welded: frozenset[str] = frozenset()) -> tuple[Insertion, ...]:
     """The steps in which a tree is put together.
 
-    up  direction from the floor, from below which nothing comes      welded  ids of bodies to which all others come, but
-        for the parts of these that would be in their way
+    up  direction from the floor, from below which nothing comes      welded  ids of bodies to which all others come
     """
     return _Plan(units_of(tree), up, welded).steps()
 
@@ -143,10 +142,7 @@ class _Plan:
         last = all(name in self.welded for name in bodies)
         leaving = [units for name, units in bodies.items() if last or name not in self.welded]
         tries = (search(units) for search in (self._single, self._group, self._by_moves) for units in leaving)
-        step = next(filter(None, tries), None)
-        if step is None:
-            step = self._held()
-            step = self._single(own for own in step.blocking if own.name in self.welded) or step
+        step = next(filter(None, tries), None) or self._held()
         self.standing -= set(step.units)
         return [step]
 
