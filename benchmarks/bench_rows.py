@@ -12,11 +12,11 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.bench_chart import wool
+from benchmarks.rows_reading import read_rows
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.io.chart.rows_pdf import chart_rows_layout, write_rows_pdf
-from ilmek.io.chart.rows_reading import read_rows
 from ilmek.io.chart.rows_text import write_rows_text
 from ilmek.io.chart.symbols import symbols
 

@@ -27,7 +27,7 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 
 from ilmek.arrays import ComplexArray, ComplexField, FloatArray, RealField
-from ilmek.errors import IlmekError, ParameterError, UnitError, did_you_mean
+from ilmek.errors import IlmekError, ParameterError, UnitError, did_you_mean, restated
 from ilmek.records import shown_value
 from ilmek.units import GREATEST, format_number, has_unit, parse_quantity, parse_unit
 
@@ -100,10 +100,8 @@ class Arguments:
 
     def _of_text(self, name: str, text: str, unit: str) -> float:
         """The quantity of a text; only a pure number and 0 need no unit."""
-        try:
+        with restated(UnitError, f"{self._subject(name)}: ", of=UnitError):
             number = parse_quantity(text, unit)
-        except UnitError as error:
-            raise UnitError(f"{self._subject(name)}: {error.given}", allowed=error.allowed, do=error.do) from None
         if number and unit and not has_unit(text):
             do = f"write {text.strip()}{_USUAL.get(unit, unit).removeprefix('1')}"
             raise UnitError(f"{self._subject(name)}: {text.strip()} has no unit", do=do)

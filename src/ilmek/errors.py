@@ -14,7 +14,8 @@ A message states what was given, what is allowed and what to do, in that order.
 """
 
 import difflib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from ilmek.sentences import Sentence
 
@@ -129,3 +130,12 @@ def shortened(text: str, most: int = 40) -> str:
     'a l...'
     """
     return text if len(text) <= most else f"{text[: most - 3]}..."
+
+
+@contextmanager
+def restated(kind: type[IlmekError], before: str = "", *, of: type[IlmekError] = IlmekError) -> Iterator[None]:
+    """Raise errors of a class inside as errors of another, with words before what was given."""
+    try:
+        yield
+    except of as error:
+        raise kind(before + error.given if before else error.given, allowed=error.allowed, do=error.do) from None

@@ -1,7 +1,6 @@
-"""The public names of a package: one table, names that exist, and a package that stays cheap to import."""
+"""The public names of a package: names that exist, and a package that stays cheap to import."""
 
 import importlib
-import re
 from pathlib import Path
 
 import pytest
@@ -22,7 +21,6 @@ LAZY = [
 @pytest.mark.parametrize("package", LAZY)
 def test_public_names_exist_and_are_documented(package: str) -> None:
     module = importlib.import_module(package)
-    assert module.__all__ == list(module.PUBLIC)
     assert len(module.__all__) <= (60 if package == "ilmek" else 30)
     for name in module.__all__:
         assert getattr(module, name).__doc__, name
@@ -35,21 +33,6 @@ def test_no_public_name_is_that_of_a_module(package: str) -> None:
     folder = Path(module.__file__ or "").parent
     modules = {path.stem for path in folder.iterdir() if path.suffix == ".py" or path.is_dir()}
     assert (set(module.__all__) & modules) <= {"units"}
-
-
-@pytest.mark.parametrize("package", LAZY)
-def test_type_checkers_see_the_same_names(package: str) -> None:
-    module = importlib.import_module(package)
-    text = Path(module.__file__ or "").read_text(encoding="utf-8")
-    seen = re.findall(r"^    from ([\w.]+) import (\w+) as (\w+)$", text, re.MULTILINE)
-    assert {name: source for source, name, _ in seen} | _modules(module.PUBLIC) == module.PUBLIC
-    assert sorted(name for _, name, _ in seen) == sorted(module.PUBLIC)
-    assert all(name == alias for _, name, alias in seen)
-
-
-def _modules(public: dict[str, str]) -> dict[str, str]:
-    """Those of the public names that are modules."""
-    return {name: source for name, source in public.items() if source.endswith(f".{name}")}
 
 
 def test_packages_are_cheap_to_import() -> None:

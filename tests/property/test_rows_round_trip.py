@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.rows_reading import chart_of_codes, parse_rows
 from effort import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -13,11 +14,10 @@ from hypothesis import strategies as st
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, overlay_of
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.rows import DIRECTIONS, chart_of_codes, row_codes, row_runs, spans_by_yarn
+from ilmek.carpet.rows import DIRECTIONS, row_codes, row_runs, spans_by_yarn
 from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
-from ilmek.io.chart.rows_reading import parse_rows
 from ilmek.io.chart.rows_text import LONGEST_LINE, header, row_bands
 
 

@@ -65,8 +65,6 @@ def test_contact_ratio_of_long_gears_tends_to_the_racks() -> None:
     """Two racks: 4 / (π sin 2α) = 1.981 (Niemann)."""
     pair = GearPair(Gear(1 * mm, 200_000), Gear(1 * mm, 200_000), 10 * mm)
     assert pair.contact_ratio == pytest.approx(4 / (math.pi * math.sin(2 * PRESSURE_ANGLE)), rel=1e-4)
-    assert not pair.interferes
-    assert GearPair(Gear(1 * mm, 8), Gear(1 * mm, 100), 10 * mm).interferes
 
 
 def test_general_pair_agrees_with_equal_gears() -> None:
@@ -115,8 +113,6 @@ def test_outline_is_a_gear() -> None:
     unrolled = np.sqrt(np.abs(flank) ** 2 - gear.base_radius**2)
     lengths = np.cumsum(np.abs(np.diff(flank)))
     np.testing.assert_allclose(lengths, (unrolled[1:] ** 2 - unrolled[0] ** 2) / (2 * gear.base_radius), rtol=2e-3)
-    assert gear.rack_travel == pytest.approx(math.pi * 96 * mm)
-    assert gear.tip_thickness() > 0.2 * gear.module
 
 
 def test_belt_about_equal_pulleys() -> None:

@@ -13,7 +13,6 @@ from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.dynamics.pin_strength import pin_duty, pin_strength
 from ilmek.elements.flat_section import FlatSection, hole_notch
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.whirl import torsional_frequency
 from ilmek.linkage.fourbar import four_bar
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
 from ilmek.linkage.solve import solve
@@ -129,9 +128,3 @@ def test_a_pin_in_a_fork_by_hand():
     assert found.bending / 1e6 == pytest.approx(114.59, abs=1e-2)
     assert found.pressure / 1e6 == pytest.approx(20.0)
     assert found.wear == pytest.approx(20e6 * 0.01 * 2.0, rel=1e-9)  # coupler does not turn, the crank does
-
-
-def test_two_discs_on_a_shaft():
-    """Rao, 5.3: ω = sqrt(k (J1 + J2) / (J1 J2)); one clamped end: sqrt(k / J)."""
-    assert torsional_frequency(1000.0, 2.0, 3.0) == pytest.approx(math.sqrt(1000 * 5 / 6))
-    assert torsional_frequency(1000.0, 2.0) == pytest.approx(math.sqrt(500))

@@ -234,6 +234,14 @@ def test_inspect_shows_a_row(woven: tuple[Path, Any]) -> None:
         assert "rows 1 to 90, from the bottom" in refused.stderr
 
 
+@pytest.mark.parametrize("issue", ["B,tomorrow", "B,2026-02-30", "B,30.11.2026", "B,", "2026-11-30", ",2026-11-30", ""])
+def test_an_issue_without_revision_or_with_no_date_is_refused(tmp_path: Path, issue: str) -> None:
+    refused = CliRunner().invoke(main, ["design", "cam", "--workshop", str(tmp_path / "parts"), "--issue", issue])
+    assert refused.exit_code == 2
+    assert "2026-11-30" in refused.stderr
+    assert not (tmp_path / "parts").exists()
+
+
 @pytest.mark.parametrize("number", [1, 2, 7, 90])
 def test_inspect_counts_as_the_printed_chart(woven: tuple[Path, Any], number: int) -> None:
     with Image.open(woven[0] / "chart.png") as image:

@@ -6,7 +6,7 @@ import pytest
 
 from ilmek.elements.bearings import BEARINGS, bearings_for
 from ilmek.elements.materials import MATERIALS, find_material, hertz_limit
-from ilmek.elements.motors import MOTORS, Reducer, most_torque, smallest_motor, worm_efficiency
+from ilmek.elements.motors import MOTORS, most_torque, smallest_motor
 from ilmek.elements.shafts import (
     SQUARE_SHEAR,
     SQUARE_TORSION,
@@ -46,15 +46,6 @@ def test_motor_must_also_be_quick_enough() -> None:
 
 def test_servo_torque_is_power_over_speed() -> None:
     assert smallest_motor(1.0, 3000 * rpm).torque == pytest.approx(400 / (3000 * rpm))
-
-
-@pytest.mark.parametrize("friction", [3 * deg, 5 * deg, 8 * deg])
-def test_a_worm_that_locks_itself_wastes_more_than_half(friction) -> None:
-    at_the_limit = worm_efficiency(friction, friction)
-    assert at_the_limit == pytest.approx((1 - math.tan(friction) ** 2) / 2)
-    assert at_the_limit < 0.5
-    assert Reducer(100.0, at_the_limit).self_locking
-    assert not Reducer(100.0, worm_efficiency(3 * friction, friction)).self_locking
 
 
 def test_a_motor_is_taken_by_its_power_not_its_torque() -> None:

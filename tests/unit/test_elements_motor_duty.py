@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from ilmek.elements.duty import LoadCycle, bears, duty, size_motor
 from ilmek.elements.motors import MOTORS, find_motor
-from ilmek.elements.reducers import PLANETARY, WORMS, Reducer
+from ilmek.elements.reducers import PLANETARY, Reducer
 from ilmek.errors import ParameterError
 from ilmek.units import rpm
 
@@ -102,14 +102,6 @@ def test_unknown_motor_names_the_nearest() -> None:
         find_motor("servo 500 W")
     with pytest.raises(ParameterError, match="nearest offered is 'stepper NEMA 34"):
         find_motor("stepper NEMA 36")
-
-
-def test_worms_lock_or_are_efficient_not_both() -> None:
-    assert [worm.ratio for worm in WORMS] == sorted(worm.ratio for worm in WORMS)
-    for worm in WORMS:
-        assert worm.reducer(worm.locking_friction * 1.001).self_locking
-        assert worm.reducer(worm.locking_friction * 1.001).efficiency < 0.5
-        assert worm.reducer(worm.locking_friction / 4).efficiency > 0.5
 
 
 def test_cycle_of_unequal_samples_is_refused() -> None:

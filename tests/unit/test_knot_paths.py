@@ -117,12 +117,6 @@ def test_dimensions_that_leave_no_room_are_refused(numbers: tuple[float, ...], s
         KnotDimensions(*numbers)
 
 
-def test_legs_lie_side_by_side_where_two_yarns_fit() -> None:
-    assert DIMENSIONS.pitch - 2 * DIMENSIONS.radius == pytest.approx(DIMENSIONS.yarn_diameter * 2)
-    assert DIMENSIONS.legs_side_by_side
-    assert not TOUCHING.legs_side_by_side
-
-
 def test_steps_of_nothing_are_refused() -> None:
     with pytest.raises(CarpetError, match="more than 0"):
         PATHS[0].distances(0.0)

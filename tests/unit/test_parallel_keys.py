@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ilmek.elements.parallel_keys import LENGTHS, LONGEST, keyed_end
+from ilmek.elements.parallel_keys import LONGEST, keyed_end, lengths_of
 from ilmek.errors import ParameterError
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.shedding import SheddingParams
@@ -28,9 +28,9 @@ def test_the_shortest_key_that_bears_the_torque(diameter, torque) -> None:
     row = end.keyway
     flank = (row.height - row.in_shaft) * end.length
     assert end.pressure == pytest.approx(torque / (diameter / 2) / flank / (1.5 if end.number == 2 else 1))
-    assert end.length in LENGTHS
+    assert end.length in lengths_of(row)
     assert end.length <= LONGEST * diameter
-    shorter = [length for length in LENGTHS if length < end.length]
+    shorter = [length for length in lengths_of(row) if length < end.length]
     if shorter and end.number == 1:
         assert end.pressure * end.length / shorter[-1] > end.allowed
     check = end.check("shaft", "set another", ())

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.rows_reading import read_rows
 from click.testing import CliRunner
 from pypdf import PdfReader
 
 from ilmek.cli import main
 from ilmek.io.chart import wall
 from ilmek.io.chart.png import read_chart_png
-from ilmek.io.chart.rows_reading import read_rows
 from ilmek.io.chart.symbols import symbols
 from ilmek.jobs import rows as rows_job
 

@@ -105,12 +105,6 @@ def assign_yarns(
     return np.asarray(problem.yarns[np.arange(count), choice], dtype=np.uint8)
 
 
-def assignment_cost(groups: ColourGroups, yarn_labs: FloatArray, yarn_of: IntArray, *, neutral: bool = True) -> float:
-    """E of an assignment, in CIEDE2000 × knots."""
-    problem = _problem(groups, yarn_labs, dict(enumerate(np.asarray(yarn_of).tolist())), neutral=neutral)
-    return _energy(problem, np.zeros(len(groups), dtype=np.int64))
-
-
 def single_costs(groups: ColourGroups, yarn_labs: FloatArray, *, neutral: bool) -> FloatArray:
     """Cost of a knot of each group with each yarn, (groups, yarns): CIEDE2000 and g."""
     colours, yarns = groups.labs[:, 1] + 1j * groups.labs[:, 2], yarn_labs[:, 1] + 1j * yarn_labs[:, 2]

@@ -17,9 +17,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int32
+from ilmek.arrays import Int32
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, Overlay, overlay_of
+from ilmek.carpet.overlay import HALF, JUFTI
 
 SPLITS = ("runs", "colours")
 """How a row is split: into its runs, or into its colours, each once."""
@@ -74,21 +74,6 @@ def row_codes(chart: Chart, first: int, stop: int) -> Int32[np.ndarray, "rows co
     codes[rows, columns] += JUFTI_CODE
     codes[rows, columns + 1] += JUFTI_CODE
     return np.ascontiguousarray(codes[::-1])
-
-
-def chart_of_codes(codes: Int32[np.ndarray, "rows columns"]) -> tuple[Indices, Overlay]:
-    """Knots and overlay of a chart, the inverse of `row_codes` of all rows."""
-    codes = codes[::-1]
-    half = codes >= HALF_CODE
-    knots = np.where(half, (codes - HALF_CODE) // 256, codes % 256).astype(np.uint8)
-    marks = [
-        KnotMark(row, column, HALF, int(codes[row, column] - HALF_CODE) % 256)
-        for row, column in np.argwhere(half).tolist()
-    ]
-    for row in np.flatnonzero(((codes >= JUFTI_CODE) & ~half).any(axis=1)).tolist():
-        runs = (run for run in runs_of(codes[row]) if run.mark == JUFTI)
-        marks += [KnotMark(row, run.first + 2 * knot, JUFTI) for run in runs for knot in range(run.knots)]
-    return knots, overlay_of(marks)
 
 
 def runs_of(codes: Int32[np.ndarray, " columns"]) -> tuple[Run, ...]:

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 import click
 
 from ilmek.cli.call_outputs import STANDARD
+from ilmek.cli.options import file_option, text_option
 from ilmek.jobs.order import GROUPS, QUALITY, SIZE, CarpetOrder
 from ilmek.params import Parameter, declared
 from ilmek.units import format_quantity
@@ -77,25 +78,24 @@ def _metavar(parameter: Parameter) -> str:
 
 _CARPET = (
     click.argument("picture", type=click.Path(path_type=Path)),
-    click.option(
+    text_option(
         "--size",
-        metavar="SIZE",
-        help=f"Carpet size: {SIZES}; default: that of a chart or a drawing made knot by knot, else auto: the shape of "
+        "SIZE",
+        f"Carpet size: {SIZES}; default: that of a chart or a drawing made knot by knot, else auto: the shape of "
         f"the picture at the area of {SIZE}.",
     ),
-    click.option(
+    text_option(
         "--quality",
-        metavar="QUALITY",
-        help=f"Knot density: {QUALITIES}; default: that of a chart or a drawing made knot by knot, {QUALITY}.",
+        "QUALITY",
+        f"Knot density: {QUALITIES}; default: that of a chart or a drawing made knot by knot, {QUALITY}.",
     ),
     click.option("--knot", metavar="KNOT", help="symmetric or asymmetric; default: that of a chart, symmetric."),
-    click.option(
+    file_option(
         "--yarns",
-        "yarn_file",
-        type=click.Path(path_type=Path),
-        metavar="FILE",
-        help="Yarn list: TOML, CSV or a GIMP palette (.gpl); wool: the sixteen wools of ilmek; default: that of a "
+        "FILE",
+        "Yarn list: TOML, CSV or a GIMP palette (.gpl); wool: the sixteen wools of ilmek; default: that of a "
         "chart, the picture's own shades, dyed to order where no wool is near.",
+        "yarn_file",
     ),
 )
 _OUTPUT = (
@@ -104,12 +104,8 @@ _OUTPUT = (
         default=None,
         help="Write chart.pdf, or no chart.pdf and rows.pdf; default: those of at most 400 sheets.",
     ),
-    click.option(
-        "--save-recipe",
-        metavar="FILE",
-        help="Write the carpet as a recipe, with all that was set or decided; - prints it.",
+    text_option(
+        "--save-recipe", "FILE", "Write the carpet as a recipe, with all that was set or decided; - prints it."
     ),
-    click.option(
-        "--out", type=click.Path(path_type=Path), metavar="DIR", help="Output folder; on an error nothing is written."
-    ),
+    file_option("--out", "DIR", "Output folder; on an error nothing is written."),
 )

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import file_option, force_option, json_option
 from ilmek.cli.terminal import note, say, show_pairs
 from ilmek.cli.verdict import CHECK_FAILS
 from ilmek.jobs.check import CheckResult, check_programme
@@ -26,12 +26,11 @@ Limits: .ilmek 1,000 MB; .txt 10,000 MB; 1,000 errors in --json.
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path), metavar="FILE")
-@click.option(
+@file_option(
     "--loom",
+    "FILE.json",
+    "The loom that it must be for: machine.json of weave, or the JSON of design automated-loom.",
     "loom",
-    type=click.Path(path_type=Path),
-    metavar="FILE.json",
-    help="The loom that it must be for: machine.json of weave, or the JSON of design automated-loom.",
 )
 @force_option
 @json_option

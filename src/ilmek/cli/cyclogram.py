@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import file_option, force_option, json_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
@@ -44,13 +44,7 @@ Limits: file 250 kB; 50 tracks, 100 motions, 200 events, relations, exclusions; 
     show_default=True,
     help="Steps of the CSV table per turn.",
 )
-@click.option(
-    "--out",
-    "file_to",
-    type=click.Path(path_type=Path),
-    metavar="FILE.toml",
-    help="Write the cyclogram, as given or solved.",
-)
+@file_option("--out", "FILE.toml", "Write the cyclogram, as given or solved.", "file_to")
 @force_option
 @json_option
 def command(

@@ -9,6 +9,7 @@ from ilmek.cli.call_outputs import CallOutputs, call_outputs
 from ilmek.cli.issue import issue_of
 from ilmek.cli.options import (
     animation_option,
+    file_option,
     force_option,
     issue_option,
     json_option,
@@ -70,42 +71,26 @@ The parameters of a machine, and their limits: ilmek machines MACHINE
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option
 @motion_option
-@click.option(
-    "--workshop",
-    "parts_to",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write plates (DXF, STEP) and cam tables for controllers.",
+@file_option("--workshop", "DIR", "Write plates (DXF, STEP) and cam tables for controllers.", "parts_to")
+@file_option(
+    "--to", "FILE.toml", "Write the linkage as a mechanism file (.toml, .json) for ilmek mechanism.", "mechanism_to"
 )
-@click.option(
-    "--to",
-    "mechanism_to",
-    type=click.Path(path_type=Path),
-    metavar="FILE.toml",
-    help="Write the linkage as a mechanism file (.toml, .json) for ilmek mechanism.",
-)
-@click.option(
+@file_option(
     "--glb",
-    "space_to",
-    type=click.Path(path_type=Path),
-    metavar="FILE.glb",
-    help="Write the parts in space, in motion, as GLB (glTF 2.0); those of a loom, over a row and a knot, are compared "
+    "FILE.glb",
+    "Write the parts in space, in motion, as GLB (glTF 2.0); those of a loom, over a row and a knot, are compared "
     "there too: what is through each other, and what nothing holds, fails a check.",
+    "space_to",
 )
-@click.option(
+@file_option(
     "--step",
+    "FILE.step",
+    "Write the parts as one STEP assembly (AP242), as they stand at the start, or at --pose.",
     "solids_to",
-    type=click.Path(path_type=Path),
-    metavar="FILE.step",
-    help="Write the parts as one STEP assembly (AP242), as they stand at the start, or at --pose.",
 )
 @click.option("--pose", metavar="DRIVE=ANGLE", help="Angle of a drive in --step: row=90deg or knot=200deg in a loom.")
-@click.option(
-    "--mjcf",
-    "model_to",
-    type=click.Path(path_type=Path),
-    metavar="FILE.xml",
-    help="Write the bodies with joints, inertia, contacts and servos for MuJoCo (MJCF).",
+@file_option(
+    "--mjcf", "FILE.xml", "Write the bodies with joints, inertia, contacts and servos for MuJoCo (MJCF).", "model_to"
 )
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @issue_option

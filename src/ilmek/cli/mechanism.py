@@ -11,10 +11,12 @@ from ilmek.cli.call_outputs import CallOutputs, call_outputs
 from ilmek.cli.issue import issue_of
 from ilmek.cli.options import (
     animation_option,
+    file_option,
     force_option,
     issue_option,
     json_option,
     require_options,
+    text_option,
 )
 from ilmek.cli.report import cell_text, show_self_tests
 from ilmek.cli.terminal import note, say, show_checks, show_table
@@ -71,24 +73,15 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
 @click.option(
     "--steps", type=click.IntRange(1, MOST_NUMBERS), default=STEPS, show_default=True, help="Steps of the range."
 )
-@click.option(
-    "--csv",
-    "csv_to",
-    metavar="-|FILE",
-    help="Write motion and forces as CSV, SI and radians; - writes to standard output.",
+@text_option(
+    "--csv", "-|FILE", "Write motion and forces as CSV, SI and radians; - writes to standard output.", "csv_to"
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
 @animation_option
-@click.option(
-    "--workshop",
-    "parts_to",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write the parts (drawings, DXF, STEP, lists) and the inputs' laws as cam tables.",
+@file_option(
+    "--workshop", "DIR", "Write the parts (drawings, DXF, STEP, lists) and the inputs' laws as cam tables.", "parts_to"
 )
-@click.option(
-    "--glb", "space_to", type=click.Path(path_type=Path), metavar="FILE.glb", help="Write the parts in space."
-)
+@file_option("--glb", "FILE.glb", "Write the parts in space.", "space_to")
 @issue_option
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option
+from ilmek.cli.options import file_option, force_option, json_option, text_option
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 
@@ -32,15 +32,8 @@ Limits: file 250 kB; 500 carpets, 50 looms, 50 shifts.
     metavar="LOOMS.toml",
     help="Looms, shifts, yarn in stock.",
 )
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write page, picture, plan and purchase into a folder.",
-)
-@click.option(
-    "--time-limit", metavar="TIME", help="Time to plan in, like 30s; default: 10s for ten carpets, 60s for a hundred."
-)
+@file_option("--out", "DIR", "Write page, picture, plan and purchase into a folder.")
+@text_option("--time-limit", "TIME", "Time to plan in, like 30s; default: 10s for ten carpets, 60s for a hundred.")
 @force_option
 @json_option
 def command(

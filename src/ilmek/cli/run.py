@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option, picture_option
+from ilmek.cli.options import file_option, force_option, json_option, picture_option
 from ilmek.cli.running import run_options, work_shown
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
@@ -31,11 +31,8 @@ Limits: file 1,000 MB; stops file 250 kB; journal 4,000 MB; 10,000 knots of a gr
 @click.argument("programme", type=click.Path(path_type=Path), metavar="PROGRAMME.ilmek")
 @run_options
 @picture_option
-@click.option(
-    "--record",
-    type=click.Path(path_type=Path),
-    metavar="FILE.txt",
-    help="Write what the simulated loom was ordered and what happened to it, for `ilmek replay`.",
+@file_option(
+    "--record", "FILE.txt", "Write what the simulated loom was ordered and what happened to it, for `ilmek replay`."
 )
 @force_option
 @json_option

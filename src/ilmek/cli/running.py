@@ -5,13 +5,12 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
 from ilmek.cli.interrupts import before_end
-from ilmek.cli.options import stops_option
+from ilmek.cli.options import file_option, stops_option, text_option
 from ilmek.cli.terminal import note
 from ilmek.cli.waiting_notes import WaitingNotes
 from ilmek.jobs.run.loom_run import STOP_TIME, LoomRun
@@ -29,11 +28,8 @@ _OPTIONS = (
         metavar="N|max",
         help="Speed of the simulated loom's clock: 1x, 1000x, max as fast as possible; default: 1x.",
     ),
-    click.option(
-        "--journal",
-        type=click.Path(path_type=Path),
-        metavar="DIR",
-        help="Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME.",
+    file_option(
+        "--journal", "DIR", "Folder of the journal and the woven carpet; default: NAME.journal beside PROGRAMME."
     ),
     click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed."),
     click.option(
@@ -43,10 +39,10 @@ _OPTIONS = (
         help="Make the journal durable once for N knots; 1: each knot before the next begins. After a power cut the "
         "sensor finds the knots since; default: 1 up to a speed of 100x, 64 above it.",
     ),
-    click.option(
+    text_option(
         "--faults",
-        metavar="SEED",
-        help="Simulate breaks of yarn, weft and warp and missed grips, as `ilmek simulate` does; default: none.",
+        "SEED",
+        "Simulate breaks of yarn, weft and warp and missed grips, as `ilmek simulate` does; default: none.",
     ),
     stops_option,
     click.option(

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option
+from ilmek.cli.options import file_option, force_option, text_option
 from ilmek.cli.password import typed_password
 from ilmek.cli.running import run_options, work_shown
 from ilmek.cli.settings import read_settings
@@ -36,37 +36,17 @@ Limits: file 1,000 MB; users file, certificate and key 100 kB; 200 users; 32 job
 @click.argument("programme", type=click.Path(path_type=Path), metavar="[PROGRAMME.ilmek]", required=False)
 @click.option("--host", default="127.0.0.1", help="Address to listen at; default: 127.0.0.1, this computer alone.")
 @click.option("--port", type=int, default=PORT, metavar="N", help=f"Port to listen at; default: {PORT}.")
-@click.option(
-    "--users",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="File of the users; default: opcua/users.toml in the folder of ilmek's settings.",
-)
-@click.option(
-    "--certificate",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="The server's certificate, PEM or DER; default: one made by itself and kept.",
-)
+@file_option("--users", "FILE", "File of the users; default: opcua/users.toml in the folder of ilmek's settings.")
+@file_option("--certificate", "FILE", "The server's certificate, PEM or DER; default: one made by itself and kept.")
 @click.option("--key", type=click.Path(path_type=Path), metavar="FILE", help="The key of --certificate.")
 @click.option("--anonymous-read", is_flag=True, help="Clients without a name may read; default: nobody without one.")
 @click.option("--start", is_flag=True, help="Weave at once; default: wait for a job order or a command.")
 @run_options
-@click.option(
-    "--add-user",
-    "add_user_name",
-    metavar="NAME",
-    help="Write a user to the users file, and end; asks for the password.",
-)
+@text_option("--add-user", "NAME", "Write a user to the users file, and end; asks for the password.", "add_user_name")
 @click.option(
     "--right", default="operator", type=click.Choice(RIGHTS), help="Of --add-user: command, or only read; operator."
 )
-@click.option(
-    "--nodeset",
-    type=click.Path(path_type=Path),
-    metavar="FILE.xml",
-    help="Write the loom's address space as a NodeSet, and end.",
-)
+@file_option("--nodeset", "FILE.xml", "Write the loom's address space as a NodeSet, and end.")
 @force_option
 def command(
     *,

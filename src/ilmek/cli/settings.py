@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from ilmek.errors import ParameterError
+from ilmek.errors import ParameterError, restated
 from ilmek.io.text_file import read_text
 
 LARGEST = 1_000_000
@@ -49,7 +49,5 @@ def loom_settings(given: Iterable[str]) -> tuple[Path | None, tuple[str, ...]]:
 
 def _in_file(name: str, path: Path) -> str:
     wording = dict(noun="text file with the value", do="check its name")
-    try:
+    with restated(ParameterError, f"{name}=@{path}: ", of=ParameterError):
         return read_text(path, largest=LARGEST, error=ParameterError, **wording)
-    except ParameterError as error:
-        raise ParameterError(f"{name}=@{path}: {error.given}", allowed=error.allowed, do=error.do) from None

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import animation_option, force_option, json_option, stops_option
+from ilmek.cli.options import animation_option, file_option, force_option, json_option, stops_option
 from ilmek.cli.settings import read_settings, setting_files
 from ilmek.cli.terminal import note, say, show_pairs, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
@@ -52,9 +52,7 @@ def _show_parameters(context: click.Context, _option: click.Parameter, value: bo
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a rate or a time: see --parameters.")
 @click.option("--no-faults", "without_faults", is_flag=True, help="Stop only as planned: all rates are 0.")
 @click.option("--deadline", metavar="TIME", help="Check that 95 % of the runs are woven in this time, like 72h.")
-@click.option(
-    "--loom", type=click.Path(path_type=Path), metavar="FILE.json", help="Loom of the programme, for the energy."
-)
+@file_option("--loom", "FILE.json", "Loom of the programme, for the energy.")
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write page, JSON and tables to a folder.")
 @click.option(
     "--row", "number", type=int, metavar="N", help="Row shown in motion, from 1 at the bottom; default: the longest."

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.call_outputs import call_outputs
-from ilmek.cli.options import force_option, json_option, picture_option
+from ilmek.cli.options import file_option, force_option, json_option, picture_option
 from ilmek.cli.run_commands import journal_option
 from ilmek.cli.terminal import show_pairs
 from ilmek.jobs.status import run_status, status_in_words
@@ -23,11 +23,8 @@ Limits: journal 4,000 MB; file 1,000 MB.
 @click.command(epilog=EXAMPLES)
 @journal_option
 @picture_option
-@click.option(
-    "--programme",
-    type=click.Path(path_type=Path),
-    metavar="PROGRAMME.ilmek",
-    help="Programme of the carpet, for --picture; default: NAME.ilmek beside NAME.journal.",
+@file_option(
+    "--programme", "PROGRAMME.ilmek", "Programme of the carpet, for --picture; default: NAME.ilmek beside NAME.journal."
 )
 @force_option
 @json_option

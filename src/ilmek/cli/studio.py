@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from ilmek.cli.interrupts import before_end
+from ilmek.cli.options import file_option
 from ilmek.cli.password import typed_password
 from ilmek.cli.terminal import note
 from ilmek.errors import ParameterError
@@ -31,12 +32,7 @@ DEFAULT_PROJECT = Path("studio-project")
 @click.option("--port", type=int, default=PORT, metavar="N", help=f"Port; one in use: the next. Default: {PORT}.")
 @click.option("--no-browser", is_flag=True, help="Print the address alone; default: open the browser too.")
 @click.option("--host", default="127.0.0.1", help="Address to listen at; default: 127.0.0.1, this computer alone.")
-@click.option(
-    "--password-file",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="File with the password that --host requires; default: typed.",
-)
+@file_option("--password-file", "FILE", "File with the password that --host requires; default: typed.")
 def command(*, project: Path | None, port: int, no_browser: bool, host: str, password_file: Path | None) -> int:
     """Open the studio on the folder PROJECT: carpet, machines, linkages, cyclograms and loom in the browser.
 

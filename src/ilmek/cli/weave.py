@@ -9,7 +9,7 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.carpet_summary import carpet_pairs
 from ilmek.cli.loom_summary import loom_pairs
-from ilmek.cli.options import force_option, json_option, rates_option
+from ilmek.cli.options import force_option, json_option, rates_option, text_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
@@ -49,9 +49,7 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     type=click.Choice(AIMS),
     help="Choose what is left open for least cost of a carpet, price of the loom, or weaving time; default: cost.",
 )
-@click.option(
-    "--warp-pitch", metavar="LENGTH", help="Distance between the warps of your loom; default: that of the quality."
-)
+@text_option("--warp-pitch", "LENGTH", "Distance between the warps of your loom; default: that of the quality.")
 @click.option(
     "--loom",
     "settings",

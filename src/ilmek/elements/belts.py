@@ -11,8 +11,26 @@ pretension of each side: at the least pretension the slack side has no force, th
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from ilmek.errors import ParameterError
+from ilmek.report import Contour
 from ilmek.units import format_quantity, mm
+
+
+@dataclass(frozen=True, slots=True)
+class PulleyGroove:
+    """A groove between the teeth of a pulley [m].
+
+    offset  u, from the tips of the teeth to the pitch line        width  at the tips        depth
+    flank   half of the angle between its sides [rad]              round  its floor is half a circle
+    """
+
+    offset: float
+    width: float
+    depth: float
+    flank: float
+    round: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +38,7 @@ class BeltType:
     """A profile of belts.
 
     pitch  [m]      widths  available [m]      least_teeth  of a pulley
+    groove      of its pulleys
     pull   allowed pull of a tooth in mesh per width [N/m], at rest (a third less at 1000 rpm); None: not known
     mass   over length and width [kg/m²]; nan: not known
     """
@@ -28,34 +47,81 @@ class BeltType:
     pitch: float
     widths: tuple[float, ...]
     least_teeth: int
+    groove: PulleyGroove
     pull: float | None
     mass: float
 
+    def pitch_radius(self, teeth: int) -> float:
+        """Pitch radius of a pulley [m]: p z / 2 pi."""
+        return self.pitch * teeth / (2 * math.pi)
 
-def _belt(
-    name: str, pitch: float, widths: tuple[float, ...], least: int, pull: float | None = None, *, mass: float = math.nan
+    def tip_radius(self, teeth: int) -> float:
+        """Radius of a pulley over its teeth [m]: the pitch line runs u outside of it.
+
+        >>> round(2e3 * BELTS["HTD 5M"].tip_radius(20), 2), round(2e3 * BELTS["T5"].tip_radius(20), 2)
+        (30.69, 31.0)
+        """
+        return self.pitch_radius(teeth) - self.groove.offset
+
+    def pulley_outline(self, teeth: int) -> Contour:
+        """Outline of a pulley about the origin, a groove in +x, counter-clockwise [m].
+
+        Raises ParameterError for less teeth than the profile allows.
+        """
+        if teeth < self.least_teeth:
+            raise ParameterError(f"a pulley of {teeth} teeth for {self.name}", allowed=f"{self.least_teeth} or more")
+        tip, own = self.tip_radius(teeth), self.groove
+        half, foot = own.width / 2, own.width / 2 - own.depth * math.tan(own.flank)
+        floor = tip - own.depth + (foot if own.round else 0.0)
+        side = math.sqrt(tip**2 - half**2)
+        corners = np.array([side - 1j * half, floor - 1j * foot, floor + 1j * foot, side + 1j * half])
+        land = 2 * math.pi / teeth - 2 * math.asin(half / tip)
+        turned = np.exp(2j * math.pi / teeth * np.arange(teeth))
+        bulges = np.array([0.0, -1.0 if own.round else 0.0, 0.0, math.tan(land / 4)])
+        return Contour(np.outer(turned, corners).ravel(), np.tile(bulges, teeth))
+
+
+def _belt(  # noqa: PLR0917
+    name: str,
+    pitch: float,
+    widths: tuple[float, ...],
+    least: int,
+    groove: tuple[float, float, float],
+    pull: float | None = None,
+    *,
+    mass: float = math.nan,
 ) -> BeltType:
-    """Pitch and widths in mm, pull of a tooth in N/cm, mass in kg/m², the units of catalogues."""
-    return BeltType(name, pitch * mm, tuple(w * mm for w in widths), least, None if pull is None else pull * 100, mass)
+    """Pitch, widths and groove (u, width, depth) in mm, pull of a tooth in N/cm, mass in kg/m², as in catalogues."""
+    offset, width, depth = (size * mm for size in groove)
+    curved = name.startswith("HTD")
+    own = PulleyGroove(offset, width, depth, 0.0 if curved else _FLANK, round=curved)
+    per_tooth = None if pull is None else pull * 100
+    return BeltType(name, pitch * mm, tuple(w * mm for w in widths), least, own, per_tooth, mass)
+
+
+_FLANK = math.radians(25)
+"""Of the trapezoidal grooves of T and AT: DIN 7721-2."""
 
 
 BELTS: dict[str, BeltType] = {
     belt.name: belt
     for belt in (
-        _belt("T2.5", 2.5, (6, 10), 15, 9.0, mass=1.5),
-        _belt("T5", 5, (6, 10, 16, 25), 10, 24.0, mass=2.1),
-        _belt("T10", 10, (16, 25, 32, 50), 12, 50.0),
-        _belt("AT5", 5, (10, 16, 25, 32), 15, 35.0, mass=3.4),
-        _belt("AT10", 10, (16, 25, 32, 50), 15, 73.0, mass=5.8),
-        _belt("HTD 3M", 3, (6, 9, 15), 10, mass=2.0),
-        _belt("HTD 5M", 5, (9, 15, 25), 14),
-        _belt("HTD 8M", 8, (20, 30, 50, 85), 22),
-        _belt("HTD 14M", 14, (40, 55, 85, 115), 28),
+        _belt("T2.5", 2.5, (6, 10), 15, (0.26, 1.75, 0.75), 9.0, mass=1.5),
+        _belt("T5", 5, (6, 10, 16, 25), 10, (0.415, 2.96, 1.25), 24.0, mass=2.1),
+        _belt("T10", 10, (16, 25, 32, 50), 12, (0.93, 6.02, 2.6), 50.0),
+        _belt("AT5", 5, (10, 16, 25, 32), 15, (0.615, 2.6, 1.25), 35.0, mass=3.4),
+        _belt("AT10", 10, (16, 25, 32, 50), 15, (0.93, 5.2, 2.6), 73.0, mass=5.8),
+        _belt("HTD 3M", 3, (6, 9, 15), 10, (0.381, 1.9, 1.28), mass=2.0),
+        _belt("HTD 5M", 5, (9, 15, 25), 14, (0.5715, 3.1, 2.16), mass=4.2),
+        _belt("HTD 8M", 8, (20, 30, 50, 85), 22, (0.686, 5.2, 3.54), mass=6.3),
+        _belt("HTD 14M", 14, (40, 55, 85, 115), 28, (1.397, 9.3, 6.2), mass=11.0),
     )
 }
 """By name: pitches and widths of DIN 7721 (T), makers' AT and ISO 13050 (H profiles, HTD); pulls of polyurethane belts
 with steel cords from makers' data, rounded down; masses of such belts from makers' tables (AT5: 0.34 kg/m for 100 mm),
-AT10 by its section: mean thickness 3.25 mm against 2.1 mm of AT5, and cords to match."""
+AT10 by its section: mean thickness 3.25 mm against 2.1 mm of AT5, and cords to match. Grooves: T by DIN 7721-2 with the
+tip diameters of makers' tables (T5, 20 teeth: 31.00 mm), HTD by the pitch line offset of ISO 13050; widths of AT and
+HTD for the belt's tooth with usual play, assumed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +198,7 @@ class BeltDrive:
     @property
     def radii(self) -> tuple[float, float]:
         """Pitch radii [m]."""
-        return self.belt.pitch * self.small / (2 * math.pi), self.belt.pitch * self.large / (2 * math.pi)
+        return self.belt.pitch_radius(self.small), self.belt.pitch_radius(self.large)
 
     @property
     def distance(self) -> float:
@@ -182,7 +248,7 @@ def belt_length(belt: BeltType, small: int, large: int, distance: float) -> floa
 
     Raises ParameterError for overlapping pulleys.
     """
-    first, second = belt.pitch * small / (2 * math.pi), belt.pitch * large / (2 * math.pi)
+    first, second = belt.pitch_radius(small), belt.pitch_radius(large)
     if distance < (first + second) * (1 - 1e-12):
         raise ParameterError(
             f"pulley axes {format_quantity(distance, 'mm')} apart",

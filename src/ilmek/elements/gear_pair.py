@@ -69,12 +69,6 @@ class GearPair:
         return self._contact_length / (math.pi * self.first.module * math.cos(PRESSURE_ANGLE))
 
     @property
-    def interferes(self) -> bool:
-        """Whether a tip touches the other flank inside its base circle: interference."""
-        reach = self.distance * math.sin(self.pressure_angle)
-        return max(self._reaches) > reach * (1 + 1e-12)
-
-    @property
     def rolling_radii(self) -> tuple[float, float]:
         """Radii of the operating pitch circles [m]."""
         first = self.distance / (1 + self.ratio)

@@ -89,22 +89,12 @@ class Gear:
         """Whether a rack cutter undercuts the flank."""
         return self.shift < least_shift(self.teeth) - 1e-12
 
-    @property
-    def rack_travel(self) -> float:
-        """Travel of a rack per turn of the gear [m]: π m z."""
-        return math.pi * self.module * self.teeth
-
     def half_thickness(self, radius: RealField) -> FloatArray:
         """Half the angle [rad] of a tooth at a radius outside the base circle [m]; negative beyond its point."""
         cosine = np.minimum(self.base_radius / np.asarray(radius, dtype=float), 1.0)
         angle = np.arccos(cosine)
         at_pitch = (math.pi / 2 + 2 * self.shift * math.tan(PRESSURE_ANGLE)) / self.teeth
         return np.asarray(at_pitch + involute(PRESSURE_ANGLE) - (np.tan(angle) - angle))
-
-    def tip_thickness(self, tip_radius: float | None = None) -> float:
-        """Thickness of a tooth at its tip [m]; 0.2 modules or more against breakage [DIN 3960]."""
-        radius = self.tip_radius if tip_radius is None else tip_radius
-        return 2 * radius * float(self.half_thickness(radius))
 
 
 def outline(gear: Gear, tip_radius: float | None = None, points: int = 9) -> ComplexArray:

@@ -16,7 +16,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.elements.catalogue import pick
-from ilmek.elements.reducers import Reducer, worm_efficiency
+from ilmek.elements.reducers import Reducer
 from ilmek.units import mm, rpm
 
 __all__ = [
@@ -30,7 +30,6 @@ __all__ = [
     "most_torque",
     "smallest_motor",
     "strongest_motor",
-    "worm_efficiency",
 ]
 
 STEPPER, SERVO = "stepper", "servo"
@@ -73,6 +72,11 @@ class Motor:
         return np.where(speed <= self.speed * (1 + _ROUNDING), self.peak, 0.0)
 
     @property
+    def shaft(self) -> float:
+        """Diameter of its shaft [m]."""
+        return next(shaft for face, shaft in _SHAFTS if self.face <= face + 0.1 * mm)
+
+    @property
     def length(self) -> float:
         """Length of its body [m]: of its mass at `BULK` over its flange."""
         return self.mass / (BULK * self.face**2)
@@ -93,6 +97,15 @@ _FLANGES = (
     (7500.0, 180 * mm),
 )
 """Largest power [W] of servos with a flange of a side [m]; above: 220 mm. Usual sizes, makers differ."""
+
+_SHAFTS = tuple(
+    (face * mm, shaft * mm)
+    for face, shaft in (
+        *((25, 5), (40, 8), (42.3, 5), (57.2, 6.35), (60, 14), (80, 19), (86.4, 14), (107.9, 19)),
+        *((130, 24), (180, 35), (220, 42)),
+    )
+)
+"""Flanges of motors with the usual diameters of their shafts [m]: NEMA ICS 16, and makers of servos."""
 
 _ROUNDING = 1e-9
 _STEPPER_SPEED = 300 * rpm

@@ -110,6 +110,7 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "guide carriage": PriceRates(each=20.0),
     "belt and pulleys": PriceRates(each=40.0, per_m=15.0),
     "belt": PriceRates(each=2.0, per_m=15.0),
+    "toothed pulley": PriceRates(each=10.0, per_kg=40.0),
     "magnet": PriceRates(each=1.0, per_kg=120.0),
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),
@@ -186,21 +187,6 @@ def piece_price(part: BillLine, prices: Mapping[str, PriceRates]) -> float:
 def batch_price(part: BillLine, prices: Mapping[str, PriceRates]) -> float:
     """Price of the set-ups for all pieces of a made part."""
     return sum(prices[step.kind].batch for step in part.steps)
-
-
-def written(prices: Mapping[str, PriceRates] = PRICES) -> str:
-    """A table as a text for editing and `read_prices`.
-
-    >>> read_prices(written()) == PRICES
-    True
-    """
-    lines = [
-        f"{kind} {label} = {getattr(rates, name):g}"
-        for kind, rates in prices.items()
-        for label, name in _RATES.items()
-        if getattr(rates, name)
-    ]
-    return "\n".join(lines)
 
 
 def _line(entry: str) -> tuple[str, str, float]:

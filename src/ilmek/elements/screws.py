@@ -77,13 +77,6 @@ class Screw:
         """Torque [N m] produced by a force [N]: F d/2 tan(λ - ρ); below 0 for a self-locking screw: to lower it."""
         return force * self.diameter / 2 * math.tan(self.lead_angle - self.friction_angle)
 
-    def turning_force(self, torque: float) -> float:
-        """Force [N] along a steep screw that overcomes a torque [N m]; inf for a self-locking screw.
-
-        For the guide of a gripper that turns as it moves, with its pin in a steep groove. Inverse of holding_torque.
-        """
-        return math.inf if self.self_locking else torque / self.holding_torque(1.0)
-
     def buckling_force(self, length: float, modulus: float, ends: str = "clamped-hinged") -> float:
         """Euler's buckling force of the core [N]: c π² E I / l² [Shigley, 4-12].
 
@@ -98,11 +91,6 @@ class Screw:
 
 END_FIXITY = {"clamped-free": 0.25, "hinged": 1.0, "clamped-hinged": 2.0, "clamped": 4.0}
 """Euler's c by the ends [theory; designers use 1.2 for elastic clamped ends]."""
-
-
-def collar_torque(force: float, diameter: float, friction: float) -> float:
-    """Torque [N m] of a collar of a mean diameter [m] under a force [N]: μ F d / 2."""
-    return friction * force * diameter / 2
 
 
 CORE, BALL_FRICTION = 0.85, 0.005

@@ -11,15 +11,13 @@ moments are neglected: they raise the critical speed of a forward whirl.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.elements.beam.model import Beam, PointLoad
-from ilmek.elements.beam.solve import bend
-from ilmek.elements.materials import GRAVITY
+from ilmek.arrays import FloatArray
+from ilmek.elements.beam.model import Beam
 from ilmek.errors import ParameterError
 from ilmek.units import format_quantity
 
@@ -89,19 +87,6 @@ def frequencies(
     return np.asarray(1 / np.sqrt(slowness[slowness > slowness[0] * 1e-12]))
 
 
-def dunkerley(beam: Beam, rigidity: float, masses: Sequence[Mass]) -> float:
-    """Lower bound of the first critical speed [rad/s] of masses on a shaft without mass: 1 / w² = Σ m δ."""
-    compliances = (float(_deflections(beam, rigidity, [mass], per=1.0)[0].real) for mass in masses)
-    return 1 / math.sqrt(sum(mass.mass * compliance for mass, compliance in zip(masses, compliances, strict=True)))
-
-
-def rayleigh(beam: Beam, rigidity: float, masses: Sequence[Mass]) -> float:
-    """Upper bound of the first critical speed [rad/s] of masses on a massless shaft, from static deflections."""
-    weights = np.array([mass.mass for mass in masses])
-    line = np.abs(_deflections(beam, rigidity, masses, per=None))
-    return float(np.sqrt(GRAVITY * np.sum(weights * line) / np.sum(weights * line**2)))
-
-
 def _check(beam: Beam, linear_density: float, masses: Sequence[Mass]) -> None:
     off = [mass.at for mass in masses if not 0 <= mass.at <= beam.length]
     if off:
@@ -111,12 +96,6 @@ def _check(beam: Beam, linear_density: float, masses: Sequence[Mass]) -> None:
         )
     if not (linear_density > 0 or any(mass.mass > 0 and mass.at not in beam.supports for mass in masses)):
         raise ParameterError("a shaft without mass and nothing on it", do="give it a mass along it, or masses on it")
-
-
-def _deflections(beam: Beam, rigidity: float, masses: Sequence[Mass], *, per: float | None) -> ComplexArray:
-    """Deflections [m] at masses under their weights, or under a force `per` [N] each."""
-    loads = tuple(PointLoad(mass.at, mass.mass * GRAVITY if per is None else per) for mass in masses)
-    return bend(replace(beam, loads=loads)).deflection(np.array([mass.at for mass in masses]), rigidity)
 
 
 def _nodes(beam: Beam, masses: Sequence[Mass]) -> FloatArray:
@@ -143,11 +122,3 @@ def _assembled(nodes: FloatArray, rigidity: float, linear_density: float) -> tup
 
 _STIFFNESS = np.array([[12.0, 6, -12, 6], [6, 4, -6, 2], [-12, -6, 12, -6], [6, 2, -6, 4]])
 _INERTIA = np.array([[156.0, 22, 54, -13], [22, 4, 13, -3], [54, 13, 156, -22], [-13, -3, -22, 4]])
-
-
-def torsional_frequency(stiffness: float, first: float, second: float = math.inf) -> float:
-    """Natural frequency [rad/s] of two discs on a shaft without inertia: sqrt(k (1/J1 + 1/J2)) [Rao, 5.3].
-
-    stiffness  k of the shaft in torsion, G J_t / l [N m/rad]      first, second  J1, J2 [kg m²]; inf: a clamped end
-    """
-    return math.sqrt(stiffness * (1 / first + 1 / second))

@@ -37,7 +37,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ilmek.cams.laws import LAWS
-from ilmek.errors import MechanismError, ParameterError
+from ilmek.errors import MechanismError, ParameterError, restated
 from ilmek.io.cyclogram_entries import CyclogramEntry
 from ilmek.io.data_text import DataText, parse_data, read_data
 from ilmek.io.output import write_file
@@ -121,10 +121,8 @@ def timed_data(data: Table, cyclogram: Cyclogram) -> JsonObject:
 
 
 def _read(text: DataText, name: str) -> Cyclogram:
-    try:
+    with restated(ParameterError, of=MechanismError):
         return _cyclogram(CyclogramEntry(text.data, (), SourceText(name, text.lines)))
-    except MechanismError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 def write_cyclogram(path: Path, cyclogram: Cyclogram) -> None:

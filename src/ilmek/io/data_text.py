@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ilmek.errors import IlmekError, is_printable, shortened
+from ilmek.errors import IlmekError, is_printable, restated, shortened
 from ilmek.io.line_numbers import KeyLines, Token, json_lines, tokens, toml_lines
 from ilmek.io.line_numbers import Path as KeyPath
 from ilmek.io.text_file import read_text
@@ -51,24 +51,20 @@ def read_data(
     Raises `error` with the file and, for an error in the text, the line.
     """
     noun = f"{kind} file, .toml or .json"
-    try:
+    with restated(error, f"{kind} file {path} ", of=error):
         text = read_text(path, noun=noun, largest=largest, error=error, do="check the path")
         if path.suffix.lower() not in (".toml", ".json"):
             raise error(f"ends in {path.suffix!r}", allowed=f"a {kind} file is .toml or .json")
-    except error as failed:
-        raise error(f"{kind} file {path} {failed.given}", allowed=failed.allowed, do=failed.do) from None
     return parse_data(text, name=str(path), toml=path.suffix.lower() == ".toml", error=error, longest=longest)
 
 
 def parse_data(text: str, *, name: str, toml: bool, error: type[IlmekError], longest: int = LONGEST_TEXT) -> DataText:
     """The data of a TOML or JSON text; messages call it `name`. Raises `error` with the line."""
-    try:
+    with restated(error, f"{name}, "):
         found = list(tokens(text))
         _check_tokens(found, longest)
         data, lines = (_toml if toml else _json)(text, found)
         _check_texts(data, lines)
-    except IlmekError as failed:
-        raise error(f"{name}, {failed.given}", allowed=failed.allowed, do=failed.do) from None
     return DataText(data, lines, text)
 
 

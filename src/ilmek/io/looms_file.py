@@ -43,7 +43,7 @@ from pathlib import Path
 
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.carpet.yarn_plan import EURO
-from ilmek.errors import IlmekError, ParameterError, did_you_mean
+from ilmek.errors import ParameterError, did_you_mean, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.schema import SourceText, shown
@@ -137,10 +137,8 @@ def read_looms(path: Path) -> FactoryLooms:
     Raises ParameterError with the file, the line and the key for any error in the file.
     """
     text = read_data(path, "looms", ParameterError)
-    try:
+    with restated(ParameterError):
         return _looms(FactoryEntry(text.data, (), SourceText(str(path), text.lines)), path)
-    except IlmekError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 def _looms(root: FactoryEntry, path: Path) -> FactoryLooms:

@@ -12,7 +12,7 @@ Texts have their units, as on the command line; numbers are SI.
 from collections.abc import Mapping
 from pathlib import Path
 
-from ilmek.errors import IlmekError, MechanismError, ParameterError
+from ilmek.errors import IlmekError, MechanismError, ParameterError, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import SourceText
@@ -50,10 +50,8 @@ def read_machine_file(path: Path) -> MachineFile:
     """
     read = read_data(path, "machine", ParameterError, longest=LONGEST_TEXT)
     source = SourceText(str(path), read.lines)
-    try:
+    with restated(ParameterError, of=MechanismError):
         root = FileEntry(read.data, (), source)
         root.keys("machine", "settings", needs=("machine",))
         settings = dict(root.table("settings").settings())
         return MachineFile(root.text("machine"), settings, source)
-    except MechanismError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None

@@ -26,7 +26,7 @@ from datetime import datetime
 from pathlib import Path
 
 from ilmek.carpet.yarn_plan import EURO
-from ilmek.errors import IlmekError, ParameterError
+from ilmek.errors import IlmekError, ParameterError, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.factory_entry import FactoryEntry, file_beside
 from ilmek.io.schema import SourceText, shown
@@ -85,10 +85,8 @@ def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrder
     Raises ParameterError with the file, the line and the key for any error in the file.
     """
     text = read_data(path, "orders", ParameterError)
-    try:
+    with restated(ParameterError):
         return _orders(FactoryEntry(text.data, (), SourceText(str(path), text.lines)), path, parameters)
-    except IlmekError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:

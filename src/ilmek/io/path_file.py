@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from ilmek.arrays import ComplexArray
-from ilmek.errors import CarpetError, UnitError, shortened
+from ilmek.errors import CarpetError, UnitError, restated, shortened
 from ilmek.io.csv_lines import CsvLines, csv_lines, decimal_points
 from ilmek.io.text_file import read_text
 from ilmek.units import LONGEST, counted, parse_quantity, read_number
@@ -33,15 +33,13 @@ def read_path(path: Path, columns: tuple[str, str] | None = None) -> ComplexArra
     Raises CarpetError with the file and the line or column of the error.
     """
     wording = dict(noun="path, a CSV file of points", do="check its name")
-    try:
+    with restated(CarpetError, f"path {path}: ", of=CarpetError):
         lines = csv_lines(read_text(path, largest=LARGEST, error=CarpetError, **wording), CarpetError)
         chosen = _chosen(lines.header[1], columns)
         factors = np.array([_factor(lines.header[1][index]) for index in chosen])
         points = np.array(list(_points(lines, chosen)))
         if len(points) < 2:
             raise CarpetError(f"has {counted(len(points), 'point')}", allowed="two or more below the line of headings")
-    except CarpetError as error:
-        raise CarpetError(f"path {path}: {error.given}", allowed=error.allowed, do=error.do) from None
     across, upwards = (points * factors).T
     return np.asarray(across + 1j * upwards)
 
@@ -66,10 +64,8 @@ def _factor(heading: str) -> float:
     name, unit = _parts(heading)
     if not unit:
         raise CarpetError(f"column {name!r} has no unit", do=f"write {name} [mm] in the first line")
-    try:
+    with restated(CarpetError, f"column {name!r}: ", of=UnitError):
         return parse_quantity(f"1 {unit}", "mm")
-    except UnitError as error:
-        raise CarpetError(f"column {name!r}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
 def _points(lines: CsvLines, chosen: list[int]) -> Iterator[list[float]]:

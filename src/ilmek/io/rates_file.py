@@ -11,7 +11,7 @@ Texts have their units, as on the command line; numbers are SI. `prices` are tho
 from pathlib import Path
 
 from ilmek.elements.prices import read_prices
-from ilmek.errors import IlmekError, MechanismError, ParameterError
+from ilmek.errors import IlmekError, MechanismError, ParameterError, restated
 from ilmek.io.data_text import read_data
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import SourceText
@@ -31,7 +31,7 @@ def read_rates(path: Path | None) -> dict[str, Setting]:
     if path is None:
         return {}
     read = read_data(path, "rates", ParameterError, longest=LONGEST_TEXT)
-    try:
+    with restated(ParameterError, of=MechanismError):
         root = FileEntry(read.data, (), SourceText(str(path), read.lines))
         loom = find_machine("automated-loom").params
         names = (parameter.name.partition(".") for parameter in listed(loom))
@@ -44,8 +44,6 @@ def read_rates(path: Path | None) -> dict[str, Setting]:
                     read_prices(str(rate))
             except IlmekError as error:
                 root.refuse(error, name)
-    except MechanismError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
     return {_parameter(name): rate for name, rate in rates.items()}
 
 

@@ -50,7 +50,7 @@ from ilmek.carpet.recipe.recipe import (
 from ilmek.carpet.sizes import CarpetSize, parse_open_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.elements.knot_kinds import parse_knot
-from ilmek.errors import CarpetError, IlmekError, ParameterError
+from ilmek.errors import CarpetError, IlmekError, ParameterError, restated
 from ilmek.io.data_text import read_data, values
 from ilmek.io.edits_entry import read_edits
 from ilmek.io.file_entry import FileEntry
@@ -123,10 +123,8 @@ def recipe_of_data(
 ) -> RecipeFile:
     """As `read_recipe`, of the data of a file; lines: of its keys, default: all of them line 0."""
     known = {key: 0 for key, _ in values(data, ())} if lines is None else lines
-    try:
+    with restated(CarpetError):
         return _RecipeReader(FileEntry(data, (), SourceText(str(path), known)), path).read(parameters)
-    except IlmekError as error:
-        raise CarpetError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 @dataclass(frozen=True, slots=True)

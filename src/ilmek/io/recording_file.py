@@ -24,7 +24,7 @@ from collections.abc import Callable
 from dataclasses import astuple
 from pathlib import Path
 
-from ilmek.errors import LoomError, shortened
+from ilmek.errors import LoomError, restated, shortened
 from ilmek.io.text_file import read_text
 from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Jog, Tie
 from ilmek.loom.operations import RowEnd, Stop, TubeChange
@@ -72,10 +72,8 @@ def recording_text(recording: Recording) -> str:
 
 def read_recording(path: Path) -> Recording:
     """Read a recording. Raises LoomError with the line."""
-    try:
+    with restated(LoomError, f"recording {path} ", of=LoomError):
         text = read_text(path, noun="recording of a run", largest=LARGEST, error=LoomError, do="check the path")
-    except LoomError as failed:
-        raise LoomError(f"recording {path} {failed.given}", allowed=failed.allowed, do=failed.do) from None
     lines = text.splitlines()
     if lines[0] != _FIRST:
         raise LoomError(f"{path} is no recording", allowed=f"its first line is {_FIRST!r}")

@@ -7,7 +7,7 @@ password = "scrypt$32768$8$1$...$..."       # written by ilmek serve --add-user 
 
 from pathlib import Path
 
-from ilmek.errors import IlmekError, LoomError, ParameterError, shortened
+from ilmek.errors import LoomError, ParameterError, restated, shortened
 from ilmek.io.data_text import parse_data
 from ilmek.io.file_entry import FileEntry
 from ilmek.io.schema import SourceText
@@ -40,7 +40,7 @@ def read_users(path: Path, rights: tuple[str, ...]) -> dict[str, StoredUser]:
     found = parse_data(text, name=str(path), toml=True, error=LoomError)
     source = SourceText(str(path), found.lines)
     users: dict[str, StoredUser] = {}
-    try:
+    with restated(LoomError):
         for name, entry in FileEntry(found.data, (), source).entries():
             with entry.located():
                 check_user_name(name)
@@ -55,8 +55,6 @@ def read_users(path: Path, rights: tuple[str, ...]) -> dict[str, StoredUser]:
                     ParameterError("the password is not a hash", do="write it with ilmek serve --add-user"), "password"
                 )
             users[name] = StoredUser(**values)
-    except IlmekError as error:
-        raise LoomError(error.given, allowed=error.allowed, do=error.do) from None
     if len(users) > MOST_USERS:
         raise LoomError(f"{path} has {len(users)} users", allowed=f"at most {MOST_USERS}")
     return users

@@ -33,7 +33,7 @@ import numpy as np
 from ilmek.carpet.colour import lab_to_srgb, srgb_to_lab
 from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.yarn import COUNTS, MOST_YARNS, PLIES, Yarn
-from ilmek.errors import JOINERS, YarnError, did_you_mean, is_printable, shortened
+from ilmek.errors import JOINERS, YarnError, did_you_mean, is_printable, restated, shortened
 from ilmek.io.csv_lines import csv_lines, decimal_points
 from ilmek.io.data_text import LONGEST_NAME, parse_data
 from ilmek.io.schema import finite_number, key_faults
@@ -63,13 +63,11 @@ def read_yarns(path: Path) -> tuple[Yarn, ...]:
     if str(path) == WOOL and not path.exists():
         return default_yarns()
     reader = _READERS.get(path.suffix.lower())
-    try:
+    with restated(YarnError, f"yarn list {path}: ", of=YarnError):
         if reader is None and path.is_file():
             raise YarnError(f"ends in {path.suffix!r}", allowed="a yarn list is a .toml, .csv or .gpl file")
         text = read_text(path, noun="yarn list, .toml, .csv or .gpl", largest=LARGEST, error=YarnError, do=_MISSING)
         return (reader or _toml_yarns)(text)
-    except YarnError as error:
-        raise YarnError(f"yarn list {path}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
 @cache

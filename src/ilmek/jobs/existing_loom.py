@@ -13,7 +13,7 @@ from typing import Any
 
 from ilmek.carpet.chart import Chart
 from ilmek.elements.carpet_yarns import CarpetYarnParams, CarpetYarns, carpet_yarns
-from ilmek.errors import IlmekError, LoomError, ParameterError
+from ilmek.errors import LoomError, ParameterError, restated
 from ilmek.io.loom_file import LoomFile, read_loom_file
 from ilmek.jobs.loom_setup import WISHES
 from ilmek.loom.sharing import heads_that_fit
@@ -51,10 +51,8 @@ def read_existing_loom(path: Path, *, illustrated: bool = False) -> ExistingLoom
     """
     file = read_loom_file(path, MACHINE.name)
     settings = {name: value for name, value in file.parameters.items() if name not in WISHES}
-    try:
+    with restated(LoomError, f"{path}, parameters: "):
         made = design(AutomatedLoomParams.read(settings))
-    except IlmekError as error:
-        raise LoomError(f"{path}, parameters: {error.given}", allowed=error.allowed, do=error.do) from None
     report = _reported(made, illustrated)
     return ExistingLoom(path, made, report, tuple(_differences(file, report)))
 

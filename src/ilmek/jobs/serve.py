@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ilmek import __version__
-from ilmek.errors import LoomError, ParameterError
+from ilmek.errors import LoomError, ParameterError, restated
 from ilmek.io.programme_file import open_programme
 from ilmek.io.secret_file import config_folder, read_bounded, write_secret
 from ilmek.io.users_file import StoredUser, check_user_name, read_users, write_users
@@ -156,10 +156,8 @@ def _credentials(order: ServeOrder, plate: "LoomNameplate") -> "Credentials":
 
     if order.certificate is not None and order.key is not None:
         key = read_bounded(order.key, "key")
-        try:
+        with restated(LoomError, f"{order.certificate}: ", of=LoomError):
             return parse_credentials(read_bounded(order.certificate, "certificate", secret=False), key, plate.uri)
-        except LoomError as error:
-            raise LoomError(f"{order.certificate}: {error.given}", allowed=error.allowed, do=error.do) from None
     folder = config_folder("opcua")
     paths = folder / f"{plate.serial}-certificate.pem", folder / f"{plate.serial}-key.pem"
     if all(path.exists() for path in paths):

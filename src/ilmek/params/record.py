@@ -17,7 +17,7 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any, TypeVar
 
-from ilmek.errors import ParameterError
+from ilmek.errors import ParameterError, restated
 from ilmek.params.parameter import Parameter, Setting, Value
 from ilmek.records import brief
 
@@ -51,10 +51,8 @@ class Overrides:
 
         Raises ParameterError where the values contradict each other.
         """
-        try:
+        with restated(ParameterError, f"{machine}: ", of=ParameterError):
             return derived.with_values(self.of(machine))
-        except ParameterError as error:
-            raise ParameterError(f"{machine}: {error.given}", allowed=error.allowed, do=error.do) from None
 
 
 def overrides(namespaces: Namespaces, *, without: tuple[str, ...] = (), doc: str) -> Any:

@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 
 from ilmek.arrays import Complex, ComplexArray, Float, FloatArray
-from ilmek.errors import ParameterError, UnitError
+from ilmek.errors import ParameterError, UnitError, restated
 from ilmek.units import counted, parse_quantity
 
 _BRACKETS = re.compile(r"\(([^()]*)\)")
@@ -183,7 +183,5 @@ def _quantity(name: str, text: str, unit: str) -> float:
     item = text.strip()
     if unit and _BARE.fullmatch(item) and item.strip("+-0."):
         raise ParameterError(f"{name}: {item} has no unit", do=f"did you mean {item}{unit}?")
-    try:
+    with restated(ParameterError, f"{name}: ", of=UnitError):
         return parse_quantity(item, unit)
-    except UnitError as error:
-        raise ParameterError(f"{name}: {error.given}", allowed=error.allowed, do=error.do) from None

@@ -5,20 +5,23 @@ import math
 import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
+from ilmek.elements.belts import BeltType
 from ilmek.elements.columns import STEEL
 from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
-from ilmek.elements.motors import Motor
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.motors import STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
+from ilmek.elements.reducers import Reducer
 from ilmek.elements.springs import CompressionSpring
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import CLAMP, SET_SCREW, Bought, Part, Seat, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, shape_box, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, disc, rectangle, shape_box, stepped, tube
 from ilmek.part.tree import Occurrence
-from ilmek.plane.contours import circle, keyed_bore, polygon
+from ilmek.plane.contours import as_hole, as_keyed, bounds, circle, keyed_bore, polygon
 from ilmek.report import Contour
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 SPECIAL_FACE = 80 * mm
 """Flange of a motor that is in no table [m]; assumed by this project."""
@@ -32,37 +35,72 @@ HOLLOW, WALL = 0.5 * mm, 10 * mm
 BEFORE_KEY = 5 * mm
 """From the face that a reducer sits on to the key in its hollow shaft [m]; assumed by this project."""
 
+SPECIAL_SHAFT = 19 * mm
+"""Diameter of the shaft of a motor that is in no table [m]; assumed by this project."""
+
+RIM, RIM_HEIGHT, BESIDE = 1 * mm, 1.5 * mm, 0.25 * mm
+"""Thickness of a pulley's flange, its height over the teeth, its play beside the belt [m]; makers' usual sizes."""
+
+_SET_SCREWS = ((14 * mm, 3 * mm), (30 * mm, 4 * mm), (50 * mm, 5 * mm), (math.inf, 6 * mm))
+"""Largest hub, and thread of its set screw [m]: makers' usual sizes."""
+
+_LOCKING = ((28 * mm, 27 * mm), (40 * mm, 25 * mm), (65 * mm, 30 * mm), (80 * mm, 35 * mm), (math.inf, 45 * mm))
+"""Largest shaft, and how much larger the bore about its locking assembly is [m]: makers' usual sizes."""
+
 FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
 
 
 def motor(  # noqa: PLR0917
-    name: str, title: str, row: Motor | None, torque: float, speed: float, together: int = 1
+    name: str,
+    title: str,
+    row: Motor | None,
+    torque: float,
+    speed: float,
+    together: int = 1,
+    *,
+    shaft: tuple[float, float] | None = None,
 ) -> Part:
     """A motor, which drives an axis of the control: its flange at z = 0, its shaft towards +z.
 
-    together  how many of them move one body
+    together  how many of them move one body      shaft  diameter and length of its end in a hub [m]; None: not drawn
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     """
     if row is not None:
-        bought = Bought(row.name, row.mass, power=row.power, drives=together)
+        peak = "holding" if row.kind == STEPPER else "peak"
+        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}"
+        bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
         required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
         bought = Bought(required, power=torque * speed, drives=together)
         room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
-    behind = Sum((Placed(room, (placement(z=-room.length),)),))
+    stub = (Placed(bar(*shaft)),) if shaft else ()
+    behind = Sum((Placed(room, (placement(z=-room.length),)), *stub))
     return bought_part(name, title, kind, behind, bought)
 
 
-def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEnd | None = None) -> Part:
+def motor_shaft(row: Motor | None) -> float:
+    """Diameter of the shaft of a motor, or of one that is in no table [m]."""
+    return row.shaft if row is not None else SPECIAL_SHAFT
+
+
+def reducer(  # noqa: PLR0917
+    name: str,
+    title: str,
+    by: Reducer,
+    row: Motor | None,
+    end: KeyedEnd | None = None,
+    output: tuple[float, Sum] | None = None,
+) -> Part:
     """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
 
     end  of the shaft that its hollow shaft takes: the room of both is open
+    output  diameter of its own shaft, and the shape of that
     """
     face = row.face if row else SPECIAL_FACE
-    bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
-    room = box(face, face, REDUCER_LENGTH * face)
+    room: Shape = box(face, face, REDUCER_LENGTH * face)
+    shaft = "" if output is None else f"output shaft {in_mm(output[0])}"
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
         hollow = abs(corner) + HOLLOW
@@ -70,7 +108,84 @@ def reducer(name: str, title: str, ratio: float, row: Motor | None, end: KeyedEn
         room = Prism(
             Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, BEFORE_KEY + end.length)
         )
-    return bought_part(name, title, "reducer", room, bought)
+        shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
+    given = row.torque * by.ratio * by.efficiency if row else math.nan
+    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
+    data = ", ".join(filter(None, (shaft, *motors)))
+    bought = Bought(f"{by.kind} {by.ratio:g}:1", power=row.power if row else 0.0, data=data)
+    return bought_part(name, title, "reducer", Sum((Placed(room), Placed(output[1]))) if output else room, bought)
+
+
+def _flange_of(row: Motor) -> str:
+    return f"flange {in_mm(row.face)}, shaft {in_mm(row.shaft)}"
+
+
+def toothed_pulley(  # noqa: PLR0917
+    name: str,
+    title: str,
+    belt: BeltType,
+    teeth: int,
+    width: float,
+    bore: Contour,
+    hub: tuple[float, float] | None = None,
+    *,
+    flanged: bool = True,
+    clamped: bool = False,
+) -> Part:
+    """A toothed pulley about z for a belt of a width [m], its teeth from z = 0, bought with its bore.
+
+    With flanges its teeth are wider than the belt by `BESIDE` on both sides. Its hub, of a diameter and a length [m],
+    is beyond its teeth, and has a set screw. A clamped one sits on its shaft by a tapered bush.
+    """
+    face, rim = (width + 2 * BESIDE, RIM) if flanged else (width, 0.0)
+    members = [Placed(Prism(Profile(belt.pulley_outline(teeth), (bore,)), face))]
+    if flanged:
+        flange = Prism(disc(belt.tip_radius(teeth) + RIM_HEIGHT, bore), rim)
+        members.append(Placed(flange, (placement(z=-rim), placement(z=face))))
+    seats = {CLAMP: Seat(placement(), 2 * bounds(bore)[1].imag)} if clamped else {}
+    if hub is not None:
+        members.append(Placed(Prism(disc(hub[0] / 2, bore), hub[1]), (placement(z=face + rim),)))
+        seats[SET_SCREW] = Seat(placement(z=face + rim + hub[1] / 2), set_screw(hub[0]))
+    shape, keyed, hole = Sum(tuple(members)), as_keyed(bore), as_hole(bore)
+    radius = keyed.radius if keyed else hole.radius if hole else 0.0
+    words = (
+        f"pulley {belt.name}, {teeth} teeth, {in_mm(width)} wide",
+        *(("2 flanges",) if flanged else ()),
+        *(("tapered bush",) if clamped else ()),
+        f"bore {in_mm(2 * radius)}" + " H7" * (not clamped),
+        *(("keyway DIN 6885-1",) if keyed else ()),
+        *((f"set screw M{seats[SET_SCREW].size / mm:g}",) if hub is not None else ()),
+    )
+    bought = Bought(", ".join(words), shape.volume * MATERIALS["aluminium alloy"].density)
+    return Part(name, title, "toothed pulley", shape=shape, purchase=bought, seats=seats)
+
+
+def locking_assembly(name: str, title: str, shaft: float, width: float) -> Part:
+    """A locking assembly between a shaft and a hub, about z from z = 0: diameter of the shaft, its width [m].
+
+    Its rings are tightened by screws along the shaft, and hold the hub round and along it.
+    """
+    shape = tube(locked_bore(shaft), (locked_bore(shaft) - shaft) / 2, width)
+    bought = Bought(f"locking assembly {shaft / mm:g} x {locked_bore(shaft) / mm:g}", shape.volume * STEEL.density)
+    return Part(name, title, "fastener", shape=shape, purchase=bought, seats={CLAMP: Seat(placement(), shaft)})
+
+
+def locked_bore(shaft: float) -> float:
+    """Bore of a hub about a locking assembly on a shaft [m]: makers' sizes, 20 x 47 to 28 x 55 to 50 x 80 to 100 x 145.
+
+    >>> [round(locked_bore(shaft * mm) / mm) for shaft in (20, 40, 50, 100)]
+    [47, 65, 80, 145]
+    """
+    return shaft + next(more for most, more in _LOCKING if shaft <= most + 1e-9)
+
+
+def set_screw(hub: float) -> float:
+    """Thread of the set screw of a hub of a diameter [m]: M3 to 14 mm, then M4, M5 from 30 mm, M6 from 50 mm.
+
+    >>> set_screw(0.02)
+    0.004
+    """
+    return next(thread for most, thread in _SET_SCREWS if hub <= most + 1e-9)
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:
@@ -106,7 +221,7 @@ def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ..
     """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))
     shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row, holes)))
-    return bought_part(name, title, "bearing", shape, Bought(row.name, row.mass))
+    return bought_part(name, title, "bearing", shape, Bought(row.name, row.mass, data=f"{row.name}{row.standard}"))
 
 
 def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
@@ -127,8 +242,9 @@ def spring_part(name: str, title: str, row: CompressionSpring, length: float) ->
     """A compression spring about z from z = 0, drawn at a length [m]; its mass is that of all coils."""
     wire, coil = row.wire_diameter, row.diameter
     made = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, row.free_length))
-    bought = Bought(made, row.mass * (row.coils + 2) / row.coils)
     size = f"{row.wire}, wire x coil x length in mm"
+    data = f"{size}, {row.coils + 2:.3g} coils, ends ground, {format_quantity(row.rate, 'N/mm', 3)}"
+    bought = Bought(made, row.mass * (row.coils + 2) / row.coils, data=data)
     return bought_part(name, title, "spring", tube(coil + wire, wire, length), bought, size=size)
 
 

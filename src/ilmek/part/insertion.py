@@ -320,7 +320,7 @@ class _Plan:
         return ()
 
     def _clear(self, group: set[InsertedUnit], move: Vector, start: Vector, met: set[InsertedUnit]) -> bool:
-        """Whether a group meets nothing that stands by a move from a distance to its seat [m]."""
+        """Whether a group, moved from a distance to its seat [m], meets nothing; what it meets joins `met`."""
         for unit in group:
             key = unit, tuple(move.tolist()), tuple(start.tolist())
             known = self.known.get(key)

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import TypeVar
 
+from ilmek.part.blanks import size_of
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tolerancing import tolerances_of
@@ -29,7 +30,7 @@ def pieces_of(tree: Tree, whole: Tree | None = None) -> tuple[WorkPiece, ...]:
         WorkPiece(
             plate_name(part),
             part.title,
-            part.size,
+            size_of(part),
             part.material.designation,
             number,
             part.shape,

@@ -44,6 +44,7 @@ SHEETS = {
     "sheet.process-steel-tube": "steel tube",
     "sheet.process-steel-bar": "steel bar",
     "sheet.process-carbon-tube": "carbon tube",
+    "sheet.bonded": "bonded on its shaft with retaining compound",
     "sheet.notes": "Notes",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Contour: {file}, scale 1:1",

@@ -44,6 +44,7 @@ SHEETS = {
     "sheet.process-steel-tube": "çelik boru",
     "sheet.process-steel-bar": "çelik çubuk",
     "sheet.process-carbon-tube": "karbon boru",
+    "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
     "sheet.notes": "Notlar",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Kontur: {file}, ölçek 1:1",

@@ -15,8 +15,6 @@ Units: TypeAlias = Mapping[str, str]
 LARGEST = 100 * turn
 """Largest gap between two moments [rad]."""
 
-EDGES = ("start", "end", "event", "past", "angle")
-
 
 @dataclass(frozen=True, slots=True)
 class Moment:

@@ -14,9 +14,6 @@ import numpy as np
 
 from ilmek.num.compiled import compiled
 
-SHARE_BITS = 20
-"""Fraction bits of `exponential`: Q20."""
-
 CHANCE_BITS = 32
 """Fraction bits of a probability: Q32."""
 

@@ -28,7 +28,7 @@ from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
-from ilmek.plane.contours import polygon, rounded_hull
+from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.units import in_mm, mm, round_size, turn
@@ -39,11 +39,11 @@ if TYPE_CHECKING:
 PROFILE, TEETH, BELT = BELTS["T2.5"], 15, 4 * mm
 """Belts of the arms, teeth of their pulleys, their width [m]."""
 
-RADIUS = PROFILE.pitch * TEETH / turn
+RADIUS = PROFILE.pitch_radius(TEETH)
 """Pitch radius of the pulleys [m]."""
 
-BACK, TOOTH, ON_PULLEY = 0.6 * mm, 0.7 * mm, 0.05 * mm
-"""A belt outside and inside of its pitch line, half of the T2.5 profile each, and its room on a pulley [m]."""
+BACK, ON_PULLEY = 0.6 * mm, 0.05 * mm
+"""A belt outside of its pitch line, and its room on the teeth of a pulley [m]: it is drawn without its own."""
 
 WALL, SERVO_SHAFT, PLATE, ROOM = 1.5 * mm, 5 * mm, 8 * mm, 0.5 * mm
 """Wall of a sleeve, diameter of the servos' shafts, thickness of the plate, room between what turns [m]; assumed
@@ -219,7 +219,7 @@ def _plate(params: KnottingDyadParams, head: Head, levels: DriveLevels, hole: fl
 def _belt(name: str, title: str, length: float) -> Part:
     """A belt on two pulleys whose axes are a length [m] apart along x."""
     axes = np.array([0j, complex(length)])
-    section = Profile(rounded_hull(axes, OUTSIDE), (rounded_hull(axes, RADIUS - TOOTH),))
+    section = Profile(rounded_hull(axes, OUTSIDE), (rounded_hull(axes, PROFILE.tip_radius(TEETH) + ON_PULLEY),))
     whole = 2 * length + turn * RADIUS
     bought = Bought(PROFILE.name, PROFILE.mass * BELT * whole, length=whole)
     size = f"{PROFILE.name}, {in_mm(BELT)} wide"
@@ -227,8 +227,7 @@ def _belt(name: str, title: str, length: float) -> Part:
 
 
 def _pulley(bore: float) -> Shape:
-    outer = RADIUS - TOOTH - ON_PULLEY
-    return tube(2 * outer, outer - bore / 2, BELT)
+    return Prism(Profile(PROFILE.pulley_outline(TEETH), (circle(0j, bore / 2),)), BELT)
 
 
 def _made(name: str, title: str, shape: Shape, size: float) -> Occurrence:

@@ -18,8 +18,6 @@ from ilmek.weaving.knots.word import Knot
 
 LEFT, RIGHT, CENTRE = "left", "right", "centre"
 OUT, IN = 0.0, 1.0
-TOGETHER = 1.0
-"""s of the left arm and s of the right one together never exceed this: while one goes back, the other may come."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +27,7 @@ class Phase:
     left, right  the arms' path parameter s at its begin and end, equal where the arm stands still
     centre       height of the centre gripper's tip above the warps' axes at its begin and end [m]
     carries      who holds the first and the second end of the yarn meanwhile; "" where it lies in the pile
-    Where both arms move, s_left + s_right <= TOGETHER must hold at every moment.
+    Where both arms move, s_left + s_right <= 1 must hold at every moment.
     """
 
     name: str

@@ -15,7 +15,7 @@ from ilmek.dynamics.inertia import Inertia, combined
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.gears import EqualGears, equal_gears
-from ilmek.errors import IlmekError, ParameterError
+from ilmek.errors import ParameterError, restated
 from ilmek.linkage.clearance import Clearance, OutlinedBody, clearance
 from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.mirror import GEARS, coupled, mirrored, other
@@ -224,7 +224,7 @@ def _reach(params: KnottingFourBarParams, motion: Motion, start: complex, facing
 
 
 def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualGears:
-    try:
+    with restated(ParameterError):
         return equal_gears(
             least if params.axis_distance is None else params.axis_distance,
             torque,
@@ -233,8 +233,6 @@ def _gears(params: KnottingFourBarParams, least: float, torque: float) -> EqualG
             module=params.gear_module,
             standard=params.axis_distance is None,
         )
-    except IlmekError as error:
-        raise ParameterError(error.given, allowed=error.allowed, do=error.do) from None
 
 
 def _coupled_run(

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.belts import BELTS
 from ilmek.elements.motors import Motor
 from ilmek.elements.reducers import DIRECT, Reducer
 from ilmek.linkage.model import GROUND
@@ -39,8 +40,12 @@ from ilmek.units import format_quantity, in_mm, mm, round_size, turn
 
 FRAME = body_id(NAME, GROUND)
 
-PULLEY, BELT_WIDTH, BELT = 120 * mm, 30 * mm, 5 * mm
-"""Diameter of the pulleys, width and thickness of the belt from main to looper shaft; assumed by this project."""
+PROFILE, TEETH, BELT_WIDTH, BELT = BELTS["HTD 8M"], 48, 30 * mm, 3 * mm
+"""The belt from main to looper shaft, teeth of its pulleys, its width and thickness without teeth; assumed by this
+project."""
+
+STATION = BELT_WIDTH + 2 * (catalogue.BESIDE + catalogue.RIM)
+"""Width of its pulleys with their flanges [m]."""
 
 SKIN, PLUG = 5 * mm, 20 * mm
 """Wall of the rollers, and length of the plugs in their ends; assumed by this project."""
@@ -68,11 +73,16 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
     rod = Occurrence(
         _headed_rod(machine), (placement(z=laid.needle_level - needle_diameter(machine.needle.params) / 2),)
     )
-    end = last + END_PLATE + CLEAR + BELT_WIDTH + params.shafts.flywheel
+    end = last + END_PLATE + CLEAR + STATION + params.shafts.flywheel
     drives = needle_drives(machine.needle, laid.pitch, needle=(rod,), feet=feet(laid), shaft=(first - END_PLATE, end))
     wheel, pulley = _flywheel(machine), _pulley("pulley", machine.shafts.diameter)
     beyond = last + END_PLATE + CLEAR
-    turned = (Occurrence(pulley, (placement(z=beyond),)), Occurrence(wheel, (placement(z=beyond + BELT_WIDTH),)))
+    on_end = placement(z=beyond + STATION)
+    turned = (
+        Occurrence(pulley, (placement(z=beyond + catalogue.RIM),)),
+        Occurrence(wheel, (on_end,)),
+        Occurrence(_wheel_clamp(machine), (on_end,)),
+    )
     bodies = []
     for body in drives.bodies:
         if body.id == MAIN_SHAFT:
@@ -128,11 +138,14 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     """The loopers' crank shaft with its pulley, and the looper drives on it and on their shafts."""
     machine, forces = laid.machine, laid.machine.looper_forces
     (first, last), diameter = laid.ends, machine.params.looper.shaft
-    end, at = last + END_PLATE + CLEAR + BELT_WIDTH, laid.crank_shaft
+    end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
     text = f"{round_size(diameter)}, {in_mm(end - first)}"
     shaft = Part(LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", text, bar(diameter, end - first), STEEL)
     pulley = _pulley("looper-pulley", diameter)
-    parts = (Occurrence(shaft, (placement(z=first),)), Occurrence(pulley, (placement(z=end - BELT_WIDTH),)))
+    parts = (
+        Occurrence(shaft, (placement(z=first),)),
+        Occurrence(pulley, (placement(z=end - STATION + catalogue.RIM),)),
+    )
     angle = np.linspace(0.0, turn, POSES)
     turned = Joint(JointKind.PIN, motion=SceneMotion(TURN, angle, np.zeros((POSES, 3)), angle))
     cranks = RigidBody(LOOPER_CRANKS, parts, FRAME, turned, (placement(at.real, at.imag),))
@@ -207,30 +220,37 @@ def _driving(
     )
     if reducer.ratio == 1:
         return (motor,)
-    return catalogue.reducer(f"{NAME}/{name}-reducer", f"reducer of the {title}", reducer.ratio, row), motor
+    return catalogue.reducer(f"{NAME}/{name}-reducer", f"reducer of the {title}", reducer, row), motor
 
 
 def _flywheel(machine: TuftingMachine) -> Part:
-    """A disc of the moment of inertia that the speed's fluctuation needs: D^4 = 32 J / (pi rho b) + d^4."""
-    width, bore = machine.params.shafts.flywheel, machine.shafts.diameter
+    """A disc of the moment of inertia that the speed's fluctuation needs: D^4 = 32 J / (pi rho b) + d^4, of the bore d
+    about its locking assembly.
+    """
+    width, bore = machine.params.shafts.flywheel, catalogue.locked_bore(machine.shafts.diameter)
     diameter = (32 * machine.shafts.flywheel / (math.pi * STEEL.density * width) + bore**4) ** 0.25
     shape = Prism(disc(diameter / 2, circle(0j, bore / 2)), width)
     return Part(FLYWHEEL_ID, "flywheel", "machined link", f"{round_size(diameter)}, {in_mm(width)}", shape, STEEL)
 
 
+def _wheel_clamp(machine: TuftingMachine) -> Part:
+    title, width = "locking assembly of the flywheel", machine.params.shafts.flywheel
+    return catalogue.locking_assembly(f"{NAME}/flywheel-clamp", title, machine.shafts.diameter, width)
+
+
 def _pulley(name: str, bore: float) -> Part:
-    shape = Prism(disc(PULLEY / 2, circle(0j, bore / 2)), BELT_WIDTH)
-    bought = Bought(f"toothed pulley {in_mm(PULLEY)}", shape.volume * STEEL.density)
-    return bought_part(f"{NAME}/{name}", "pulley of the loopers' belt", "belt and pulleys", shape, bought)
+    title, edge = "pulley of the loopers' belt", circle(0j, bore / 2)
+    return catalogue.toothed_pulley(f"{NAME}/{name}", title, PROFILE, TEETH, BELT_WIDTH, edge, clamped=True)
 
 
 def _belt(laid: TuftingLayout) -> Occurrence:
     """The belt from the main to the looper crank shaft."""
-    away, radius = laid.crank_shaft, PULLEY / 2
-    inner, outer = (eyed_link(abs(away), size, size) for size in (radius, radius + BELT))
-    shape = Prism(Profile(outer, (inner,)), BELT_WIDTH - CLEAR / 2)
-    length = 2 * abs(away) + math.pi * PULLEY
-    bought = Bought("toothed belt", length=length)
-    belt = bought_part(f"{NAME}/belt", "belt of the loopers", "belt", shape, bought, size=format_quantity(length, "mm"))
-    z = laid.ends[1] + END_PLATE + 1.25 * CLEAR
+    away, tips = laid.crank_shaft, PROFILE.tip_radius(TEETH) + 0.05 * mm
+    inner, outer = (eyed_link(abs(away), size, size) for size in (tips, tips + BELT))
+    length = 2 * abs(away) + math.tau * PROFILE.pitch_radius(TEETH)
+    size = format_quantity(length, "mm")
+    bought = Bought(f"belt {PROFILE.name}, {in_mm(BELT_WIDTH)} wide, {length / PROFILE.pitch:.0f} teeth", length=length)
+    shape = Prism(Profile(outer, (inner,)), BELT_WIDTH)
+    belt = bought_part(f"{NAME}/belt", "belt of the loopers", "belt", shape, bought, size=size)
+    z = laid.ends[1] + END_PLATE + CLEAR + catalogue.RIM + catalogue.BESIDE
     return Occurrence(belt, (placement(z=z, about=(0.0, 0.0, 1.0), angle=float(np.angle(away))),))

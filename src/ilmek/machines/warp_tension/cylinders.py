@@ -44,9 +44,17 @@ from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.warp_tension.design import LARGE_TUBES, WarpTensionDesign, keeps_limits, tube_weight, worst_load
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.machines.warp_tension.slot import slotted
+from ilmek.machines.warp_tension.slot import bored_tube
+from ilmek.machines.warp_tension.spigot import (
+    bored,
+    bored_shell,
+    flange_radius,
+    spigot_length,
+    weld_force,
+    weld_throat,
+)
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Turned
+from ilmek.part.shapes import Shape, Turned
 from ilmek.part.shapes import tube as hollow
 from ilmek.plane.contours import polygon
 from ilmek.records import computed, record, result
@@ -58,6 +66,8 @@ STUB = MATERIALS["heat-treatable steel"]
 THESIS_BEARING = "UCF 207"
 LEAST_WALL = 3 * mm
 """Metal under the slots of the spacer; assumed by this project."""
+
+UPPER, LOWER, SPACER = "upper", "lower", "spacer"
 
 SLIT = 1e-3
 """Share of the wall that counts as left where slots cut through the spacer; its checks fail."""
@@ -113,6 +123,39 @@ class Cylinder:
         return keyed_end(self.bearing.bore, self.torque, STUB.strength)
 
     @property
+    def length(self) -> float:
+        """Length of the tube [m]."""
+        return float(np.max(self.shell.profile.outline.points.real))
+
+    @property
+    def spigot(self) -> tuple[float, float]:
+        """Diameter and length of the spigot of a shaft end in the tube [m]."""
+        return 2 * bored(self), spigot_length(self.length)
+
+    @property
+    def shape(self) -> Shape:
+        """The tube with its slots, bored at both ends for its spigots, about z from z = 0."""
+        bore, deep = self.spigot
+        if self.name == SPACER:
+            return bored_shell(self.shell, bore / 2, deep)
+        return bored_tube(self, self.length, bore / 2, deep)
+
+    @property
+    def weld(self) -> float:
+        """Force on the length of the weld of a shaft end [N/m]."""
+        return weld_force(self.shell.outer_radius, self.torque, self.end.moment)
+
+    @property
+    def throat(self) -> float:
+        """Throat of that weld [m]."""
+        return weld_throat(self.weld, self)
+
+    @property
+    def flange(self) -> float:
+        """Radius of the flange of a shaft end [m]."""
+        return flange_radius(self.shell.outer_radius, self.throat)
+
+    @property
     def stub_stress(self) -> float:
         """Von Mises stress in the shaft end [Pa]."""
         return self.end.stress
@@ -156,13 +199,14 @@ def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     params, tube = design.params, stock(design.inner_radius, design.outer_radius)
     load, sizes = design.loads.worst / params.span, (design.outer_radius, design.inner_radius)
     plain = hollow(2 * design.outer_radius, design.outer_radius - design.inner_radius, params.span)
-    upper = _cylinder(design, "upper", sizes, (plain, tube), -1j * load, design.loads.worst * design.outer_radius)
-    lower = _cylinder(design, "lower", sizes, (plain, tube), 1j * load, design.holding_torque)
+    upper = _cylinder(design, UPPER, sizes, (plain, tube), -1j * load, design.loads.worst * design.outer_radius)
+    lower = _cylinder(design, LOWER, sizes, (plain, tube), 1j * load, design.holding_torque)
     chosen = spacer_tube(params, design.outer_radius)
     under = (chosen.inner_radius + metal_left(params, chosen), chosen.inner_radius)
     shell = spacer_shell(params, chosen), chosen
-    upper, lower = (replace(one, mass=slotted(one, params.span).volume * params.density) for one in (upper, lower))
-    return upper, lower, _cylinder(design, "spacer", under, shell, spacer_load(params, load), 0.0)
+    spacer = _cylinder(design, SPACER, under, shell, spacer_load(params, load), 0.0)
+    upper, lower, spacer = (replace(one, mass=one.shape.volume * params.density) for one in (upper, lower, spacer))
+    return upper, lower, spacer
 
 
 def metal_left(params: WarpTensionParams, section: Tube) -> float:

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
+from ilmek.elements.fillet_welds import STRENGTH
 from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
@@ -117,6 +118,11 @@ def _end_checks(analysis: WarpTensionAnalysis, case: str) -> Iterator[Check]:
         "1",
         f"Goodman, DIN 743-2, fillet of {format_quantity(notched.end.fillet, 'mm')}; {case}",
     ).with_cure(f"{larger}, or a shorter stub", part_id(f"{notched.name}-end"))
+    welded = max(analysis.cylinders, key=lambda one: one.weld / one.throat)
+    yield at_most(
+        *(f"weld of the shaft end of the {welded.name} cylinder", welded.weld / welded.throat, STRENGTH, "MPa"),
+        f"EN 1993-1-8, throat {format_quantity(welded.throat, 'mm')}; {case}",
+    ).with_cure("set a thicker wall, or a lower tension", part_id(f"{welded.name}-end"))
     yield from (
         cylinder.driven_end.check(f"{cylinder.name} cylinder", larger, (part_id(f"{cylinder.name}-key"),))
         for cylinder in analysis.cylinders

@@ -3,8 +3,9 @@
 import cmath
 from typing import Protocol
 
+from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism
+from ilmek.part.shapes import Placed, Prism, Shape, Sum
 from ilmek.plane.contours import circle, keyed_bore
 from ilmek.report import Contour
 from ilmek.units import mm, turn
@@ -57,5 +58,17 @@ def turned_slot(cylinder: Ring, deep: float, more: float = 0.0) -> Contour:
 
 def slotted(cylinder: Ring, length: float) -> Prism:
     """The tube of a length with its slot, about z from z = 0 [m]."""
-    bore, slot = (circle(0j, cylinder.inner),) if cylinder.inner > 0 else (), turned_slot(cylinder, -depth(cylinder))
+    return _tube(cylinder, cylinder.inner, length)
+
+
+def bored_tube(cylinder: Ring, length: float, bore: float, deep: float) -> Shape:
+    """The tube of a length with its slot, about z from z = 0, bored at both ends to a radius, so deep [m]."""
+    if cylinder.inner <= 0:
+        return slotted(cylinder, length)
+    middle, end = slotted(cylinder, length - 2 * deep), _tube(cylinder, bore, deep)
+    return Sum((Placed(middle, (placement(z=deep),)), Placed(end, (placement(), placement(z=length - deep)))))
+
+
+def _tube(cylinder: Ring, inner: float, length: float) -> Prism:
+    bore, slot = (circle(0j, inner),) if inner > 0 else (), turned_slot(cylinder, -depth(cylinder))
     return Prism(Profile(slot, bore), length)

@@ -11,10 +11,10 @@ import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.warp_tension.attachment import on_cylinder
-from ilmek.machines.warp_tension.cylinders import STUB, Cylinder, cylinders, part_id
+from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.machines.warp_tension.slot import slotted
+from ilmek.machines.warp_tension.spigot import FLANGE
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
@@ -25,16 +25,8 @@ from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, round_size, turn
 
-PLUG, PLAY = 20 * mm, 1 * mm
-"""Length of a shaft end's plug in its tube, and its play there [m]: the weld of its flange holds it; assumed."""
-
-RIM = 8 * mm
-"""Thickness of a shaft end's flange on its tube [m]; assumed by this project."""
-
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
-
-UPPER, LOWER, SPACER = "upper", "lower", "spacer"
 
 
 def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
@@ -43,12 +35,14 @@ def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = Non
     positions  of each cylinder's axes by its name; default: all in one, as the machine has no side view of its own
     """
     where, shells = positions or {}, _shells(design)
-    drive = _drive_parts(design)
+    drives = _drives(design)
     return Tree(
         tuple(
             body
             for cylinder, shell in zip(cylinders(design), shells, strict=True)
-            for body in _bodies(design.params, cylinder, shell, drive, where.get(cylinder.name, IDENTITY))
+            for body in _bodies(
+                design.params, cylinder, shell, drives[cylinder.name], where.get(cylinder.name, IDENTITY)
+            )
         )
     )
 
@@ -69,14 +63,14 @@ def _bodies(
 ) -> tuple[RigidBody, ...]:
     """A cylinder with its ends, its bearings on the frame's brackets, and its drive: reducer, then what turns it.
 
-    A shaft end is a plug with play in the tube, a flange that is welded to the tube's end, and a journal that reaches
-    through bearing and bracket; on the driven side it goes on into the reducer, with a key. Where a hand winds, the
-    warps turn the spacer.
+    A shaft end is a spigot that fits the bored tube, a flange that is welded to the tube's end, and a journal that
+    reaches through bearing and bracket; on the driven side it goes on into the reducer, with a key. Where a hand winds,
+    the warps turn the spacer.
     """
     name, seat, driven = cylinder.name, cylinder.seat, not (params.by_hand and cylinder.name == SPACER)
     plain = (Occurrence(shell, (placement(z=-params.span / 2),)),)
     shells = plain if name == SPACER else on_cylinder(cylinder, shell, params)
-    far, inside = params.span / 2 + params.stub, params.span / 2 - PLUG
+    far, inside = params.span / 2 + params.stub, params.span / 2 - _spigot(cylinder)[1]
     left, right = _side(z=inside, flipped=True), placement(z=inside)
     shape = _end_shape(params, cylinder)
     end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
@@ -111,11 +105,16 @@ def _turned_by(params: WarpTensionParams, drive: tuple[Part, ...], joint: Joint,
 
 
 def _end_shape(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
-    """Plug, flange and journal of a shaft end, about z from z = 0."""
-    rim, journal = min(RIM, params.stub / 2), cylinder.seat.bearing.bore
-    steps = (2 * (cylinder.inner - PLAY), PLUG), (2 * cylinder.shell.outer_radius, rim)
+    """Spigot, flange and journal of a shaft end, about z from z = 0."""
+    rim, journal = min(FLANGE, params.stub / 2), cylinder.seat.bearing.bore
     length = params.stub - rim + cylinder.seat.journal
-    return stepped(*(one for one in steps if min(one) > 0), (journal, length))
+    steps = _spigot(cylinder), (2 * cylinder.flange, rim), (journal, length)
+    return stepped(*(one for one in steps if min(one) > 0))
+
+
+def _spigot(cylinder: Cylinder) -> tuple[float, float]:
+    """Diameter and length of the spigot [m]; none in a solid cylinder."""
+    return cylinder.spigot if cylinder.inner > 0 else (0.0, 0.0)
 
 
 def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple[Occurrence, Occurrence]:
@@ -148,24 +147,42 @@ def _on_bracket(params: WarpTensionParams, drive: tuple[Part, ...], far: float) 
 def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     """The tubes of upper and lower cylinder, which are alike [thesis 3.1], and of the spacer."""
     steel = replace(MATERIALS["structural steel"], density=design.params.density)
-    upper, _, spacer = cylinders(design)
-    plain = _made("cylinder", "cylinder", "steel tube", slotted(upper, design.params.span), _size(upper), steel)
-    return plain, plain, _made("spacer", "spacer cylinder", "steel tube", spacer.shell, _size(spacer), steel)
+    upper, lower, spacer = cylinders(design)
+    plain = _made("cylinder", "cylinder", "steel tube", upper.shape, _size(upper), steel)
+    plain = replace(plain, throat=max(upper.throat, lower.throat))
+    slotted = _made("spacer", "spacer cylinder", "steel tube", spacer.shape, _size(spacer), steel)
+    return plain, plain, replace(slotted, throat=spacer.throat)
 
 
 def winding_reducer(design: WarpTensionDesign) -> Part:
-    """The reducer of a cylinder."""
-    return _drive_parts(design)[0]
+    """The reducer of the upper cylinder."""
+    return _drives(design)[UPPER][0]
 
 
-def _drive_parts(design: WarpTensionDesign) -> tuple[Part, ...]:
-    """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle."""
-    end = max((cylinder.driven_end for cylinder in cylinders(design)), key=lambda one: (one.diameter, one.length))
-    geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor, end)
+def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
+    """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle.
+
+    The reducers are alike but for the bores of their hollow shafts.
+    """
+    ends = {one.name: one.driven_end for one in cylinders(design)}
+    longest = {end.diameter: end for end in sorted(ends.values(), key=lambda end: end.length)}
+    thickest = ends[UPPER].diameter
+    geared = {
+        bore: catalogue.reducer(
+            part_id("reducer" if bore == thickest else f"reducer-{bore / mm:g}"),
+            "reducer of a cylinder",
+            design.reducer,
+            design.motor,
+            end,
+        )
+        for bore, end in longest.items()
+    }
     if design.params.by_hand:
-        return (geared, *_crank(design.params, catalogue.face_of(geared)))
-    torque, speed = design.motor_torque, design.motor_speed
-    return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)
+        last: tuple[Part, ...] = _crank(design.params, catalogue.face_of(geared[thickest]))
+    else:
+        torque, speed = design.motor_torque, design.motor_speed
+        last = (catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed),)
+    return {name: (geared[end.diameter], *last) for name, end in ends.items()}
 
 
 def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
@@ -174,7 +191,7 @@ def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
     window = (rim - CRANK_SHAFT) / 4
     windows = (circle(cmath.rect((rim + CRANK_SHAFT) / 2, turn * (k + 0.5) / 6), window) for k in range(6))
     wheel = Prism(Profile(circle(0j, rim), tuple(windows)), WHEEL)
-    rim_of_shaft = min(RIM, params.crank_shaft / 2)
+    rim_of_shaft = min(FLANGE, params.crank_shaft / 2)
     shaft = stepped((CRANK_SHAFT, params.crank_shaft - rim_of_shaft), (face, rim_of_shaft))
     handle = bar(HANDLE_SIZE, HANDLE)
     return (

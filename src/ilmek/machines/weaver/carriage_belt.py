@@ -25,7 +25,7 @@ BELT, TEETH = T5_BY_THE_METRE, 15
 CLAMPED = 8
 """Teeth in a clamp, which then bears what the cords bear: makers' rule."""
 
-RADIUS, ROLLER = BELT.belt.pitch * TEETH / turn, BELT.idler / 2
+RADIUS, ROLLER = BELT.belt.pitch_radius(TEETH), BELT.idler / 2
 """Pitch radius of the pulley, radius of the rollers [m]."""
 
 ASIDE = RADIUS + ROLLER + BELT.back
@@ -40,14 +40,18 @@ CLAMP, APART = CLAMPED * BELT.belt.pitch, 3 * mm
 BESIDE = ASIDE + ROLLER + APART + CLAMP
 """Belt that is needed beyond the axis of a head at the end of the row [m]."""
 
+ON_PULLEY = 0.05 * mm
+"""Room of the belt on the tips of the pulley's teeth [m]."""
+
 _ARC = 12
 
 
 def loop() -> Contour:
-    """The belt between its rollers, about the pulley, up to its straight line."""
-    inner = ROLLER + BELT.height
+    """The belt between its rollers, about the pulley, up to its straight line: drawn without its teeth."""
+    tips = BELT.belt.tip_radius(TEETH) + ON_PULLEY
+    inner = ROLLER + RADIUS + BELT.back - tips
     back = _line(ROLLER, RADIUS + BELT.back, 0.0)
-    teeth = _line(inner, RADIUS + BELT.back - BELT.height, math.acos(ROLLER / inner))
+    teeth = _line(inner, tips, math.acos(ROLLER / inner))
     return polygon(np.concatenate([teeth, back[::-1]]))
 
 

@@ -25,7 +25,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, stepped, tube
+from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
@@ -45,12 +45,11 @@ SERVICE = 1.4
 PULLEY_AT = 16.5 * mm
 """Axis of the pulley before the end of the bracket [m]: its motor stands between magazine and rail."""
 
-PLATE, PLAY, RIM = 3 * mm, 2 * mm, 0.7 * mm
-"""Thickness of the motor's plate, room under and over the belt, and thickness of a pulley's flange [m]; assumed by this
-project, as all sizes here."""
+PLATE, PLAY = 3 * mm, 2 * mm
+"""Thickness of the motor's plate, and room under and over the belt [m]; assumed by this project, as all sizes here."""
 
-AXLE, HUB = 8 * mm, 14 * mm
-"""Diameters of the rollers' axles and of the pulley's hub [m]."""
+AXLE, HUB_WALL, UNDER_MOTOR = 8 * mm, 4.5 * mm, 0.5 * mm
+"""Diameter of the rollers' axles, wall of the pulley's hub, and its room under the motor [m]."""
 
 BLOCK, BEHIND = (10 * mm, 12 * mm), 22 * mm
 """Width and depth of a block under the plate, and from the pulley's axis back to its middle [m]."""
@@ -100,7 +99,7 @@ def carriage_drive(weaver: Weaver, mass: float, guide: LinearGuide) -> CarriageD
         )
         force = stepped_drag + whole * params.carriage_acceleration
         chosen = smallest_motor(force * RADIUS, params.carriage_speed / RADIUS)
-        low = guide.block / 2 + PLAY + RIM
+        low = guide.block / 2 + PLAY + catalogue.RIM + catalogue.BESIDE
         return CarriageDrive(drag, force, _width(weaver, drag), low, chosen)
 
     return moving(moving(None).motor)
@@ -122,22 +121,21 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     """What is on the head: motor on its plate and blocks, pulley, rollers on their axles, the belt between these."""
     about = placement(0.0, weaver.shape.rail, weaver.shape.front + PULLEY_AT)
     torque, speed = drive.force * RADIUS, weaver.params.carriage_speed / RADIUS
-    motor = catalogue.motor(CARRIAGE_MOTOR, "motor of a carriage", drive.motor, torque, speed)
+    shaft = catalogue.motor_shaft(drive.motor), drive.width + PLAY + PLATE + catalogue.BESIDE + catalogue.RIM
+    motor = catalogue.motor(CARRIAGE_MOTOR, "motor of a carriage", drive.motor, torque, speed, shaft=shaft)
     flange = about.after(placement(y=drive.high + PLATE, about=(1.0, 0.0, 0.0), angle=turn / 2))
     yield Occurrence(motor, (flange.after(UPRIGHT),))
     half, tall = ASIDE + AXLE, drive.high - RAIL_AXIS / 2
     outline = rectangle(BEHIND + BLOCK[1] / 2 + ROLLER, 2 * half).points + (ROLLER - BEHIND - BLOCK[1] / 2) / 2
-    plate = Prism(Profile(polygon(outline), (circle(0j, HUB / 2 + PLAY),)), PLATE)
+    window = circle(0j, BELT.belt.tip_radius(TEETH) + catalogue.RIM_HEIGHT + UNDER_MOTOR)  # the pulley comes through it
+    plate = Prism(Profile(polygon(outline), (window,)), PLATE)
     yield _made(part_id("drive-plate"), "plate of a carriage's motor", plate, _upright(about, drive.high))
     back = about.after(placement(z=-BEHIND))
     block = box(BLOCK[1], BLOCK[0], tall)
     yield _made(
         part_id("drive-block"), "block under that plate", block, *_upright_pair(back, RAIL_AXIS / 2, 1.5 * BLOCK[0])
     )
-    root, flanged = 2 * (RADIUS + BELT.back - BELT.height), 2 * (RADIUS + 2 * BELT.back)
-    turned = stepped((flanged, RIM), (root - 0.1 * mm, drive.width), (flanged, RIM), (HUB, PLAY - RIM + PLATE))
-    size = f"{BELT.belt.name}, {TEETH} teeth"
-    yield _made(CARRIAGE_PULLEY, "pulley of a carriage", turned, _upright(about, drive.low - RIM), size=size)
+    yield Occurrence(_pulley(drive), (_upright(about, drive.low - catalogue.BESIDE),))
     aside = _upright_pair(about, drive.low, ASIDE)
     ring, name = (
         tube(2 * ROLLER, ROLLER - AXLE / 2, drive.width),
@@ -156,6 +154,14 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
         BELT_LOOP, "heads' belt about a pulley", Prism(Profile(loop()), drive.width), drive.width, LOOP
     )
     yield Occurrence(about_pulley, (_upright(about, drive.low),))
+
+
+def _pulley(drive: CarriageDrive) -> Part:
+    """The pulley, its hub under the motor, so that both come through the plate together."""
+    bore = catalogue.motor_shaft(drive.motor)
+    hub = bore + 2 * HUB_WALL, PLAY + PLATE - UNDER_MOTOR - catalogue.BESIDE - catalogue.RIM
+    title, edge = "pulley of a carriage", circle(0j, bore / 2)
+    return catalogue.toothed_pulley(CARRIAGE_PULLEY, title, BELT.belt, TEETH, drive.width, edge, hub)
 
 
 def motor_corner(weaver: Weaver, drive: CarriageDrive) -> complex:

@@ -6,12 +6,13 @@ output is across, with the belt's small pulley, so that motor and reducer are wi
 
 from collections.abc import Iterator
 
-from ilmek.cams.loaded_plate_cam import STEEL
+from ilmek.elements.belts import belt_length
+from ilmek.elements.plates import round_bore
 from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.machines.weaver.hub_keys import OUTPUT, SMALL_KEY, grooved, keyed_disc, small_key
+from ilmek.machines.weaver.hub_keys import OUTPUT, SMALL_KEY, hub_diameter, small_key
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.parts import MOTOR
 from ilmek.machines.weaver.selector import selector_of
@@ -22,24 +23,26 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, box
+from ilmek.part.shapes import Placed, Prism, Sum, bar, box
 from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import keyed_bore
 from ilmek.units import in_mm, mm
 
 COLOUR_MOTOR, TIER_MOTOR = part_id("colour-motor"), part_id("tier-motor")
-CAM_BELT, CAM_PULLEY, SMALL_PULLEY, STUB = (
-    part_id("cam-belt"),
-    part_id("cam-pulley"),
-    part_id("small-pulley"),
-    part_id("reducer-stub"),
-)
+CAM_BELT, CAM_PULLEY, SMALL_PULLEY = part_id("cam-belt"), part_id("cam-pulley"), part_id("small-pulley")
 """Ids of the parts."""
 
 MOTOR_PLATE, UNDER_BRACKET = 6 * mm, 3 * mm
 """Thickness of the motor's plate, and room under the bracket [m]; assumed by this project."""
 
-BACK, TEETH, ON_PULLEY = 1.5 * mm, 1.2 * mm, 0.05 * mm
-"""A belt outside and inside of its pitch line, half of the AT5 profile each, and its room on a pulley [m]."""
+BACK, ON_PULLEY = 1.5 * mm, 0.05 * mm
+"""A belt outside of its pitch line, and its room on a pulley's teeth [m]: it is drawn without its own."""
+
+PLAY, SET_SCREW_HUB = 0.5 * mm, 6 * mm
+"""From the reducer to the small pulley, and length of the hub beyond its teeth, for its set screw [m]; assumed."""
+
+BEFORE_BELT = PLAY + catalogue.RIM + catalogue.BESIDE
+"""From the reducer to the belt [m]."""
 
 
 def _face(weaver: Weaver) -> float:
@@ -63,15 +66,15 @@ def drive_front(weaver: Weaver) -> float:
 
 def reducer_left(weaver: Weaver) -> float:
     """The x of the reducer's left side, beside the belt [m]."""
-    return belt_station(weaver) - 0.5 * mm - _face(weaver)
+    return belt_station(weaver) - BEFORE_BELT - _face(weaver)
 
 
 def shaft_pulley(weaver: Weaver) -> Occurrence:
     """The large pulley on the cam shaft, about its axis, z to the weaver's left."""
-    radius = weaver.belt.radii[0] - TEETH - ON_PULLEY
-    ring = keyed_disc(radius, weaver.params.shaft, weaver.belt.width)
-    part = Part(CAM_PULLEY, "pulley of the cam shaft", "machined link", _teeth(weaver.belt.large), ring, ALUMINIUM)
-    return Occurrence(part, (placement(z=-belt_station(weaver) - weaver.belt.width),))
+    belt, (bore,) = weaver.belt, round_bore(weaver.params.shaft).cutouts
+    title = "pulley of the cam shaft"
+    part = catalogue.toothed_pulley(CAM_PULLEY, title, PROFILE, belt.large, belt.width, bore, flanged=False)
+    return Occurrence(part, (placement(z=-belt_station(weaver) - belt.width),))
 
 
 def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
@@ -81,20 +84,21 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     motor = servo.motor if servo else None
     long, middle = catalogue.REDUCER_LENGTH * face, reducer_left(weaver) + face / 2
     low = at.imag - long / 2
+    key = small_key(weaver)
     if servo is not None:
-        geared = catalogue.reducer(part_id("reducer"), "angle reducer of a head", servo.reducer.ratio, motor)
+        across = placement(0.0, face / 2, long / 2).after(UPRIGHT)
+        output = OUTPUT, Sum((Placed(_output(weaver), (across,)),))
+        title = "angle reducer of a head"
+        geared = catalogue.reducer(part_id("reducer"), title, servo.reducer, motor, output=output)
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
     part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
-    title = "output of the angle reducer"
-    stub = Part(STUB, title, "pin or bush", in_mm(OUTPUT), grooved(OUTPUT, weaver.belt.width + 0.5 * mm), STEEL)
-    yield Occurrence(stub, (placement(begin - 0.5 * mm, at.imag, at.real).after(ALONG_WIDTH),))
-    radius = weaver.belt.radii[1] - TEETH - ON_PULLEY
-    ring = keyed_disc(radius, OUTPUT, weaver.belt.width)
-    pulley = Part(SMALL_PULLEY, "small pulley of the cam belt", "machined link", _teeth(SMALL), ring, ALUMINIUM)
-    on_output = placement(begin, at.imag, at.real).after(ALONG_WIDTH)
-    yield Occurrence(pulley, (on_output,))
-    yield catalogue.keys(SMALL_KEY, "key of the small pulley", small_key(weaver), on_output)
+    on_output = placement(begin - catalogue.BESIDE, at.imag, at.real).after(ALONG_WIDTH)
+    bore, hub = keyed_bore(OUTPUT / 2, key.keyway.width, key.keyway.in_hub, key.number), hub_diameter(OUTPUT)
+    title, width = "small pulley of the cam belt", weaver.belt.width
+    own = catalogue.toothed_pulley(SMALL_PULLEY, title, PROFILE, SMALL, width, bore, (hub, SET_SCREW_HUB))
+    yield Occurrence(own, (on_output,))
+    yield catalogue.keys(SMALL_KEY, "key of the small pulley", key, on_output.after(placement(z=-catalogue.RIM)))
     yield _belt(weaver, at, begin)
     left = -case_width(weaver.params) / 2
     plate = box(middle + face / 2 - left, long, MOTOR_PLATE)
@@ -102,16 +106,27 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(carrier, (placement((left + middle + face / 2) / 2, at.imag, (shape.body + shape.size).real),))
 
 
+def _output(weaver: Weaver) -> Sum:
+    """The reducer's output about z, from its face at z = 0 through the small pulley, with a groove for the key."""
+    key = small_key(weaver)
+    end = BEFORE_BELT + weaver.belt.width + catalogue.BESIDE + catalogue.RIM + SET_SCREW_HUB
+    pieces = (bar(OUTPUT, PLAY), 0.0), (catalogue.keyed_journal(key), PLAY)
+    last = bar(OUTPUT, end - PLAY - key.length), PLAY + key.length
+    return Sum(tuple(Placed(piece, (placement(z=z),)) for piece, z in (*pieces, last)))
+
+
 def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
     """The belt about both pulleys, in the side view."""
     large, small = weaver.belt.radii
     axis = weaver.shape.axis
     outer = hull_of_circles(large + BACK, small + BACK, at - axis)
-    inner = hull_of_circles(large - TEETH, small - TEETH, at - axis)
-    length = float(abs(at - axis)) * 2 + 3.2 * (large + small)
+    tips, small_tips = (PROFILE.tip_radius(teeth) + ON_PULLEY for teeth in (weaver.belt.large, SMALL))
+    inner = hull_of_circles(tips, small_tips, at - axis)
+    length = belt_length(PROFILE, SMALL, weaver.belt.large, max(abs(at - axis), large + small))
     size = f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide"
     shape = Prism(Profile(outer, (inner,)), weaver.belt.width)
-    bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length)
+    teeth = f"{round(length / PROFILE.pitch)} teeth"
+    bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length, data=f"{size}, {teeth}")
     part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", size, shape, purchase=bought)
     return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
 
@@ -131,7 +146,3 @@ def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:
 
 def _upright(x: float, height: float, front: float) -> Placement:
     return placement(x, height, front).after(UPRIGHT)
-
-
-def _teeth(number: int) -> str:
-    return f"{PROFILE.name}, {number} teeth"

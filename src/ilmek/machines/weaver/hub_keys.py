@@ -1,21 +1,23 @@
-"""The keys of a head's hubs: of the cams and the pulley on the cam shaft, of the small pulley on the reducer's output.
+"""The keys of a head's hubs: one through cams, spacers and pulley on the cam shaft, one on the reducer's output.
 
-All grooves and keyways open towards x of the shaft, so that the cams stand by their keys.
+All grooves and keyways open towards x of the shaft, so that the cams stand by their key.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.keyways import keyway_for
-from ilmek.elements.parallel_keys import KeyedEnd
+from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
 from ilmek.elements.plates import round_bore
 from ilmek.machines.weaver.cam_belt import SMALL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, disc, tube
+from ilmek.part.shapes import Prism, disc
 from ilmek.plane.contours import keyed_bore
 from ilmek.report import Check
 from ilmek.units import mm
@@ -23,10 +25,10 @@ from ilmek.units import mm
 OUTPUT = 14 * mm
 """Diameter of the reducer's output [m]; assumed by this project."""
 
-HUB_WALL = 5 * mm
-"""Wall of a hub about its bore [m]."""
+OVER_KEY = 2.7 * mm
+"""Wall of a hub over its keyway [m]; assumed by this project."""
 
-CAM_KEY, PULLEY_KEY, SMALL_KEY = part_id("cam-key"), part_id("pulley-key"), part_id("small-pulley-key")
+STACK_KEY, SMALL_KEY = part_id("cam-shaft-key"), part_id("small-pulley-key")
 """Ids of the parts."""
 
 
@@ -36,38 +38,42 @@ def grooved(diameter: float, length: float) -> Prism:
     return Prism(Profile(keyed_bore(diameter / 2, row.width, -row.in_shaft)), length)
 
 
-def keyed_disc(radius: float, bore: float, length: float) -> Shape:
-    """A disc with a bore and its keyway [m]: a hub, and a ring about it where the disc is larger."""
-    hub = bore / 2 + HUB_WALL
-    if radius <= hub:
-        return Prism(disc(radius, *round_bore(bore).cutouts), length)
-    ring = Placed(tube(2 * radius, radius - hub, length))
-    return Sum((ring, Placed(Prism(disc(hub, *round_bore(bore).cutouts), length))))
+def hub_diameter(bore: float) -> float:
+    """Diameter of a hub about a bore with its keyway [m]."""
+    return bore + 2 * (keyway_for(bore).in_hub + OVER_KEY)
+
+
+def keyed_ring(bore: float, length: float) -> Prism:
+    """A hub with a keyway [m]."""
+    return Prism(disc(hub_diameter(bore) / 2, *round_bore(bore).cutouts), length)
+
+
+def groove_half(weaver: Weaver) -> float:
+    """Half the length of the groove of the cam shaft, from the first to the last hub [m]."""
+    return stack_width(weaver.params) / 2 - weaver.params.cam_gap
+
+
+def stack_key(weaver: Weaver, torque: float, hub: float) -> KeyedEnd:
+    """The key through all hubs of the cam shaft, in whole millimetres, in one of them: its length, the torque on it."""
+    length = math.floor(2 * groove_half(weaver) / mm + 1e-9) * mm
+    return KeyedEnd(weaver.params.shaft, length, torque, STEEL.strength, hub=hub)
 
 
 def cam_key(weaver: Weaver) -> KeyedEnd:
-    """The key of a cam, as long as that is thick, by the greatest torque of any."""
+    """That key in a cam, by the greatest torque of any."""
     torque = max(float(np.abs(cam.torque).max()) for cam in weaver.cams)
-    return _key(weaver.params.shaft, weaver.params.cam_thickness, torque)
-
-
-def pulley_key(weaver: Weaver) -> KeyedEnd:
-    """The key of the pulley on the cam shaft."""
-    return _key(weaver.params.shaft, weaver.belt.width, weaver.belt.torque)
+    return stack_key(weaver, torque, weaver.params.cam_thickness)
 
 
 def small_key(weaver: Weaver) -> KeyedEnd:
     """The key of the small pulley."""
-    return _key(OUTPUT, weaver.belt.width, weaver.belt.torque * SMALL / weaver.belt.large)
+    return keyed_end(OUTPUT, weaver.belt.torque * SMALL / weaver.belt.large, STEEL.strength)
 
 
 def key_checks(weaver: Weaver) -> Iterator[Check]:
     """Surface pressures of the keys."""
     cure = "set a thicker weaver.shaft, lighter tools, or a longer knot_cycle"
-    yield cam_key(weaver).check("head's cams", cure, (CAM_KEY,))
-    yield pulley_key(weaver).check("pulley of the cam shaft", cure, (PULLEY_KEY,))
+    pulley = stack_key(weaver, weaver.belt.torque, weaver.belt.width)
+    yield cam_key(weaver).check("head's cams", cure, (STACK_KEY,))
+    yield pulley.check("pulley of the cam shaft", cure, (STACK_KEY,))
     yield small_key(weaver).check("small pulley of the cam belt", cure, (SMALL_KEY,))
-
-
-def _key(diameter: float, length: float, torque: float) -> KeyedEnd:
-    return KeyedEnd(diameter, length, torque, STEEL.strength)

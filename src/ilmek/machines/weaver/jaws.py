@@ -27,11 +27,11 @@ from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, p
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Turned, bar, box
+from ilmek.part.shapes import Prism, Turned, bar, box, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.units import in_mm, mm
+from ilmek.units import in_mm, mm, round_size, turn
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
 """Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
@@ -39,6 +39,9 @@ the width of their tips [m]; assumed by this project, as all sizes here."""
 
 EYE, LUG = 3 * mm, 2.5 * mm
 """Radius of a rocker's eye on its axle, and thickness of the lugs that hold the axle [m]."""
+
+PIN, PIN_HEAD, HEAD = 3 * mm, 5 * mm, 1 * mm
+"""Diameters of a roller's pin and of its head, and thickness of this, which holds the roller on its arm [m]."""
 
 IN_BORE = 0.1 * mm
 """Room of a wire in its bore [m]."""
@@ -180,11 +183,16 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     axle = Part(part_id(f"{name}-axle"), title, "pin or bush", in_mm(right - left), bar(AXLE, right - left), STEEL)
     yield Occurrence(axle, (placement(z=-right),))
     hole = (circle(0j, AXLE / 2),)
-    level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), hole), ARM)
+    eye = circle(complex(-arm), PIN / 2)
+    level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), (*hole, eye)), ARM)
     title = f"roller's arm of the {name} jaws"
     roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
-    yield Occurrence(_roller(), (placement(-arm, 0.0, -side - FACE / 2),), turning=True)
+    yield Occurrence(_ROLLER_PART, (placement(-arm, 0.0, -side - FACE / 2),), turning=True)
+    head = placement(
+        -arm, 0.0, -side + towards * (FACE / 2 + HEAD), about=(0.0, 1.0, 0.0), angle=(1 + towards) * turn / 4
+    )
+    yield Occurrence(_PIN_PART, (head,))
     for number, rod in enumerate(by.grippers):
         long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
@@ -193,11 +201,22 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
 
 
-_ROLLER_PART = Part(part_id("jaw-roller"), "roller of the jaws", "pin or bush", in_mm(ROLLER), bar(ROLLER, FACE), STEEL)
-
-
-def _roller() -> Part:
-    return _ROLLER_PART
+_ROLLER_PART = Part(
+    part_id("jaw-roller"),
+    "roller of the jaws",
+    "pin or bush",
+    in_mm(ROLLER),
+    tube(ROLLER, (ROLLER - PIN) / 2, FACE),
+    STEEL,
+)
+_PIN_PART = Part(
+    part_id("jaw-roller-pin"),
+    "pin of the jaws' roller",
+    "turned part",
+    round_size(PIN_HEAD),
+    stepped((PIN_HEAD, HEAD), (PIN, FACE + ARM)),
+    STEEL,
+)
 
 
 def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:

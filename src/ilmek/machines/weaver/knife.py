@@ -20,6 +20,7 @@ from ilmek.machines.weaver.cutter_motor import (
     cutter_drive,
     cutter_motor,
     eccentric,
+    eccentric_bore,
     eccentric_diameter,
     motor_length,
 )
@@ -39,6 +40,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
+from ilmek.sentences import Sentence
 from ilmek.units import format_quantity, in_mm, mm, turn
 
 KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
@@ -124,7 +126,8 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     params = weaver.params
     cycle = cut(params.yarn, params.strength, params.cutter_turn, 0.0)
     torque, speed, row = float(cycle.torque.max()), float(cycle.speed.max()), cutter_motor(params)
-    motor = catalogue.motor(CUTTER_MOTOR, "motor of the cutter", row, torque, speed)
+    shaft = eccentric_bore(params), wall + BLADE
+    motor = catalogue.motor(CUTTER_MOTOR, "motor of the cutter", row, torque, speed, shaft=shaft)
     to_the_face = placement(axis.real, axis.imag, front + wall, about=(1.0, 0.0, 0.0), angle=turn / 2)
     yield Occurrence(motor, (to_the_face,))
 
@@ -145,8 +148,11 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 
 
 def _eccentric(weaver: Weaver) -> Part:
-    shape, size = eccentric(weaver.params, _wall(weaver)), f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
-    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL)
+    params, size = weaver.params, f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
+    shape = eccentric(params, _wall(weaver), eccentric_bore(params))
+    return Part(
+        ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=(Sentence("sheet.bonded"),)
+    )
 
 
 def _blade(weaver: Weaver) -> Part:

@@ -16,7 +16,7 @@ from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.hub_keys import CAM_KEY, PULLEY_KEY, cam_key, grooved, pulley_key
+from ilmek.machines.weaver.hub_keys import STACK_KEY, cam_key, groove_half, grooved, hub_diameter, keyed_ring
 from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import case_width
@@ -35,8 +35,8 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-SPACER_WALL, LEAST_SPACER = 5 * mm, 0.01 * mm
-"""Wall of the rings between the cams, and the length below which none is made [m]; assumed by this project."""
+LEAST_SPACER = 0.01 * mm
+"""Length below which no ring between the cams is made [m]; assumed by this project."""
 
 
 def cam_id(track: str) -> str:
@@ -108,35 +108,38 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """What turns: the shaft, a cam for each track, and spacers between cams, pulley and bearings."""
     params, wide = weaver.params, case_width(weaver.params)
     end = wide / 2 - params.side_plate - _into_gap(weaver)
-    journal, seats = wide / 2 - end, (placement(z=-wide / 2), placement(z=end))
+    half, key = groove_half(weaver), cam_key(weaver)
+    journal, seats = wide / 2 - half, (placement(z=-wide / 2), placement(z=half))
     journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
-    middle = Placed(grooved(params.shaft, 2 * end), (placement(z=-end),))
+    middle = Placed(grooved(params.shaft, 2 * half), (placement(z=-half),))
     title, size = "cam shaft of the head", round_size(params.shaft)
     yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
     pulley = -belt_station(weaver) - weaver.belt.width
-    yield catalogue.keys(CAM_KEY, "key of a cam of the head", cam_key(weaver), *(placement(z=z) for z in begins))
-    yield catalogue.keys(PULLEY_KEY, "key of the cam shaft's pulley", pulley_key(weaver), placement(z=pulley))
+    yield catalogue.keys(STACK_KEY, "key of the head's cam shaft", key, placement(z=-key.length / 2))
     places = [
         (-end, -end),
         (pulley, pulley + weaver.belt.width),
         *((z, z + params.cam_thickness) for z in sorted(begins)),
         (end, end),
     ]
-    yield from _spacers(params.shaft + 2 * SPACER_WALL, places)
+    yield from _spacers(params.shaft, places, half)
 
 
-def _spacers(outer: float, places: list[tuple[float, float]]) -> Iterator[Occurrence]:
-    """Rings between neighbours along the shaft, a part for each length."""
-    gaps: dict[float, list[float]] = {}
+def _spacers(shaft: float, places: list[tuple[float, float]], half: float) -> Iterator[Occurrence]:
+    """Rings between neighbours along the shaft, the key through those within its groove; a part for each length."""
+    gaps: dict[tuple[float, bool], list[float]] = {}
     for (_, begin), (end, _) in pairwise(places):
         if end - begin > LEAST_SPACER:
-            gaps.setdefault(round(end - begin, 9), []).append(begin)
-    for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
-        ring, title = tube(outer, SPACER_WALL, length), f"spacer of the cam shaft, {in_mm(length)}"
-        part = Part(part_id(f"spacer-{number}"), title, "pin or bush", round_size(outer), ring, STEEL)
+            keyed = max(-begin, end) < half + LEAST_SPACER
+            gaps.setdefault((round(end - begin, 9), keyed), []).append(begin)
+    outer = hub_diameter(shaft)
+    for number, ((length, keyed), starts) in enumerate(sorted(gaps.items()), 1):
+        ring = keyed_ring(shaft, length) if keyed else tube(outer, (outer - shaft) / 2, length)
+        title, size = f"spacer of the cam shaft, {in_mm(length)}", round_size(outer)
+        part = Part(part_id(f"spacer-{number}"), title, "turned part", size, ring, STEEL)
         yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 

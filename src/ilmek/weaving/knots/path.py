@@ -70,11 +70,6 @@ class KnotDimensions:
         """Radius of the yarn's axis about a warp's [m], r = (D + d)/2 + e."""
         return (self.warp_diameter + self.yarn_diameter) / 2 + self.clearance
 
-    @property
-    def legs_side_by_side(self) -> bool:
-        """Whether two legs fit side by side between two warps; else they lie one behind the other."""
-        return self.pitch >= 2 * self.radius + self.yarn_diameter
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class KnotPath:

@@ -17,10 +17,10 @@ from ilmek.machines.automated_loom.in_space.warps_behind import compensator
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import motors, parts_of_loom
 from ilmek.machines.warp_tension import WarpTensionDesign
-from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.slot import over, turned_slot
-from ilmek.machines.warp_tension.tree import LOWER, SPACER, UPPER, turning
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
+from ilmek.machines.warp_tension.tree import turning
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism

@@ -8,8 +8,8 @@ import numpy as np
 
 from ilmek.arrays import Indices, Int32
 from ilmek.carpet.design import MOST_KNOTS
-from ilmek.carpet.overlay import Overlay
-from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, chart_of_codes, directions
+from ilmek.carpet.overlay import HALF, JUFTI, KnotMark, Overlay, overlay_of
+from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, directions, runs_of
 from ilmek.carpet.yarn import MOST_YARNS
 from ilmek.errors import CarpetError, shortened
 from ilmek.io.chart.rows_text import MAGIC
@@ -68,6 +68,21 @@ def parse_rows(text: str) -> WeavingRows:
     expanded = _runs(body, columns, yarn_of) if split == "runs" else _colours(body, columns, yarn_of)
     _fill(codes, expanded, direction, len(lines) + 1)
     return WeavingRows(*chart_of_codes(codes), tuple(names), split, direction)
+
+
+def chart_of_codes(codes: Int32[np.ndarray, "rows columns"]) -> tuple[Indices, Overlay]:
+    """Knots and overlay of a chart, the inverse of `row_codes` of all rows."""
+    codes = codes[::-1]
+    half = codes >= HALF_CODE
+    knots = np.where(half, (codes - HALF_CODE) // 256, codes % 256).astype(np.uint8)
+    marks = [
+        KnotMark(row, column, HALF, int(codes[row, column] - HALF_CODE) % 256)
+        for row, column in np.argwhere(half).tolist()
+    ]
+    for row in np.flatnonzero(((codes >= JUFTI_CODE) & ~half).any(axis=1)).tolist():
+        runs = (run for run in runs_of(codes[row]) if run.mark == JUFTI)
+        marks += [KnotMark(row, run.first + 2 * knot, JUFTI) for run in runs for knot in range(run.knots)]
+    return knots, overlay_of(marks)
 
 
 def _header(lines: list[str]) -> tuple[dict[str, str], list[str], list[str]]:

@@ -1,0 +1,17 @@
+from ilmek.elements.bearing_table import RollingBearing as RollingBearing
+from ilmek.elements.bearings import smallest_bearing as smallest_bearing
+from ilmek.elements.gear_pair import GearPair as GearPair
+from ilmek.elements.gear_pair import smallest_pair as smallest_pair
+from ilmek.elements.materials import Material as Material
+from ilmek.elements.materials import find_material as find_material
+from ilmek.elements.motors import Motor as Motor
+from ilmek.elements.motors import find_motor as find_motor
+from ilmek.elements.reducers import Reducer as Reducer
+from ilmek.elements.sections import Section as Section
+from ilmek.elements.sections import round_section as round_section
+from ilmek.elements.sections import square_section as square_section
+from ilmek.elements.springs import CompressionSpring as CompressionSpring
+from ilmek.elements.springs import choose_spring as choose_spring
+from ilmek.elements.tubes import Tube as Tube
+from ilmek.elements.tubes import find_tube as find_tube
+from ilmek.elements.yarns import YarnMaterial as YarnMaterial

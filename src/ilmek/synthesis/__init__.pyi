@@ -1,0 +1,17 @@
+from ilmek.synthesis.alt_burmester.four_bars import complete_four_bars as complete_four_bars
+from ilmek.synthesis.alt_burmester.task import PosesAndPoints as PosesAndPoints
+from ilmek.synthesis.approximation.function_generator import function_approximations as function_approximations
+from ilmek.synthesis.burmester.curve import burmester_curve as burmester_curve
+from ilmek.synthesis.burmester.links import arms_through_five_poses as arms_through_five_poses
+from ilmek.synthesis.candidate import Candidate as Candidate
+from ilmek.synthesis.dyad import TwoLinkArm as TwoLinkArm
+from ilmek.synthesis.dyad import arms_through_poses as arms_through_poses
+from ilmek.synthesis.filters import Filters as Filters
+from ilmek.synthesis.four_bar import FourBar as FourBar
+from ilmek.synthesis.four_bar import LinkLengths as LinkLengths
+from ilmek.synthesis.freudenstein import function_generators as function_generators
+from ilmek.synthesis.function import Function as Function
+from ilmek.synthesis.path.fit import PathFit as PathFit
+from ilmek.synthesis.path.search import path_four_bars as path_four_bars
+from ilmek.synthesis.path.task import PathTask as PathTask
+from ilmek.synthesis.task import PrecisionTask as PrecisionTask

@@ -1,0 +1,11 @@
+from ilmek.timing.cyclogram import Cyclogram as Cyclogram
+from ilmek.timing.s_curve import AxisLimits as AxisLimits
+from ilmek.timing.s_curve import SCurve as SCurve
+from ilmek.timing.s_curve import move_time as move_time
+from ilmek.timing.solver import least_acceleration as least_acceleration
+from ilmek.timing.solver import least_period as least_period
+from ilmek.timing.track import MotionLaw as MotionLaw
+from ilmek.timing.track import Track as Track
+from ilmek.timing.track import TrackEvent as TrackEvent
+from ilmek.timing.track import TrackSegment as TrackSegment
+from ilmek.timing.windows import windows_of as windows_of

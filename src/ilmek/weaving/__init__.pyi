@@ -1,0 +1,16 @@
+from ilmek.weaving.cloth import Cloth as Cloth
+from ilmek.weaving.comb_on_fell import FellPressure as FellPressure
+from ilmek.weaving.comb_on_fell import fell_pressure as fell_pressure
+from ilmek.weaving.draping import Bridges as Bridges
+from ilmek.weaving.draping import DrapedWarp as DrapedWarp
+from ilmek.weaving.draping import bridges as bridges
+from ilmek.weaving.draping import draped_warp as draped_warp
+from ilmek.weaving.fell import Fabric as Fabric
+from ilmek.weaving.fell import assumed_fabric as assumed_fabric
+from ilmek.weaving.shed import ShedWarp as ShedWarp
+from ilmek.weaving.shed import shed_lengthening as shed_lengthening
+from ilmek.weaving.tension import TakeUpTension as TakeUpTension
+from ilmek.weaving.tension import capstan as capstan
+from ilmek.weaving.tension import take_up_tension as take_up_tension
+from ilmek.weaving.tension import tension_history as tension_history
+from ilmek.weaving.tension import usual_tension as usual_tension

@@ -1,0 +1,17 @@
+from ilmek.weaving.knots.led_yarn import SampledPath as SampledPath
+from ilmek.weaving.knots.led_yarn import end_path as end_path
+from ilmek.weaving.knots.led_yarn import knot_of_ends as knot_of_ends
+from ilmek.weaving.knots.led_yarn import yarn_between as yarn_between
+from ilmek.weaving.knots.path import KnotDimensions as KnotDimensions
+from ilmek.weaving.knots.path import KnotPath as KnotPath
+from ilmek.weaving.knots.path import knot_path as knot_path
+from ilmek.weaving.knots.proof import TiedKnot as TiedKnot
+from ilmek.weaving.knots.proof import joined_ends as joined_ends
+from ilmek.weaving.knots.proof import knot_of_curve as knot_of_curve
+from ilmek.weaving.knots.proof import tied_knot as tied_knot
+from ilmek.weaving.knots.two_hands import TwoHandKnot as TwoHandKnot
+from ilmek.weaving.knots.two_hands import knot_of_hands as knot_of_hands
+from ilmek.weaving.knots.two_hands import pitch_range as pitch_range
+from ilmek.weaving.knots.word import Knot as Knot
+from ilmek.weaving.knots.word import Word as Word
+from ilmek.weaving.knots.word import knot as knot
