@@ -10,10 +10,11 @@ from hypothesis import strategies as st
 from manifold3d import Manifold, Mesh
 
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.retaining_rings import retaining_ring
 from ilmek.part.colliders import collider
 from ilmek.part.insertion import Insertion, insertions
 from ilmek.part.insertion_units import InsertedUnit, units_of
-from ilmek.part.part import Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.shapes import Placed, Shape, Sum, bar, box, tube
 from ilmek.part.straight_moves import FIT, MovedSolids, fitted, meets, offset
@@ -173,3 +174,45 @@ def test_a_row_of_bodies_that_are_there_several_times_comes_as_built() -> None:
     units = units_of(Tree((head,)))
     assert [len(unit.pieces) for unit in units] == [2, 2]
     assert [len(unit.inner) for unit in units] == [2, 0]
+
+
+@pytest.mark.parametrize("elastic", [True, False])
+def test_a_retaining_ring_opens_over_its_shaft(elastic: bool) -> None:
+    """A pin with a collar below and a groove above, a link between: the ring comes last, along the pin; a rigid ring
+    of the same shape can come into the groove by no move."""
+    row = retaining_ring(25 * mm)
+    ends = (
+        (32.0, 4.0, 0.0),
+        (25.0, 10.0, 4.0),
+        (row.groove / mm, row.slot / mm, 14.0),
+        (25.0, 2.0, 14.0 + row.slot / mm),
+    )
+    steps_of_pin = tuple(Placed(bar(wide * mm, high * mm), (placement(z=low * mm),)) for wide, high, low in ends)
+    shape = tube(row.outer, (row.outer - row.groove) / 2, row.thickness)
+    bought = Bought(row.designation if elastic else "a rigid ring")
+    ring = bought_part("ring", "ring", "fastener", shape, bought)
+    bodies = (
+        body("pin", Sum(steps_of_pin)),
+        body("link", tube(0.06, 0.0175, 9.5 * mm), placement(z=4.2 * mm), JointKind.PIN),
+        RigidBody("ring", (Occurrence(ring, (placement(z=14.05 * mm),)),)),
+    )
+    steps = insertions(Tree(bodies), UP, frozenset(("pin",)))
+    assert bool(blocked(steps)) is not elastic
+    if elastic:
+        assert names(steps) == ["pin", "link", "ring"]
+        assert steps[-1].moves[-1][:2] == pytest.approx([0.0, 0.0])
+
+
+def test_discs_that_alternate_on_a_bar_come_as_one_stack() -> None:
+    cam, ring = (part(name, tube(0.05, 0.01, 0.005)) for name in ("cam", "ring"))
+    rows = tuple(tuple(placement(z=0.011 * k + low) for k in range(50)) for low in (0.0, 0.0055))
+    shaft = Occurrence(part("shaft", bar(0.03, 0.6)), (placement(z=-0.02),))
+    turning = RigidBody(
+        "shaft", (shaft, Occurrence(cam, rows[0]), Occurrence(ring, rows[1])), joint=Joint(JointKind.PIN)
+    )
+    floor = body("floor", box(0.2, 0.2, 0.02), placement(z=-0.2))
+    (unit,) = (unit for unit in units_of(Tree((floor, turning))) if unit.inner)
+    stack = next(own for own in unit.inner if own.stack)
+    assert [([piece.id for piece, _ in run.pieces], run.times) for run in stack.stack] == [(["cam", "ring"], 50)]
+    assert len(stack.pieces) == 100
+    assert {abs(own[2]) for own in stack.directions} == {1.0}  # along the shaft

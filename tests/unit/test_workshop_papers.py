@@ -4,10 +4,12 @@ import csv
 import io
 import math
 import re
+from collections import Counter
+from collections.abc import Iterable
 from dataclasses import replace
 from functools import cache
 from html import escape
-from itertools import permutations
+from itertools import pairwise, permutations
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +43,7 @@ from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, conne
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.tree_manual import UP
 from ilmek.part.bolting import bolted
-from ilmek.part.insertion import insertions
+from ilmek.part.insertion import Insertion, insertions
 from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
 from ilmek.part.part_lists import SAW, bars_for
@@ -540,20 +542,29 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     assert "assembly" in check.name
     assert check.ok, check.source
     manual = next(paper for paper in papers().pages if paper.name == "assembly-manual")
-    rows = [row for section in manual.sections if section.table for row in section.table.rows]
+    tables = [section.table for section in manual.sections if section.table]
+    rows = [row for table in tables if table.name == "steps" for row in table.rows]
     assert [row[0] for row in rows] == list(range(1, len(rows) + 1))
-    pieces = dict[str, int]()
-    for row in rows:
-        for named in re.findall(r"(\d+ × [^;]+)", f"{row[4]}; {row[6]}"):
-            number, title = named.split(" × ", 1)
-            title = title.split(", ")[0]
-            pieces[title] = pieces.get(title, 0) + int(number)
-    expected = dict[str, int]()
-    for part in listed("parts"):
-        title = (part["designation"] if part["process"] == "fastener" else part["title"]).split(", ")[0]
-        expected[title] = expected.get(title, 0) + int(part["quantity"])
-    shapeless = {part.title: number for part, number in loom_tree(loom).occurrences() if part.shape is None}
-    assert pieces | shapeless == expected
+    heads = [row for row in rows if row[1] == "head" and row[4] == "6 × as put together before"]
+    assert len(heads) == 1
+    titles = {
+        named.split(" × ", 1)[1].split(", ")[0]
+        for row in rows
+        for named in re.findall(r"(\d+ × [^;]+)", f"{row[4]}; {row[6]}")
+        if not named.endswith("before")
+    }
+    shapeless = {part.title for part, _ in loom_tree(loom).occurrences() if part.shape is None}
+    expected = {
+        (part["designation"] if part["process"] == "fastener" else part["title"]).split(", ")[0]
+        for part in listed("parts")
+    }
+    assert titles | shapeless == expected
+    (stack,) = (table for table in tables if table.name.startswith("stack"))
+    lying = [title for times, run in stack.rows for title in int(times) * str(run).split("; ")]
+    kinds = {re.sub(r", [\d.]+ deg$", "", title) for title in lying}
+    assert len(kinds) == 4
+    assert len(lying) == sum(int(part["quantity"]) for part in listed("parts") if part["title"] in kinds)
+    assert not any("cam" in first and "guide" not in first and first == second for first, second in pairwise(lying))
     screws = {
         row["designation"]: float(row["tightening torque [Nm]"]) for row in listed("fasteners") if row["preload [N]"]
     }
@@ -565,6 +576,37 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
     }
     joins = {row["designation"] for row in listed("fasteners") if row["joins"]}
     assert joins == {name for row in rows if row[7] for name in re.findall(r"× ([^,;]+)", str(row[6]))}
+
+
+def of_pieces(steps: Iterable[Insertion]) -> Counter[tuple[str, tuple[float, ...]]]:
+    """Each piece that comes, by its part and where it stands."""
+    return Counter(
+        (piece.part.id, tuple(piece.position.points(np.eye(3)).round(5).ravel().tolist()))
+        for step in steps
+        for unit in step.units
+        for piece in unit.pieces
+    )
+
+
+def test_each_piece_comes_once_and_what_is_built_is_of_the_pieces_that_come() -> None:
+    tree = loom_tree(default_design("automated-loom"))
+    steps = insertions(tree, UP, frozenset(("automated-loom/frame",)))
+    pieces = of_pieces(steps)
+    assert set(pieces.values()) == {1}
+    whole = Counter[str]()
+    for name, _ in pieces:
+        whole[name] += 1
+    assert whole == {part.id: number for part, number in tree.occurrences() if part.shape is not None}
+    built, rest = 0, list(steps)
+    while rest:
+        step = rest.pop()
+        assert not of_pieces(step.bench) or of_pieces(step.bench) == of_pieces([step])
+        built += bool(step.bench)
+        rest += step.bench
+    assert built > 30
+    feet = [step for step in steps if step.units[0].pieces[0].part.title == "levelling foot"]
+    assert feet
+    assert all(step.moves[-1][1] > 0 for step in feet)  # upwards
 
 
 def test_a_cylinder_in_closed_bores_fails_the_check_of_the_assembly() -> None:

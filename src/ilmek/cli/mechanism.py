@@ -131,7 +131,7 @@ def command(
             found, shown = made.analysis, made.report
         workshop = None
         if write_parts is not None and made is not None:
-            workshop = write_parts(shown, made.papers, tree=made.tree, progress=call.progress)
+            workshop = write_parts(shown, made.papers, progress=call.progress)
             shown = workshop.judged(shown)
         _give(call, found, shown, made, {} if workshop is None else {"files": workshop.files})
     _show(call, shown, workshop)

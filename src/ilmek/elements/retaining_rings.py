@@ -84,6 +84,18 @@ RETAINING_RINGS = tuple(
 """By the diameter of the shaft, ascending."""
 
 
+_BY_DESIGNATION = {ring.designation: ring for ring in RETAINING_RINGS}
+
+
+def ring_of(designation: str) -> RetainingRing | None:
+    """The ring of a designation; None: it is none of the table.
+
+    >>> ring_of("DIN 471 - 10 x 1") is retaining_ring(0.010)
+    True
+    """
+    return _BY_DESIGNATION.get(designation)
+
+
 def retaining_ring(shaft: float) -> RetainingRing:
     """The ring of a shaft of a diameter [m]. Raises ParameterError for a diameter that is not in the table.
 

@@ -121,8 +121,7 @@ def design_machine(
         loom = designed if machine.name == LOOM else None
         files, tree = None, None if machine.tree is None else machine.tree(designed)
         if write is not None and made_of_links:
-            together = tree if linkage is not None else None
-            files = write(report, _papers(machine, designed, report), tree=together, progress=files_progress)
+            files = write(report, _papers(machine, designed, report), progress=files_progress)
         return DesignResult(report if files is None else files.judged(report), files, linkage, loom, tree)
 
 

@@ -166,7 +166,6 @@ def write_workshop(
     tolerance: Tolerance | None = None,
     *,
     papers: Papers = NO_PAPERS,
-    tree: Tree | None = None,
     outputs: Outputs | None = None,
     force: bool = False,
     issue: Issue = UNDATED,
@@ -175,7 +174,6 @@ def write_workshop(
     """Write the report's plates, pieces, drawings and cam tables into a folder, with papers and an index.
 
     tolerance  of the cam tables; default: see `SHARE`
-    tree       its parts in space, for one file of them at rest (STEP) and one in motion (GLB); default: none
     outputs    of the caller, who commits them; default: committed here
     force      replace a folder that ilmek wrote; for outputs of the caller, theirs holds
     issue      owner, date and revision on the drawings
@@ -201,7 +199,8 @@ def write_workshop(
         drawn = progress.part(0.5, 1.0, "drawings")
         files += write_drawings(report, cut, pieces, papers.tree, work, left_out, issue, drawn)
         judged = Workshop(folder, tuple(files), tuple(left_out), papers.checks).judged(report)
-        files += _in_space(tree, report, work) if tree is not None else ()
+        if papers.in_space and isinstance(papers.tree, Tree):
+            files += _in_space(papers.tree, report, work)
         files += write_papers(papers, judged, work, issue)
         files += write_index(judged, papers, tuple(files), work)
         write_json(work / INDEX, {"machine": report.machine, "parameters": report.parameters, "files": files})

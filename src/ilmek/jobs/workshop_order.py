@@ -11,7 +11,6 @@ from ilmek.report.sheet import Issue
 
 if TYPE_CHECKING:
     from ilmek.jobs.workshop import Workshop
-    from ilmek.part.tree import Tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,11 +27,9 @@ class WorkshopOrder:
 
 
 class WorkshopWriter(Protocol):
-    """Writes the workshop files of a report, papers, and the parts of a tree in space."""
+    """Writes the workshop files of a report, and papers."""
 
-    def __call__(
-        self, report: Report, papers: Papers = NO_PAPERS, *, tree: "Tree | None" = None, progress: Progress = SILENT
-    ) -> "Workshop":
+    def __call__(self, report: Report, papers: Papers = NO_PAPERS, *, progress: Progress = SILENT) -> "Workshop":
         """The files that were written. Raises as `write_workshop`."""
 
 
@@ -50,11 +47,7 @@ def workshop_writer(order: WorkshopOrder | None, outputs: Outputs) -> WorkshopWr
     tolerance = Tolerance() if order.tolerance is None else read_tolerance(order.tolerance)
     folder, issue = order.folder, order.issue
 
-    def write(
-        report: Report, papers: Papers = NO_PAPERS, *, tree: "Tree | None" = None, progress: Progress = SILENT
-    ) -> "Workshop":
-        return write_workshop(
-            report, folder, tolerance, papers=papers, tree=tree, outputs=outputs, issue=issue, progress=progress
-        )
+    def write(report: Report, papers: Papers = NO_PAPERS, *, progress: Progress = SILENT) -> "Workshop":
+        return write_workshop(report, folder, tolerance, papers=papers, outputs=outputs, issue=issue, progress=progress)
 
     return write

@@ -5,17 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ilmek.elements.prices import PRICES
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.table_csv import rows_csv
-from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.component import AnyComponent
-from ilmek.machines.tree_manual import UP, assembly_check, tree_manual
-from ilmek.part.bolting import bolted
-from ilmek.part.fastenings import fastening_check
-from ilmek.part.insertion import insertions
-from ilmek.part.part_lists import part_lists
-from ilmek.part.projection import widest_view
+from ilmek.machines.tree_papers import tree_papers
 from ilmek.records import JsonObject
 from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
 from ilmek.report.sheet import Issue
@@ -31,20 +24,12 @@ DRAWING_KINDS = ("drawings", "assembly", "sheet", "translation")
 
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
-    """The papers of a design of a machine with its report; none of a machine without parts.
-
-    Of a machine without papers of its own: how it is put together, what wears in it, and the lists of its parts.
-    """
+    """The papers of a design of a machine with its report; none of a machine without parts."""
     if machine.papers is not None:
         return machine.papers(design, report)
     if machine.tree is None:
         return NO_PAPERS
-    bare = machine.tree(design)
-    steps, tree = insertions(bare, UP), bolted(bare)
-    pages = tree_manual(bare, steps, widest_view(bare), tree), spares_of(tree)
-    shown = tuple(page for page in pages if page is not None)
-    checks = fastening_check(tree), assembly_check(steps)
-    return Papers(shown, part_lists(tree, PRICES), checks, tree)
+    return tree_papers(machine.tree(design), in_space=machine.mechanism is not None)
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:

@@ -12,21 +12,21 @@ from itertools import groupby
 import numpy as np
 
 from ilmek.elements.machine_screws import screw_of
+from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion
 from ilmek.part.insertion_units import Direction, InsertedUnit
 from ilmek.part.part import Part
 from ilmek.part.part_lists import FASTENER
+from ilmek.part.poses import chains
 from ilmek.part.projection import PieceOutline, View, outlines
+from ilmek.part.stacks import StackPiece, StackRun
 from ilmek.part.straight_moves import Vector
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
 from ilmek.units import format_quantity
-
-OWN = "automated-loom"
-"""Machine of the bodies that are the loom's own."""
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -41,14 +41,16 @@ class AssemblyStep:
     """A row of the manual: what comes, of which bodies, by which moves, onto what.
 
     parts  how many of each come      moves  directions by which each comes, in turn; none: it stands, or comes built
-    onto   bodies that it touches     built  whether its parts came on the bench, in the steps before
+    onto   bodies that it touches     built  how many come whose parts came on the bench, in the steps before; 0: parts
+    stack  the order of parts that alternate along an axis
     """
 
     bodies: tuple[str, ...]
     parts: Mapping[Part, int]
     moves: tuple[tuple[Direction, ...], ...]
     onto: tuple[str, ...]
-    built: bool = False
+    built: int = 0
+    stack: tuple[StackRun, ...] = ()
 
     @property
     def mass(self) -> float:
@@ -57,7 +59,7 @@ class AssemblyStep:
 
 
 def assembly_check(steps: Sequence[Insertion]) -> Check:
-    """Whether every part can reach its seat past what stands."""
+    """Whether what comes can reach its seat past what stands; not what is put together on the bench."""
     held = [step for step in steps if step.blocking]
     named = (f"{_names(step.units)} by {_names(step.blocking)}" for step in held[:3])
     parts = (piece.part.id for step in held for unit in step.units for piece in unit.pieces[:1])
@@ -72,7 +74,21 @@ def _names(units: Sequence[InsertedUnit]) -> str:
 
 def assembly_steps(steps: Sequence[Insertion]) -> Iterator[AssemblyStep]:
     """The rows of steps, those on the bench before; like parts of a body that come one after the other in one."""
-    for (bodies, _, simple), some in groupby(steps, key=_alike):
+    return _rows(steps, _benches(steps))
+
+
+def _benches(steps: Sequence[Insertion]) -> dict[str, tuple[Insertion, ...]]:
+    """By what comes built how it is put together: bodies that are there several times are so once."""
+    benches: dict[str, tuple[Insertion, ...]] = {}
+    for step in steps:
+        benches |= _benches(step.bench)
+        if step.bench:
+            benches[_alike(step)[1]] = step.bench
+    return benches
+
+
+def _rows(steps: Sequence[Insertion], benches: dict[str, tuple[Insertion, ...]]) -> Iterator[AssemblyStep]:
+    for (bodies, name, simple), some in groupby(steps, key=_alike):
         alike = tuple(some)
         onto = tuple(dict.fromkeys(unit.name for step in alike for unit in step.onto))
         moves = tuple(dict.fromkeys(tuple(map(_direction, step.moves)) for step in alike if step.moves))
@@ -81,35 +97,22 @@ def assembly_steps(steps: Sequence[Insertion]) -> Iterator[AssemblyStep]:
             for unit in step.units:
                 counted.update(unit.parts)
         if not simple:
-            yield from assembly_steps(alike[0].bench) if alike[0].bench else _listed(alike)
-        yield AssemblyStep(bodies, counted, moves, onto, built=not simple)
+            yield from _rows(benches.pop(name, ()), benches)
+        stack = alike[0].units[0].stack if simple else ()
+        yield AssemblyStep(bodies, counted, moves, onto, 0 if simple else len(alike), stack)
 
 
 def _alike(step: Insertion) -> tuple[tuple[str, ...], str, bool]:
-    """What steps of one row have in common: the bodies, the part, and whether nothing was built on the bench before."""
+    """What steps of one row have in common: bodies, part or group of them, and whether nothing was built before."""
     first = step.units[0]
-    alone = len(step.units) == 1 and len(first.parts) == 1
+    alone = len(step.units) == 1 and (len(first.parts) == 1 or bool(first.stack))
     bodies = tuple(dict.fromkeys(unit.name for unit in step.units))
-    return bodies, first.pieces[0].part.id if alone else str(first.number) * bool(step.bench), alone
-
-
-def _listed(steps: Sequence[Insertion]) -> Iterator[AssemblyStep]:
-    """The bodies of what comes built, in the order of the tree."""
-    counted: dict[str, Counter[Part]] = defaultdict(Counter)
-    for piece in (piece for step in steps for unit in step.units for piece in unit.pieces):
-        counted[piece.body][piece.part] += 1
-    return (AssemblyStep((body,), parts, (), ()) for body, parts in counted.items())
+    return bodies, first.pieces[0].part.id if alone else "+".join(bodies), alone
 
 
 def _direction(move: Vector) -> Direction:
     """Direction of a move, rounded."""
     return tuple((move / np.linalg.norm(move)).round(2).tolist())
-
-
-def machine_of(body: str) -> str:
-    """The machine of a body, by its id."""
-    machine, dash, _ = body.partition("/")
-    return machine if dash else OWN
 
 
 def _with_screws(steps: Iterable[AssemblyStep], tree: Tree) -> tuple[AssemblyStep, ...]:
@@ -135,14 +138,29 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
     titles = {part.id: part.title for part, _ in screwed.occurrences()}
     joins = {name: [titles[one] for one in own] for name, own in joined_by(screwed, fasteners).items()}
     sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
+    last = (links[-1] for links in chains(tree))
+    machines = {link.name: machine_of(link.body) for link in last if link.body.occurrences}
     numbered = enumerate(_with_screws(assembly_steps(steps), screwed), 1)
-    for machine, grouped in groupby(numbered, key=lambda row: machine_of(row[1].bodies[0])):
+    for machine, grouped in groupby(numbered, key=lambda row: machines[row[1].bodies[0]]):
         rows = tuple(grouped)
         coming = {body for _, step in rows for body in step.bodies}
         sections.append(_section(machine, rows, joins, _picture(seen, standing, coming, _CAPTIONS[view])))
+        sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
         standing |= coming
-    sections.append(PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)))
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
+
+
+def _stack_section(number: int, stack: Sequence[StackRun]) -> PaperSection:
+    """The order along their axis of the parts of a step: a row for each run."""
+    title = Sentence("manual.stack", step=str(number))
+    heads = Column(Sentence("manual.times")), Column(Sentence("manual.run"))
+    rows = tuple((run.times, "; ".join(map(_stacked, run.pieces))) for run in stack)
+    return PaperSection(title, (Sentence("manual.stack-how"),), Table(f"stack-{number}", title, heads, rows))
+
+
+def _stacked(piece: StackPiece) -> str:
+    part, angle = piece
+    return f"{part.title}, {format_quantity(angle, 'deg', 3)}" if angle else part.title
 
 
 def _section(
@@ -173,7 +191,7 @@ def _row(number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]]) ->
         ", ".join(body.rpartition("/")[2] for body in step.bodies),
         ", ".join(one.rpartition("/")[2] for one in step.onto),
         _from(step),
-        Sentence("manual.built") if step.built else "; ".join(named),
+        Sentence("manual.built", count=str(step.built)) if step.built else "; ".join(named),
         step.mass,
         "; ".join(_tightened(part, parts[part]) for part in fasteners),
         "; ".join(", ".join(joins[part.id]) for part in fasteners),

@@ -5,9 +5,7 @@ block of all, by the diagonal of its box, stays. The blocks of a line are moved 
 from there outwards along their axis, each by the least distance at which it is clear by a gap of all that it has room
 in common with, on that side of what its line goes through on which it is assembled.
 
-axis of a piece  that of the bore or journal by which it meets another [`meetings`]; else of its body's joint, where it
-                 is the only part; else of a turned or bought part its own z, of any other the direction in which it
-                 is thinnest
+The axis of a piece is that of its body's joint, where it is the only part and meets none; else its own [`seat_axes`].
 """
 
 from collections import Counter
@@ -19,8 +17,8 @@ from scipy.spatial import ConvexHull
 
 from ilmek.arrays import BoolArray, ComplexArray, Float, FloatArray
 from ilmek.part.assemblies import AssembledPiece, AssemblyUnit
-from ilmek.part.meetings import meetings
-from ilmek.part.shapes import Shape, Turned, box_corners, shape_box
+from ilmek.part.seat_axes import meeting_axes, seat_axis
+from ilmek.part.shapes import Shape, box_corners, shape_box
 from ilmek.part.tree import JointKind, Tree
 from ilmek.plane.curves import hull
 from ilmek.records import record
@@ -53,7 +51,7 @@ class Block:
 
 def exploded(tree: Tree, assembly: AssemblyUnit, pieces: Sequence[AssembledPiece]) -> tuple[Block, ...]:
     """The blocks of an assembly's pieces, moved apart: a piece of its own, or an assembly in it."""
-    axes = _part_axes(tree)
+    axes = meeting_axes(tree)
     blocks = sorted(_blocks(assembly, pieces), key=lambda block: -_diagonal(_box(block)))
     boxes = np.array([_box(block) for block in blocks])
     corners, directions = [_hull_corners(block) for block in blocks], [_axis(block, axes) for block in blocks]
@@ -132,30 +130,15 @@ def _diagonal(box: Box) -> float:
     return float(np.linalg.norm(box[1] - box[0]))
 
 
-def _part_axes(tree: Tree) -> dict[str, Vector]:
-    """By the id of a part its axis in its own frame: of the longest bore or journal by which it meets another."""
-    longest: dict[str, tuple[float, Vector]] = {}
-    for meeting in meetings(tree):
-        for seat in (meeting.bore, meeting.inner):
-            length = min(meeting.bore.feature.length, meeting.inner.feature.length)
-            if length > longest.get(seat.part.id, (0.0, None))[0]:
-                longest[seat.part.id] = length, seat.feature.position.rotation[:, 2]
-    return {name: axis for name, (_, axis) in longest.items()}
-
-
 def _axis(block: Sequence[AssembledPiece], axes: Mapping[str, Vector]) -> Vector:
     """The direction in which a block is taken out, in the axes of the tree."""
     piece = block[0]
     if len(block) > 1 and piece.body.joint.kind is not JointKind.FIXED:
         return piece.axis
-    if piece.part.id in axes:
-        return np.asarray(piece.position.rotation @ axes[piece.part.id])
-    if sum(len(own.positions) for own in piece.body.occurrences) == 1 and piece.body.joint.kind is not JointKind.FIXED:
+    alone = sum(len(own.positions) for own in piece.body.occurrences) == 1
+    if piece.part.id not in axes and alone and piece.body.joint.kind is not JointKind.FIXED:
         return piece.axis
-    if isinstance(piece.part.shape, Turned) or piece.part.purchase is not None:
-        return piece.position.rotation[:, 2]
-    low, high = shape_box(_shape(piece))
-    return piece.position.rotation[:, int((high - low).argmin())]
+    return np.asarray(piece.position.rotation @ seat_axis(piece.part, axes))
 
 
 def _carrier(box: Box, standing: Float[np.ndarray, "n 2 3"]) -> int:

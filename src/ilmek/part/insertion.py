@@ -98,6 +98,8 @@ class _Plan:
         self.learned = learned or _Known(float(np.linalg.norm(np.ptp(self.boxes.reshape(-1, 3), axis=0))))
         self.met, self.known = self.learned.met, self.learned.known
         self.watched, self.stuck = self.learned.watched, self.learned.stuck
+        self.floor = float((self.boxes @ self.up).min())
+        self.leaving: dict[InsertedUnit, list[Direction]] = {}
         self.near: dict[tuple[InsertedUnit, Direction], list[InsertedUnit]] = {}
         self.through: set[frozenset[InsertedUnit]] = set()
         self.beside: dict[InsertedUnit, set[InsertedUnit]] = {unit: set() for unit in self.units}
@@ -115,13 +117,14 @@ class _Plan:
         taken: list[Insertion] = []
         while len(self.standing) > 1:
             steps = self._next()
-            if steps[0].blocking and not self.welded:
+            if steps[0].blocking:
                 own = self.standing | set(steps[0].units)
-                near = (*steps[0].units, *steps[0].blocking)
-                built = [unit for unit in (*near, *self.units) if unit.inner and unit in own]
+                beside = (unit for unit in self.units if unit.name == steps[0].units[0].name)
+                near = (*steps[0].units, *steps[0].blocking, *beside, *self.units)
+                built = [unit for unit in near if unit.inner and unit in own and (unit.fastens or not self.welded)]
                 if built:  # it is put together in its place
                     rest = [*(own - {built[0]}), *built[0].inner]
-                    parts = _Plan(rest, self.up, learned=self.learned).steps()
+                    parts = _Plan(rest, self.up, self.welded, self.learned).steps()
                     return (*parts, *reversed(taken))
             taken += steps
         bench = [Insertion((unit,), bench=_bench((unit,))) for unit in self.units if unit in self.standing]
@@ -154,20 +157,33 @@ class _Plan:
             return steps
         self.standing = before
         if len(units) > 1:
-            for direction in dict.fromkeys(own for unit in units for own in unit.directions):
-                group = self._held_along(units, direction, len(units) + _SIZES[0]) if self._open(direction) else None
+            for direction in dict.fromkeys(own for unit in units for own in self._directions(unit)):
+                group = self._held_along(units, direction, len(units) + _SIZES[0])
                 if group is not None and self._whole(group) and self._may_leave(group):
                     self.standing -= group
                     return [self._step(group, (self._far(direction),))]
         return []
 
+    def _directions(self, unit: InsertedUnit) -> Sequence[Direction]:
+        """In which a unit may leave, along its seat first, then upwards; into the floor only what stands on it."""
+        if unit not in self.leaving:
+            on_floor = float((unit.solid.box @ self.up).min()) < self.floor + FIT
+            order = sorted(
+                unit.directions, key=lambda own: (own not in unit.directions[:2], -round(self._rise(own), 2))
+            )
+            self.leaving[unit] = [own for own in order if on_floor or self._open(own)]
+        return self.leaving[unit]
+
     def _open(self, direction: Direction) -> bool:
         """Whether a direction does not lead into the floor."""
-        return float(self.up @ np.array(direction)) > -_LEVEL
+        return self._rise(direction) > -_LEVEL
+
+    def _rise(self, direction: Direction) -> float:
+        return float(self.up @ np.array(direction))
 
     def _single(self, units: Iterable[InsertedUnit]) -> Insertion | None:
         for unit in units:
-            for direction in filter(self._open, unit.directions):
+            for direction in self._directions(unit):
                 if self._in_the_way(unit, direction) is None and self._may_leave({unit}):
                     return self._step({unit}, (self._far(direction),))
         return None
@@ -186,7 +202,7 @@ class _Plan:
         """What stands and may be in the way of a unit by their boxes, what touches it first."""
         key = unit, direction
         if key not in self.near:
-            low, high = swept_box(unit.solid.box, self._far(direction))
+            low, high = swept_box(unit.opened.box, self._far(direction))
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
             others = [self.units[k] for k in np.flatnonzero(within).tolist() if self.units[k] is not unit]
             self.near[key] = sorted(others, key=lambda other: other not in self.beside[unit])
@@ -197,7 +213,7 @@ class _Plan:
         if key not in self.met:
             move = length * np.array(direction) if length else self._far(direction)
             free = frozenset((unit, other)) in self.through
-            self.met[key] = not free and meets(unit.solid, other.solid, move)
+            self.met[key] = not free and meets(unit.opened, other.solid, move)
         return self.met[key]
 
     def _far(self, direction: Direction) -> Vector:
@@ -231,7 +247,7 @@ class _Plan:
         """Of some units one leaves together with those that hold it, a small group first."""
         for most in _SIZES:
             for unit in units:
-                for direction in filter(self._open, unit.directions):
+                for direction in self._directions(unit):
                     group = self._held_along([unit], direction, most)
                     if group is not None and self._whole(group) and self._may_leave(group):
                         return self._step(group, (self._far(direction),))
@@ -311,10 +327,10 @@ class _Plan:
             if known in self.standing and known not in group:
                 met.add(known)
                 return False
-            low, high = swept_box(unit.solid.box + start, move)
+            low, high = swept_box(unit.opened.box + start, move)
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
             for other in {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group:
-                if frozenset((unit, other)) not in self.through and meets(unit.solid, other.solid, move, start):
+                if frozenset((unit, other)) not in self.through and meets(unit.opened, other.solid, move, start):
                     self.known[key] = other
                     met.add(other)
                     return False
@@ -326,7 +342,7 @@ class _Plan:
             ([other for other in self._before(unit, along) if self._meets(unit, other, along)], unit, along)
             for unit in self.units
             if unit in self.standing and unit.name not in self.welded
-            for along in filter(self._open, unit.directions)
+            for along in self._directions(unit)
         )
         blocking, unit, along = min(blocked, key=lambda own: len(own[0]))
         return replace(self._step({unit}, (self._far(along),)), blocking=tuple(blocking))
@@ -342,7 +358,7 @@ def _bench(units: tuple[InsertedUnit, ...]) -> tuple[Insertion, ...]:
     """The steps by which some units are put together before they come."""
     if len(units) > 1 and len({unit.name for unit in units}) > 1:
         return _Plan(units).steps()
-    inner = tuple(own for unit in units for own in unit.inner or (unit,))
+    inner = tuple(own for unit in units for own in (not unit.fastens and unit.inner) or (unit,))
     return _Plan(inner).steps() if 1 < len(inner) <= _MOST_INNER else ()
 
 

@@ -81,12 +81,14 @@ class Papers:
 
     checks  what was judged for them, beside the checks of the report
     tree  of the package `part`, of which the assemblies are drawn; None: none
+    in_space  whether its parts are written together too: at rest as STEP, in motion as GLB
     """
 
     pages: tuple[Paper, ...] = ()
     lists: tuple[Table, ...] = ()
     checks: tuple[Check, ...] = ()
     tree: object = None
+    in_space: bool = False
 
 
 NO_PAPERS = Papers()

@@ -349,7 +349,7 @@ PAPERS = {
     "manual.onto": "onto",
     "manual.moves": "comes",
     "manual.joins": "joins",
-    "manual.built": "as put together before",
+    "manual.built": "{count} × as put together before",
     "manual.from-right": "from the right",
     "manual.from-left": "from the left",
     "manual.from-above": "from above",
@@ -366,8 +366,12 @@ PAPERS = {
     "commissioning list.",
     "manual.order": "Order",
     "manual.order-how": "What is put together on the bench is listed before it comes. Each part reaches its seat by "
-    "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. A large "
-    "body, such as a head, comes built: its own order is that of its bodies, and its moves are not searched.",
+    "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. What "
+    "is there several times is put together once in the list. What comes from below comes while the machine is lifted.",
+    "manual.stack": "Order along the axis, step {step}",
+    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind.",
+    "manual.times": "times",
+    "manual.run": "parts that follow each other",
     # List
     "list.parts": "Parts",
     "list.cut": "Stock to be cut",

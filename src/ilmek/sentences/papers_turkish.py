@@ -348,7 +348,7 @@ PAPERS = {
     "manual.onto": "üzerine",
     "manual.moves": "geliş yönü",
     "manual.joins": "birleştirdikleri",
-    "manual.built": "önceden birleştirildiği gibi",
+    "manual.built": "{count} × önceden birleştirildiği gibi",
     "manual.from-right": "sağdan",
     "manual.from-left": "soldan",
     "manual.from-above": "yukarıdan",
@@ -365,8 +365,12 @@ PAPERS = {
     "listesine göre ayarlayın.",
     "manual.order": "Sıra",
     "manual.order-how": "Tezgâhta birleştirilenler yerine konmadan önce sıralanır. Her parça adı geçen düz "
-    "hareketlerle, duranların yanından yerine ulaşır; ulaşamayan parça montaj kontrolünden geçmez. Kafa gibi büyük "
-    "bir gövde birleştirilmiş gelir: kendi sırası gövdelerinin sırasıdır ve hareketleri aranmamıştır.",
+    "hareketlerle, duranların yanından yerine ulaşır; ulaşamayan parça montaj kontrolünden geçmez. Birkaç tane "
+    "olanın birleştirilmesi listede bir kez verilir. Alttan gelen parçalar, makine kaldırılmışken gelir.",
+    "manual.stack": "Eksen boyunca sıra, adım {step}",
+    "manual.stack-how": "Dizildikleri sırayla; her biri, kendi türünün ilkinden eksen çevresindeki açısıyla.",
+    "manual.times": "kez",
+    "manual.run": "art arda gelen parçalar",
     # List
     "list.parts": "Parçalar",
     "list.cut": "Kesilecek yarı mamul",

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.elements.prices import PRICES
 from ilmek.jobs.mechanism.analysis import Analysis, analysis
 from ilmek.jobs.mechanism.parts import cam_tables, full_travel
 from ilmek.jobs.mechanism.report import report
@@ -17,7 +16,6 @@ from ilmek.machines.own_linkage.report import (
     made_inertias,
 )
 from ilmek.machines.own_linkage.tree import own_tree
-from ilmek.part.part_lists import part_lists
 from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.tree import Tree
 from ilmek.progress import SILENT, Progress
@@ -43,8 +41,10 @@ class MadeMechanism:
 
     @property
     def papers(self) -> Papers:
-        """The lists of its parts, and what its assembly drawing is made of."""
-        return Papers(lists=part_lists(self.tree, PRICES), tree=self.tree)
+        """How it is put together, what wears in it, lists of its parts; what makes them is imported here."""
+        from ilmek.machines.tree_papers import tree_papers
+
+        return tree_papers(self.tree, in_space=True)
 
 
 def made_mechanism(run: MechanismRun, progress: Progress = SILENT, *, drawn: bool = False) -> MadeMechanism:

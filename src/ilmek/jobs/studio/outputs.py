@@ -121,7 +121,7 @@ def _linkage(path: Path, target: Path, name: str, outputs: Outputs, progress: Pr
     reporting = progress.part(0.6, 0.8, "report")
     if write is not None:
         parts = made_mechanism(moved, reporting)
-        workshop = write(parts.report, parts.papers, tree=parts.tree)
+        workshop = write(parts.report, parts.papers)
         return workshop.judged(parts.report).all_checks, (*parts.report.warnings, *workshop.notes)
     found = analysis(moved, reporting)
     made = mechanism_report(found, drawn=name in ("page", "animation"))

@@ -114,8 +114,9 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
 
 
 def guide(weaver: Weaver) -> Occurrence:
-    """Two plates between the side plates that meet on the cams' line, with half of a slot for each follower: neither
-    its fork nor its rail goes through a whole one.
+    """Two plates between the side plates that meet on the cams' line, with half of a slot for each follower.
+
+    Neither its fork nor its rail goes through a whole one.
     """
     params, half = weaver.params, follower_half(weaver)
     wide, shape = stack_width(params), weaver.shape
@@ -129,8 +130,7 @@ def guide(weaver: Weaver) -> Occurrence:
         corners += [complex(0.0, -low), complex(-half, -low), complex(-half, -high), complex(0.0, -high)]
     size = f"{in_mm(GUIDE)} thick"
     section = Profile(polygon(np.array(corners)[::-1]))
-    title = "half of the guide of the followers"
-    part = Part(FOLLOWER_GUIDE, title, "machined link", size, Prism(section, GUIDE), ALUMINIUM)
+    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
     front = placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING)
     return Occurrence(part, (front, front.after(placement(z=GUIDE, about=(0.0, 1.0, 0.0), angle=turn / 2))))
 

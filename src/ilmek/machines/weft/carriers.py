@@ -1,10 +1,11 @@
 """The wood of a shuttle, its bobbin, and the tube of a rapier: parts that weigh what their shapes say.
 
 Axes: x along the width to the weaver's right, 0 in the middle of a shuttle and at the tip of a rapier; y up along the
-warps; z to the front. A shuttle's bay is a bored square bar with an end wall on each side, its noses are wedges in
-plan: the back glides along the warps at rest, in the pockets of the noses it has its magnets.
+warps; z to the front. A shuttle's bay is a hollow square bar, open to the front, with an end wall on each side, its
+noses are wedges in plan: the back glides along the warps at rest, in the pockets of the noses it has its magnets.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
@@ -34,10 +35,14 @@ RAPIER_TUBE, GRIPPER, NEEDLE, WEFT_CUTTER = part_id("rapier"), part_id("gripper"
 MAGNET, BOX_MOTOR = part_id("magnet"), part_id("box-motor")
 
 
+_ARC = 49
+"""Points of the half circle of a bay."""
+
+
 def shuttle_wood(params: WeftParams, size: BobbinSize) -> Part:
     """A shuttle for a bobbin, without what is fitted to it: its back is flat, its noses have pockets for magnets."""
     deep, long, end = size.diameter + 2 * params.wall, size.length, size.length / 2 + params.wall
-    bay = Placed(Prism(Profile(rectangle(deep, deep), (circle(0j, size.diameter / 2),)), long), (along(-long / 2),))
+    bay = Placed(Prism(_bay(deep, size), long), (along(-long / 2),))
     wall = Prism(Profile(rectangle(deep, deep), (circle(0j, _eye(size) / 2),)), params.wall)
     ends = Placed(wall, (along(-long / 2 - params.wall), along(long / 2)))
     noses = [*_nose(params, size, 1), *_nose(params, size, -1)] if params.nose > 0 else []
@@ -45,6 +50,14 @@ def shuttle_wood(params: WeftParams, size: BobbinSize) -> Part:
     length = format_quantity(2 * (end + params.nose), "mm")
     text = f"{length} long, for a bobbin of {size.name}"
     return Part(SHUTTLE_WOOD, "shuttle", "machined link", text, Sum((bay, ends, *noses)), wood)
+
+
+def _bay(deep: float, size: BobbinSize) -> Profile:
+    """The section of the bay, a square bar that is hollowed out round and open to the front for the bobbin."""
+    half, radius = deep / 2, size.diameter / 2
+    hollow = radius * np.exp(-1j * np.linspace(0.0, math.pi, _ARC))
+    corners = np.array([complex(-half, -half), complex(half, -half), complex(half, half), complex(radius, half)])
+    return Profile(polygon(np.concatenate([corners, hollow, [complex(-radius, half), complex(-half, half)]])))
 
 
 def _nose(params: WeftParams, size: BobbinSize, side: int) -> Iterator[Placed]:

@@ -62,7 +62,7 @@ _WRITES: Mapping[str, Snippet] = {
             "with Outputs(force=True) as outputs:",
             "    write = workshop_writer(WorkshopOrder(Path({target!r})), outputs)",
             "    made = made_mechanism(run.analysis.run)",
-            "    write(made.report, made.papers, tree=made.tree)",
+            "    write(made.report, made.papers)",
         ),
     ),
 }
