@@ -1,20 +1,26 @@
-"""What a part is cut from is sold in that size, and the part is in it: measured on its mesh, of every made part."""
+"""Every part: its blank is sold in that size and has it in it, by its mesh; its steps hold its tolerances; its mass."""
 
+from dataclasses import replace
 from functools import cache
-from typing import Any
 
 import numpy as np
 import pytest
 from default_machines import default_design
 
 from ilmek.elements.columns import SECTIONS
+from ilmek.elements.fits import tolerance_grade
+from ilmek.elements.making import DRAWN, FINEST, GRINDING, MILLING, TURNING
 from ilmek.elements.stock_sizes import PLATES, ROUNDS, SQUARES
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
 from ilmek.part.bill import line_of
 from ilmek.part.blanks import BAR, HOLLOW, PLATE, ROUND, SQUARE, TUBE, Blank, blanks_of, size_of
+from ilmek.part.making import steps_of
 from ilmek.part.part import Part
+from ilmek.part.tolerances import FeatureKind, ToleratedFeature
+from ilmek.part.tolerancing import tolerances_of
+from ilmek.part.tree import Tree
 from ilmek.units import mm
 
 LOOMS: dict[str, dict[str, str]] = {
@@ -28,16 +34,21 @@ NEAR = 1e-6
 
 
 @cache
-def parts(name: str) -> tuple[Part, ...]:
-    """The parts of a loom, or of a machine alone."""
+def whole(name: str) -> Tree:
+    """The tree of a loom, or of a machine alone."""
     if name in LOOMS:
         loom = MACHINES["automated-loom"]
-        tree: Any = loom_tree(loom.designed(loom.params.read(LOOMS[name])))
-    else:
-        tree_of = MACHINES[name].tree
-        assert tree_of is not None
-        tree = tree_of(default_design(name))
-    return tuple(part for part, _ in tree.occurrences())
+        return loom_tree(loom.designed(loom.params.read(LOOMS[name])))
+    tree_of = MACHINES[name].tree
+    assert tree_of is not None
+    made_tree: Tree = tree_of(default_design(name))
+    return made_tree
+
+
+@cache
+def parts(name: str) -> tuple[Part, ...]:
+    """Its parts."""
+    return tuple(part for part, _ in whole(name).occurrences())
 
 
 def made(name: str) -> tuple[Part, ...]:
@@ -114,3 +125,37 @@ def test_a_blank_that_is_too_small_is_seen() -> None:
     thin = Blank(ROUND, (25 * mm,), blank.sides, 0.0)
     assert sides_of(thin)[0] < np.ptp(flanged.shape.mesh().points, axis=0)[0]
     assert not sold(Blank(ROUND, (13.54 * mm,), (1.0,), 0.0), flanged)
+
+
+def too_fine(part: Part, feature: ToleratedFeature) -> str:
+    """Why no step in the making of a part holds a tolerance; empty: one does."""
+    steps = {step.kind for step in steps_of(part)}
+    if feature.kind is FeatureKind.FACE:
+        return "" if steps & {MILLING, GRINDING} else "no face is machined"
+    if feature.kind is FeatureKind.THREAD:
+        return "" if steps & {MILLING, TURNING} else "no thread is cut"
+    if feature.depth:
+        return "" if MILLING in steps else "no keyway is milled"
+    as_sold = [DRAWN] if part.process == "steel bar" else []
+    grade = min([FINEST[kind] for kind in steps & set(FINEST)] + as_sold, default=18)
+    width, least = feature.upper - feature.lower, tolerance_grade(grade, feature.nominal)
+    return "" if width >= least - 1e-9 else f"IT{grade} is {least / mm:.3f} mm, {width / mm:.3f} mm is asked"
+
+
+@pytest.mark.parametrize("name", [*LOOMS, *ALONE])
+def test_every_tolerance_is_one_that_a_step_of_the_making_holds(name: str) -> None:
+    own = {part.id: part for part in parts(name)}
+    faults = {
+        f"{part} {feature.label}: {why}"
+        for part, features in tolerances_of(whole(name)).items()
+        for feature in features
+        if (why := too_fine(own[part], feature))
+    }
+    assert sorted(faults) == []
+
+
+def test_a_fit_of_a_laser_cut_bore_is_too_fine() -> None:
+    (lug,) = (part for part in parts("tension-compensator") if part.id == "tension-compensator/pivot-lug")
+    (bore,) = tolerances_of(whole("tension-compensator"))[lug.id]
+    assert too_fine(lug, bore) == ""
+    assert too_fine(replace(lug, machined=False), bore).startswith("IT12")

@@ -221,7 +221,7 @@ def test_the_sheets_of_every_machine_are_clear(name: str, tmp_path: Path) -> Non
 
 
 def points_of(document: Drawing, page: str) -> dict[str, bool]:
-    """A toolmaker's twenty points, each looked for in the DXF by layers and entities, or in the text of the PDF."""
+    """A toolmaker's points, each looked for in the DXF by layers and entities, or in the text of the PDF."""
     space = document.modelspace()
     drawn = {entity.dxf.layer for entity in space}
     every = list(dimensions(document))
@@ -229,6 +229,9 @@ def points_of(document: Drawing, page: str) -> dict[str, bool]:
     measured = {kind for kind, *_ in every} | {"upright" for kind, up, *_ in every if kind == LINEAR and up}
     fits = re.findall(r"^(?:bore|journal) ⌀[\d.]+ (\w+)", page, re.M)
     blocks = [len(document.blocks[entity.dxf.geometry]) for entity in space.query("DIMENSION")]
+    words = [text.dxf.text for text in space.query("TEXT")] + [text for *_, text in every]
+    symbols = [text for text in words if re.match(r"a\d[\d.]*\u2003", text)]
+    keyways = [text for text in words if re.match(r"(\d+× )?keyway ", text)]
     weights = {layer.dxf.name: layer.dxf.lineweight for layer in document.layers}
     return {
         "1 frame and zones": "FRAME" in drawn and re.search(r"^A$", page, re.M) is not None,
@@ -251,6 +254,16 @@ def points_of(document: Drawing, page: str) -> dict[str, bool]:
         "18 axes of what is round": "⌀" not in page or "CENTRE" in drawn,
         "19 each fit beside its dimension": all(any(f" {fit} " in text for *_, text in every) for fit in fits),
         "20 date, revision and status": all(word in page for word in ("Rev.", "Date of issue", "Status")),
+        "21 each weld with its length, and its position": "WELD" not in drawn
+        or ("Welds ISO 2553" in page and all(re.search(r"\ba\d[\d.]*\s+[\d.]", text) for text in symbols)),
+        "22 bends with side, radius and K": "bent" not in page
+        or all(word in page for word in ("DIN 6935", "Inner radius", "Side")),
+        "23 twist with angle, lead and hand": not re.search(r"twisted bar\b", page)
+        or all(word in page for word in ("Lead", "Hand", "Angle")),
+        "24 a cam's zero mark and direction": "cam plate" not in page or ("zero mark" in page and "turns" in page),
+        "25 each keyway with its fit, angle and floor": page.count("keyway") == 0
+        or (all(re.search(r"\d \w+ \(.* at ", text) for text in keyways) and "to its floor" in page),
+        "26 stock and process": bool(re.search(r"Stock, process\s+[^\s—]", page)),
     }  # fmt: skip
 
 

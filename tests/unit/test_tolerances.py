@@ -179,7 +179,7 @@ def test_a_square_shaft_and_its_bore() -> None:
     corners = box(20 * mm, 20 * mm, 1.0).section.outline
     cam = _made("cam", Prism(disc(0.05, corners), 1 * mm), "laser-cut part")
     classes = _classes(Tree((RigidBody("turning", (_at(shaft), _at(cam, 20 * mm))),)))
-    assert classes == {"cam": [("H9", FitDuty.FIXED)], "shaft": [("h9", FitDuty.FIXED)]}
+    assert classes == {"cam": [("H12", FitDuty.FIXED)], "shaft": [("h11", FitDuty.FIXED)]}
 
 
 def test_bores_of_a_link_err_no_more_than_their_joints_have_play() -> None:

@@ -60,7 +60,8 @@ def test_tubes_of_the_parts_list_are_those_of_the_cylinders() -> None:
     parts = {part.name: part.description for part in warp_tension.MACHINE.parts(made)}
     for name, one in zip(("cylinder", "spacer cylinder"), cylinders(made)[::2], strict=True):
         outer, wall = (2 * one.outer, one.outer - one.inner) if one.tube is None else (one.tube.outer, one.tube.wall)
-        sizes = [float(size.removesuffix(" mm")) * mm for size in parts[name].removeprefix("tube ").split(" x ")]
+        section, _, _ = parts[name].removeprefix("tube ").partition(" mm")
+        sizes = [float(size) * mm for size in section.split(" x ")]
         assert sizes == pytest.approx([outer, wall], rel=1e-3)
 
 

@@ -6,9 +6,12 @@ import pytest
 
 from ilmek.elements.fillet_welds import STRENGTH
 from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
-from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.spigot import weld_force
+from ilmek.machines.warp_tension.tree import tree
 from ilmek.part.features import features_of_size
+from ilmek.part.placement import placement
+from ilmek.part.welds import welds_of
 
 
 def test_spigot_and_bore_are_one_size_and_leave_half_of_the_wall() -> None:
@@ -45,3 +48,18 @@ def test_the_check_is_of_the_most_loaded_weld() -> None:
     ]
     assert named.ok
     assert named.value == max(one.weld / one.throat for one in cylinders(design))
+
+
+def test_each_tube_is_welded_round_both_ends_to_the_flanges_of_its_shaft_ends() -> None:
+    design = MACHINE.design(WarpTensionParams())
+    where = {name: placement(y=k * 1.0) for k, name in enumerate((UPPER, LOWER, SPACER))}
+    welds = welds_of(tree(design, where))
+    assert set(welds) == {"warp-tension/cylinder", "warp-tension/spacer"}
+    ends = {f"warp-tension/spacer-{end}" for end in ("end", "driven-end")}
+    assert {weld.other for weld in welds["warp-tension/spacer"]} == ends
+    for name, own in welds.items():
+        cylinder = cylinders(design)[2 if name.endswith(SPACER) else 0]
+        assert {round(float(weld.middle[2]), 9) for weld in own} == {0.0, cylinder.length}
+        for weld in own:
+            assert weld.lengths == (pytest.approx(2 * math.pi * cylinder.shell.outer_radius, rel=1e-3),)
+            assert weld.throat >= cylinder.throat

@@ -12,11 +12,13 @@ from ilmek.elements.materials import find_material
 from ilmek.jobs.workshop import write_workshop
 from ilmek.part.part import Part
 from ilmek.part.part_lists import cut_list
-from ilmek.part.placement import placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.plates import pieces_of, plates_of
-from ilmek.part.shapes import square_tube
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, square_tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.part.welds import welds_of
+from ilmek.plane.contours import polygon
 from ilmek.report import Report
 from ilmek.report.scene import SceneMotion
 from ilmek.units import mm
@@ -68,8 +70,84 @@ def test_the_sheet_of_an_arm_has_the_symbol_and_the_cut_of_the_list(tmp_path: Pa
     assert legs[0] == pytest.approx(legs[1])
     assert legs[2] ** 2 == pytest.approx(2 * legs[0] ** 2)
     words = [text.dxf.text for text in sheet.modelspace().query("TEXT")]
-    assert any(text.startswith("a3") and text.endswith("post") for text in words)
+    assert any(text.startswith("a3") and text.endswith("post") and "200" in text for text in words)
+    row = words[words.index("all round") :][:6]
+    assert row == ["all round", "200", "0…50", "0…50", "0", "1/1"]
     rows = {row[-1]: row for row in cut_list(tree).rows}
     section, _, _, named = rows["probe/arm"][:4]
     assert section in words
     assert named == f"1 x {words[words.index(section) + 1]} mm"
+
+
+def beside(corners: tuple[complex, ...]) -> Tree:
+    """A post along z, and a plate of those corners [mm], which lies flat on its side x = 25 mm: its x upwards."""
+    post = tube("post", 5 * mm, 0.6)
+    plate = Part(
+        "probe/plate", "plate", "laser-cut part", "", Prism(Profile(polygon(np.array(corners) * mm)), 10 * mm), STEEL
+    )
+    turned = Placement(np.array([25 * mm, -40 * mm, 0.1]), np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]))
+    return Tree((RigidBody("body", (Occurrence(post), Occurrence(plate, (turned,)))),))
+
+
+PLATES = {
+    "rectangle": (0, -200, -200 + 80j, 80j),
+    "trapezium": (0, -200, -120 + 80j, 80j),
+    "short": (0, -50, -50 + 80j, 80j),
+}
+
+
+@pytest.mark.parametrize("name", PLATES)
+def test_seams_lie_on_the_edges_of_the_common_face_that_the_kernel_finds(name: str) -> None:
+    """A plate on a post is welded where the post's edges lie on it, or where it ends on the post."""
+    tree = beside(PLATES[name])
+    ((owner, (weld,)),) = welds_of(tree).items()
+    assert owner == "probe/post"
+    found = [np.sort(edge, axis=0) for edge in common_edges(tree)]
+    for seam in weld.seams:
+        ends = np.sort(seam, axis=0)
+        assert any(np.allclose(ends, edge, atol=0.2 * mm) for edge in found), ends
+    assert len(weld.seams) == 2
+    longest = sorted(np.linalg.norm(np.ptp(edge, axis=0)) for edge in found)
+    parallel = [v for v in longest if v > 45 * mm]
+    assert sum(weld.lengths) <= sum(parallel) + 0.5 * mm
+
+
+def common_edges(tree: Tree) -> list[np.ndarray]:
+    """Straight edges of the face that both parts share [m], by the CAD kernel."""
+    pytest.importorskip("OCP")
+    from OCP.BRepAdaptor import BRepAdaptor_Curve  # noqa: PLC0415
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Section  # noqa: PLC0415
+    from OCP.BRepBuilderAPI import BRepBuilderAPI_Transform  # noqa: PLC0415
+    from OCP.gp import gp_Trsf  # noqa: PLC0415
+    from OCP.TopAbs import TopAbs_ShapeEnum  # noqa: PLC0415
+    from OCP.TopExp import TopExp_Explorer  # noqa: PLC0415
+    from OCP.TopoDS import TopoDS  # noqa: PLC0415
+
+    from ilmek.io.step import shape_solid  # noqa: PLC0415
+
+    solids = []
+    for occurrence in tree.bodies[0].occurrences:
+        move, (lies,) = gp_Trsf(), occurrence.positions
+        rows = np.column_stack([lies.rotation, lies.origin / mm]).ravel().tolist()
+        move.SetValues(*rows)
+        solids.append(BRepBuilderAPI_Transform(shape_solid(occurrence.part.shape), move, True).Shape())
+    explorer, found = TopExp_Explorer(BRepAlgoAPI_Section(*solids).Shape(), TopAbs_ShapeEnum.TopAbs_EDGE), []
+    while explorer.More():
+        curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
+        ends = [curve.Value(at) for at in (curve.FirstParameter(), curve.LastParameter())]
+        found.append(np.array([[end.X(), end.Y(), end.Z()] for end in ends]) * mm)
+        explorer.Next()
+    return found
+
+
+def test_two_pieces_of_a_part_may_have_unlike_welds() -> None:
+    """Each weld says how many of the pieces have it."""
+    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4)
+    along, back = (
+        placement(0.0, 25 * mm, 0.3, about=X, angle=-np.pi / 2),
+        placement(0.0, -25 * mm, 0.3, about=X, angle=np.pi / 2),
+    )
+    tree = Tree((RigidBody("body", (Occurrence(post), Occurrence(arm, (along, back)))),))
+    ((_, (weld,)),) = welds_of(tree).items()
+    assert weld.pieces == 2
+    assert weld.lengths == pytest.approx((0.2,))

@@ -6,6 +6,7 @@ A process takes a time for each piece (to load, to clamp, to deburr), for each o
 per length L, area A and volume V of what it cuts, removes or joins; its set-up is shared by all pieces of a part.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 ASSUMED = "assumed by this project"
@@ -24,6 +25,14 @@ class Rate(NamedTuple):
 LASER, BENDING, SAWING, TURNING, MILLING = "laser cutting", "bending", "sawing", "turning", "milling"
 GRINDING, WELDING, HARDENING, COATING = "grinding", "welding", "hardening", "coating"
 DRILLING = "drilling"
+
+FINEST: Mapping[str, int] = {LASER: 12, SAWING: 14, BENDING: 14, WELDING: 16, TURNING: 6, MILLING: 7, GRINDING: 5}
+"""Finest tolerance grade IT that a process holds with care, bores on a milling machine reamed or fine-bored; usual
+tables of attainable grades: turning 6 to 13, reaming 6 to 9, milling 7 to 13, grinding 4 to 8. Lasers cut thin sheet to
+± 0.1 mm by their makers."""
+
+DRAWN = 11
+"""Grade of a bright bar as it is delivered: EN 10278, squares h11, rounds h9 to h11."""
 
 RATES = (
     Rate("structural steel", "per kg", 1.3, (0.8, 2.0)),

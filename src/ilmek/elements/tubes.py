@@ -86,6 +86,20 @@ TUBES: dict[str, Tube] = {
 }
 """Stock sizes by name."""
 
+CUT = 0.25 * mm
+"""Least depth to which the end of a tube is bored for a spigot [m]; assumed by this project: EN 10305-1 allows the bore
+of a tube some tenths of a millimetre, which such a cut evens out."""
+
+
+def turned_bore(inner: float) -> float:
+    """Radius to which the end of a tube of an inner radius [m] is bored: its diameter in whole millimetres.
+
+    >>> turned_bore(0.065)
+    0.0655
+    """
+    return math.ceil(2 * (inner + CUT) / mm - 1e-9) * mm / 2
+
+
 _WRITTEN = re.compile(
     r"\s*+([0-9]+(?:\.[0-9]+)?)\s*+(?:mm\s*+)?[x×*]\s*+([0-9]+(?:\.[0-9]+)?)\s*+(?:mm\s*+)?$", re.IGNORECASE
 )

@@ -127,7 +127,7 @@ class BearingSeat:
             return Occurrence(own, tuple(seat.after(flipped) for seat in at)), screws
         shape = Prism(Profile(rectangle(self.side, self.side), (circle(0j, row.outer / 2), *holes)), row.width)
         size = f"square {format_quantity(self.side, 'mm')}, {format_quantity(row.width, 'mm')} thick"
-        housing = Part(ids[1], f"housing of the {title}", "laser-cut part", size, shape, STEEL)
+        housing = Part(ids[1], f"housing of the {title}", "laser-cut part", size, shape, STEEL, machined=True)
         return Occurrence(own, at), Occurrence(housing, at), screws
 
 

@@ -14,10 +14,11 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.elements.stock_sizes import PLATES, ROUNDS, SQUARES, offered
+from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of, members_of, perimeter
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism, Shape, Sum, Turned, shape_box
-from ilmek.plane.contours import bounds, length
+from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.units import format_number, mm
 
@@ -207,12 +208,13 @@ def is_round(shape: Shape) -> bool:
 
 
 def flat_of(plate: Prism) -> tuple[float, float, float, float]:
-    """Thickness, both sides of the blank, and length of the cut of a plate, flat or folded [m]."""
+    """Thickness, both sides of the blank, and length of the cut of a plate, flat or bent; of a board its least side."""
+    sheet = folded_sheet(plate)
+    if sheet is not None:
+        return sheet.thickness, sheet.width, sheet.length, 2 * (sheet.width + sheet.length)
     low, high = bounds(plate.section.outline)
     across = high - low
     if plate.length <= min(across.real, across.imag):
         return plate.length, across.real, across.imag, perimeter(plate)
-    half = length(plate.section.outline) / 2
-    root = math.sqrt(max(half**2 / 4 - plate.section.area, 0.0))
-    thick, wide = half / 2 - root, max(half / 2 + root, across.real, across.imag)
-    return thick, wide, plate.length, 2 * (wide + plate.length)
+    thick, wide, long = sorted((across.real, across.imag, plate.length))
+    return thick, wide, long, 2 * (wide + long)

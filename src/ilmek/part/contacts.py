@@ -117,24 +117,32 @@ def _apart(own: _Piece, its: _Piece, gap: float) -> float:
 
 @record
 class Touch:
-    """A contact of two parts that move together: ids, and its middle in the axes of each [m]."""
+    """A contact of two parts that move together: ids, position of the other in the axes of the part, and the corners
+    of the box about the contact there [m].
+    """
 
     part: str
     other: str
-    middle: Float[np.ndarray, " 3"]
-    other_middle: Float[np.ndarray, " 3"]
+    position: Placement
+    box: Float[np.ndarray, "2 3"]
 
 
-def touches(tree: Tree, names: frozenset[str]) -> Iterator[Touch]:
-    """The contacts among the pieces of some parts that move together; the middle is that of what their boxes share."""
+def touches(tree: Tree, names: frozenset[str]) -> Iterator[tuple[Touch, Touch]]:
+    """The contacts among the pieces of some parts that move together: of each a pair, as each part has it."""
     pieces = tuple(piece for piece in _pieces(tree) if piece.part in names)
     boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
     for one, two in _near(boxes, TOUCHING).tolist() if pieces else ():
         own, its = pieces[one], pieces[two]
         if own.rigid == its.rigid and _apart(own, its, TOUCHING) <= TOUCHING:
-            shared = np.maximum(boxes[one, 0], boxes[two, 0]) + np.minimum(boxes[one, 1], boxes[two, 1])
-            middles = [piece.position.inverse.points(shared / 2) for piece in (own, its)]
-            yield Touch(own.part, its.part, *middles)
+            yield _touch(own, its), _touch(its, own)
+
+
+def _touch(own: _Piece, its: _Piece) -> Touch:
+    """The contact of two pieces as the first one has it: what their boxes share in its axes."""
+    lies = own.position.inverse.after(its.position)
+    corners, others = own.collider.corners, lies.points(its.collider.corners)
+    ends = np.maximum(corners.min(0), others.min(0)), np.minimum(corners.max(0), others.max(0))
+    return Touch(own.part, its.part, lies, np.sort(ends, axis=0))
 
 
 @record

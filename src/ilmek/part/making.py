@@ -1,7 +1,6 @@
 """How a made part is made: the steps by which it is priced, with their quantities, from its own shape and its blank.
 
-sheet   a plate, or a folded strip of the developed width s and thickness t, the roots of  x² - P/2 x + A = 0  with
-perimeter P and area A of its section; several plates are welded along the edges of what touches
+sheet   a plate, or the flat pattern of a bent one; several plates are welded along the edges of what touches
 milled  what is removed, and all surfaces but the two of the stock, 2 V / t
 turned  what is removed, and all surfaces, of a plain bar its ends
 stock   a bar or tube cut to length, with what is cut from it
@@ -28,13 +27,14 @@ from ilmek.elements.making import (
     WELDING,
 )
 from ilmek.elements.materials import Material
-from ilmek.part.blanks import BAR, PLATE, Blank, flat_of, milled_of, sheet_of, stock_of, turned_of
+from ilmek.part.blanks import BAR, PLATE, Blank, flat_of, is_round, milled_of, sheet_of, stock_of, turned_of
 from ilmek.part.features import drillings
+from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of, members_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, shape_box
-from ilmek.plane.contours import length
+from ilmek.plane.contours import as_hole, as_keyed, length
 from ilmek.report import ProcessStep
 from ilmek.units import mm
 
@@ -64,9 +64,9 @@ def _sheet(shape: Shape, material: Material) -> Steps:
         yield ProcessStep(LASER, length=cut, area=cut * stock, features=piercings)
         if stock > thick * (1 + _LEAST_CUT):
             yield ProcessStep(MILLING, area=2 * wide * deep, volume=(stock - thick) * wide * deep)
-        folds = (len(plate.section.outline.points) - 4) // 2
-        if thick != plate.length and folds > 0:
-            yield ProcessStep(BENDING, features=folds)
+        sheet = folded_sheet(plate)
+        if sheet is not None:
+            yield ProcessStep(BENDING, features=len(sheet.bends))
     if len(plates) > 1:
         yield ProcessStep(WELDING, length=seam_length(shape))
 
@@ -117,15 +117,17 @@ def _turned(shape: Shape, material: Material) -> Steps:
     milled = sum(not form_of(member).round for member, _ in members_of(shape))
     if milled:
         yield ProcessStep(MILLING, features=milled)
+    else:
+        yield from _grooves(shape)
 
 
 def _cam(shape: Shape, material: Material) -> Steps:
     """Cut of sheet, its bores milled, its outline ground."""
     yield from _sheet(shape, material)
-    if isinstance(shape, Prism):
-        bores = sum(length(hole) for hole in shape.section.holes) * shape.length
-        yield ProcessStep(MILLING, area=bores, features=len(shape.section.holes))
-        yield ProcessStep(GRINDING, area=length(shape.section.outline) * shape.length)
+    prisms = [prism for prism, _ in members_of(shape) if isinstance(prism, Prism)]
+    bores = [(length(hole), prism.length) for prism in prisms for hole in prism.section.holes]
+    yield ProcessStep(MILLING, area=sum(around * deep for around, deep in bores), features=len(bores))
+    yield ProcessStep(GRINDING, area=sum(length(prism.section.outline) * prism.length for prism in prisms))
 
 
 def _stock(shape: Shape, material: Material) -> Steps:
@@ -146,6 +148,7 @@ def _cut_off(blank: Blank, shape: Shape, material: Material) -> Steps:
     if removed > _LEAST_CUT * blank.volume:
         finished = form.surface if isinstance(shape, Turned) else 0.0
         yield ProcessStep(MILLING if isinstance(shape, Prism) else TURNING, area=finished, volume=removed)
+    yield from _grooves(shape)
 
 
 _LEAST_CUT = 1e-3
@@ -179,12 +182,35 @@ def steps_of(part: Part) -> tuple[ProcessStep, ...]:
     """The steps in the making of a part; none for one that is bought, or made as no route has it."""
     if part.material is None or part.shape is None or part.process not in ROUTES:
         return ()
-    return _steps(part.shape, part.material, part.process)
+    return _steps(part.shape, part.material, part.process, part.machined)
 
 
 @lru_cache(maxsize=4096)
-def _steps(shape: Shape, material: Material, process: str) -> tuple[ProcessStep, ...]:
+def _steps(shape: Shape, material: Material, process: str, machined: bool) -> tuple[ProcessStep, ...]:
     treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if material.treatment else ()
+    seats = _seats(shape) if machined else ()
     holes = len(drillings(shape))
     drilled = (ProcessStep(DRILLING, features=holes),) if holes else ()
-    return (*ROUTES[process](shape, material), *drilled, *treated)
+    return (*ROUTES[process](shape, material), *seats, *drilled, *treated)
+
+
+def _seats(shape: Shape) -> Steps:
+    """What is round of it is turned, bores of other members are bored; where it has neither, its greatest face."""
+    members = [member for member, _ in members_of(shape)]
+    turned = sum(form_of(member).surface for member in members if is_round(member))
+    plates = [own for own in members if isinstance(own, Prism) and not is_round(own)]
+    bores = [(length(hole), own.length) for own in plates for hole in own.section.holes if as_hole(hole)]
+    if turned:
+        yield ProcessStep(TURNING, area=turned)
+    if bores or not turned:
+        _, wide, long = sorted(form_of(shape).size)
+        area = sum(around * deep for around, deep in bores) or wide * long
+        yield ProcessStep(MILLING, area=area, features=len(bores))
+
+
+def _grooves(shape: Shape) -> Steps:
+    """The keyways of shafts and hubs, which are milled or slotted."""
+    sections = [prism.section for prism, _ in members_of(shape) if isinstance(prism, Prism)]
+    keyed = sum(as_keyed(contour) is not None for section in sections for contour in section.contours)
+    if keyed:
+        yield ProcessStep(MILLING, features=keyed)

@@ -97,6 +97,7 @@ class Part:
     paths     closed curves of a flat part that guide a tool, not cut through      marks  lines to scribe, by name
     notes     what else the workshop must know: fits, a keyway's standard
     cam       how a disc cam is cut; None: it is none
+    machined  its seats are machined after it is cut, sawn or welded: bores, threads, faces of guides, journals
     throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
 
@@ -119,6 +120,7 @@ class Part:
     drawing: Plate | None = None
     cam: CamMaking | None = None
     throat: float = 0.0
+    machined: bool = False
     joins: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:

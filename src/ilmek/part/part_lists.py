@@ -90,7 +90,7 @@ def cut_list(tree: Tree) -> Table:
     for (section, material), cuts in sorted(stock.items()):
         pieces = [length for length, number, _ in cuts for _ in range(number)]
         bar = next((offered for offered in BARS if max(pieces) <= offered), max(pieces))
-        named = "; ".join(f"{number} x {_mm(length)} mm" for length, number, _ in cuts)
+        named = "; ".join(f"{number} x {cut_length(length)} mm" for length, number, _ in cuts)
         least = math.ceil(math.fsum(piece + SAW for piece in pieces) / (bar + SAW) - 1e-9)
         ids = " ".join(name for _, _, name in cuts)
         rows.append(
@@ -135,6 +135,15 @@ def _fastener(part: Part, number: int, joined: Sequence[str]) -> tuple[str | int
     tightened = (math.nan, math.nan) if screw is None else (screw.torque, screw.tightened)
     first, *others = (*joined, "")
     return part.purchase.row, part.id, number, first, " ".join(filter(None, others)), *tightened
+
+
+def cut_length(length: float) -> str:
+    """A length that is sawn, in mm to a tenth.
+
+    >>> cut_length(1.8191834), cut_length(0.04)
+    ('1819.2', '40')
+    """
+    return f"{length / mm:.1f}".removesuffix(".0")
 
 
 def _mm(length: float) -> str:

@@ -5,6 +5,7 @@ from functools import lru_cache
 from typing import TypeVar
 
 from ilmek.part.blanks import size_of
+from ilmek.part.folding import folded_sheet
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
 from ilmek.part.tolerancing import tolerances_of
@@ -93,9 +94,11 @@ def _cutter(part: Part) -> tuple[str, ...]:
 
 def _plate(part: Part, number: int, whole: Tree) -> Plate:
     assert part.material is not None
-    if part.drawing is not None:
+    bent = folded_sheet(part.shape)
+    flat = part.drawing if bent is None else replace(bent.plate, solid=_piece(part, number, whole), notes=part.notes)
+    if flat is not None:
         return replace(
-            part.drawing,
+            flat,
             name=plate_name(part),
             title=part.title.capitalize(),
             number=number,

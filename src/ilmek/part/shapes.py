@@ -341,6 +341,22 @@ def tube(diameter: float, wall: float, length: float) -> Turned:
     return Turned(Profile(polygon(np.array([1j * inner, length + 1j * inner, length + 1j * outer, 1j * outer]))))
 
 
+def bored_ends(shell: Turned, bore: float, deep: float) -> Turned:
+    """A tube about z from z = 0, its profile from its inner edge on, bored at both ends to a radius, so deep [m].
+
+    >>> plain = tube(0.1, 0.01, 1.0)
+    >>> cut = math.pi * (0.042**2 - 0.04**2) * 2 * 0.05
+    >>> round((plain.volume - bored_ends(plain, 0.042, 0.05).volume) / cut, 9)
+    1.0
+    """
+    (first, last), others = shell.profile.outline.points[:2], shell.profile.outline.points[2:]
+    if first.imag <= 0:
+        return shell
+    rise = 1j * (bore - first.imag)
+    inner = np.array([first + rise, first + rise + deep, first + deep, last - deep, last + rise - deep, last + rise])
+    return Turned(Profile(polygon(np.concatenate([inner, others]))))
+
+
 def stepped(*steps: tuple[float, float]) -> Turned:
     """A turned shaft of steps from z = 0: diameter and length of each [m].
 

@@ -7,7 +7,7 @@ from ilmek.part.part import Part
 from ilmek.records import record
 from ilmek.units import mm, um
 
-_AS_DELIVERED = frozenset({"welded frame", "steel tube", "steel bar", "carbon tube", "laser-cut part"})
+AS_DELIVERED = frozenset({"welded frame", "steel tube", "steel bar", "carbon tube", "laser-cut part"})
 """Processes that leave the surface of stock, or of a laser's cut."""
 
 _MACHINED = 3.2 * um
@@ -55,7 +55,7 @@ def specification(part: Part) -> PartSpecification:
         hardening,
         _depth(part) if hardening is not None and hardening.kind else 0.0,
         "ISO 13920-BF" if part.process == "welded frame" else "ISO 2768-mK",
-        None if part.process in _AS_DELIVERED else _MACHINED,
+        None if part.process in AS_DELIVERED else _MACHINED,
     )
 
 

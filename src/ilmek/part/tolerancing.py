@@ -6,7 +6,7 @@ which follows from the joint between them [`meetings`]; both parts read it from 
     runs or slides                     H7/g6; on a journal that is also fixed in a part: G7/h6
     fixed                              H7/m6; on a journal on which a part also runs: P7/h6; a bush in its hub H7/s6
     with a keyway                      H7/h6; the keyway N9 in the shaft, JS9 in the hub
-    square                             H9/h9
+    square                             H9/h11, as laser-cut H12: the bar is bright drawn
     seat of a rolling bearing          shaft k6, up to 18 mm js6; where its outer ring turns, of an insert bearing with
                                        grub screws and of a freewheel h6; housing H7, of a freewheel N7
     end of a screw                     thread 6H
@@ -29,11 +29,14 @@ from ilmek.elements.bearing_table import INSERT
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
 from ilmek.elements.keyways import Keyway
+from ilmek.elements.making import DRAWN, FINEST, LASER
 from ilmek.errors import ParameterError
+from ilmek.part.blanks import SHEET
 from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
+from ilmek.part.specification import AS_DELIVERED
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
 from ilmek.part.tree import JointKind, Tree
 from ilmek.records import record
@@ -88,7 +91,8 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
             tolerance = journals[key] if key in journals else _bore(one, journals)
             features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
     for seat in (*guide_seats(tree), *slide_seats(tree)):
-        features[seat.part.id].append(_face(seat))
+        if not seat.slides or seat.part.machined or seat.part.process not in AS_DELIVERED:
+            features[seat.part.id].append(_face(seat))
     return {part: tuple(_related(_named(own))) for part, own in features.items()}
 
 
@@ -115,6 +119,8 @@ def _met(tree: Tree) -> Iterator[tuple[_Key, _Met]]:
 
 def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | None:
     """What a feature does in a meeting; None: nothing that a fit is needed for, as a hole around a screw."""
+    if own.feature.square and "welded frame" in (own.part.process, other.part.process):
+        return None  # a hollow section as delivered, welded in
     if other.part.process == "fastener":
         return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
     if other.part.process == "bearing":
@@ -131,7 +137,7 @@ _SMALL = 18 * mm
 def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     """Tolerance class of a journal or a square."""
     if one.seat.feature.square:
-        return "h9"
+        return f"h{DRAWN}"
     if one.duty is FitDuty.BEARING:
         return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
     if one.duty is FitDuty.RUNNING:
@@ -159,7 +165,8 @@ def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
     if one.duty is FitDuty.SCREWED:
         return "6H"
     if one.seat.feature.square:
-        return "H9"
+        cut = one.seat.part.process in SHEET and not one.seat.part.machined
+        return f"H{FINEST[LASER]}" if cut else "H9"
     if one.duty is FitDuty.HOUSING:
         return "N7" if any(_is_freewheel(other.part) for _, other, _ in one.others) else "H7"
     classes = {

@@ -24,13 +24,13 @@ from ilmek.machines.weaver.drive_parts import drive_front
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import carriage_guide, drive_of
 from ilmek.part import catalogue
+from ilmek.part.folding import folded_section
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Corner, Prism, box
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.plane.contours import polygon
-from ilmek.units import mm
+from ilmek.units import in_mm, mm
 
 TROUGH, CHAIN = part_id("chain-trough"), part_id("energy-chain")
 """Ids of parts."""
@@ -39,7 +39,8 @@ CONDUITS, CONDUIT_SIZE, CONDUIT_MASS = "conduits", 5 * mm, 0.02
 """Name, outer diameter of a conduit of PTFE [m], mass per length [kg/m]."""
 
 WALL, PLAY = 2 * mm, 1 * mm
-"""Of the trough, and between it and a chain on all sides [m]; assumed by this project."""
+"""Of the trough, also the inner radius of its bends; between it and a chain on all sides [m]; assumed by this project.
+"""
 
 FLANGE = 20 * mm
 """Width of the trough's flange, with which it is screwed to the rail [m]; assumed by this project."""
@@ -109,20 +110,9 @@ def trough_part(loom: LoomDesign, side: float) -> Part:
     """
     low, high = trough_corners(loom, side)
     (long, tall, wide), rear = map(float, high - low), chain_under(loom, side).outer[1]
-    corners = (
-        (0, 0),
-        (wide, 0),
-        (wide, rear),
-        (wide - WALL, rear),
-        (wide - WALL, WALL),
-        (WALL, WALL),
-        (WALL, tall - WALL),
-        (FLANGE, tall - WALL),
-        (FLANGE, tall),
-        (0, tall),
-    )
-    section = Prism(Profile(polygon(np.array([complex(*corner) for corner in corners]))), long)
-    return Part(TROUGH, "trough of the energy chains", "laser-cut part", "folded sheet", section, STEEL)
+    outside = np.array([complex(FLANGE, tall), 1j * tall, 0j, complex(wide), complex(wide, rear)])
+    section = Prism(Profile(folded_section(outside, WALL, WALL)), long)
+    return Part(TROUGH, "trough of the energy chains", "laser-cut part", f"{in_mm(WALL)} sheet, bent", section, STEEL)
 
 
 def chain_room(loom: LoomDesign, side: float) -> float:

@@ -149,7 +149,7 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
     """A bracket on both sides, and its spacers to the columns."""
     size = f"plate {format_quantity(one.outer - one.inner, 'mm')}, {format_quantity(one.depth, 'mm')} high"
-    part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL)
+    part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL, machined=True)
     yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
     gap = made.face - one.outer
     section = welded_to(frame, one.depth)

@@ -53,7 +53,7 @@ class BeatBeam:
         """The beam, along z from z = 0."""
         size = f"{self.section.name}, {format_quantity(self.length, 'mm', 4)}"
         shape = square_tube(self.section.side, self.section.wall, self.length)
-        return Part(BEAM, "beam of the beat-up", "welded frame", size, shape, STEEL)
+        return Part(BEAM, "beam of the beat-up", "welded frame", size, shape, STEEL, machined=True)
 
     @property
     def checks(self) -> tuple[Check, ...]:

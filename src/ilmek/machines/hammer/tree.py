@@ -99,7 +99,7 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
-        Occurrence(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), middle),
+        Occurrence(replace(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), machined=True), middle),
         Occurrence(leaves, _leaves(number, params.cloth.warp_pitch, params.leaf)),
     )
     return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))

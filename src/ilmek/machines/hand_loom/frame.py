@@ -154,7 +154,7 @@ def _bracket(loom: HandLoom, own: CylinderBracket) -> Iterator[Occurrence]:
     layout, name = loom.layout, own.cylinder.name
     title = f"bracket of the {name} cylinder"
     size = f"plate {format_quantity(own.outer - own.inner, 'mm')}"
-    plate = Part(part_id(f"{name}-bracket"), title, "laser-cut part", size, own.plate, STEEL)
+    plate = Part(part_id(f"{name}-bracket"), title, "laser-cut part", size, own.plate, STEEL, machined=True)
     yield Occurrence(plate, tuple(placement(x).after(IN_SIDE_VIEW) for x in (-own.inner, own.outer)))
     gap = layout.face - own.outer
     if gap > _LEAST:

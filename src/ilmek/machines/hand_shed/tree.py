@@ -7,6 +7,7 @@ slack. From the cloth outwards follow arm, lever, gap and side plate; the side p
 import cmath
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -14,11 +15,12 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.elements.tubes import turned_bore
 from ilmek.machines.hand_shed.design import BESIDE, GAP, LOCK_ARM, LOCK_PIN, PLATE, SHAFT, SIDE_PLATE, HandShed
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, bar, square_tube, stepped, tube
+from ilmek.part.shapes import Prism, Shape, bar, bored_ends, square_tube, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
@@ -164,10 +166,9 @@ def _rod(shed: HandShed) -> RigidBody:
     """The shed rod with its ends in the guides."""
     inner = half_width(shed)
     half, radius, deep = inner - GAP, shed.rod.outer_radius, INSIDE
-    shell = _part(
-        "rod", "shed rod", "steel tube", f"tube {shed.rod.name} mm", tube(shed.rod.outer, shed.rod.wall, 2 * half)
-    )
-    plug = 2 * shed.rod.inner_radius
+    plug = 2 * turned_bore(shed.rod.inner_radius)
+    shape = bored_ends(tube(shed.rod.outer, shed.rod.wall, 2 * half), plug / 2, deep)
+    shell = replace(_part("rod", "shed rod", "steel tube", f"tube {shed.rod.name} mm", shape), machined=True)
     steps = (
         ((plug, deep), (ROD_END, GAP + SIDE_PLATE + 5 * mm))
         if plug > ROD_END
@@ -213,9 +214,12 @@ def _across(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:
         ("heddle-shaft", "shaft of the heddle bar", SHAFT, 0j),
     ):
         shell = tube(own.outer, own.wall, 2 * cloth)
-        part = _part(name, title, "steel tube", f"tube {own.name} mm", shell)
+        turns = own is SHAFT
+        shell = bored_ends(shell, turned_bore(own.inner_radius), INSIDE) if turns else shell
+        part = replace(_part(name, title, "steel tube", f"tube {own.name} mm", shell), machined=turns)
         yield Occurrence(part, (placement(-cloth, at.imag, at.real).after(ALONG_WIDTH),))
-    journal = bar(PIVOT, INSIDE + half_width(shed) - cloth + SIDE_PLATE)
+    spigot = 2 * turned_bore(SHAFT.inner_radius), INSIDE
+    journal = stepped(spigot, (PIVOT, half_width(shed) - cloth + SIDE_PLATE))
     end = _part("shaft-end", "end of the heddle bar's shaft", "turned part", round_size(PIVOT), journal, _SHAFT)
     yield Occurrence(end, _both_ends(cloth - INSIDE))
     yield _strings(shed, down)
@@ -328,4 +332,5 @@ def _plates_at(inner: float, outer: float) -> tuple[Placement, Placement]:
 def _part(  # noqa: PLR0917
     name: str, title: str, process: str, size: str, shape: Shape, material: Material = STEEL
 ) -> Part:
-    return Part(part_id(name), title, process, size, shape, material)
+    bored = process == "laser-cut part"
+    return Part(part_id(name), title, process, size, shape, material, machined=bored)

@@ -35,6 +35,8 @@ BRONZE = MATERIALS["tin bronze"]
 BEHIND = 5 * mm
 """The rods' beam before the axis of the rear rod [m]: it leaves room for that of the back rest; assumed."""
 
+CUT = "laser-cut part"
+
 
 @record
 class BarSupports:
@@ -173,16 +175,16 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         lever=_made("lever", "lever of the compensator", flat, _lever(supports), _flat(members.lever, thick)),
         bush=_made("bush", "bush of a lever", turned, _bush(pin), round_size(pin + 2 * BUSH_WALL), BRONZE),
         pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), round_size(pin)),
-        saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), plate),
+        saddle=_made("saddle", "saddle of a bar", CUT, _saddle(supports), plate),
         roller=catalogue.bearing(part_id("roller"), "roller of bars and rods", roller),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, round_size(roller.bore)),
         spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), round_size(pin)),
         spring=_spring(supports),
         eye=_made("eye", "eye of a spring", flat, _eye(supports), in_mm(_eye_wide(sprung))),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
-        pivot_lug=_made("pivot-lug", "lug of a pivot", "laser-cut part", _lug(supports, supports.clear), plate),
-        anchor_lug=_made("anchor-lug", "lug of the springs", "laser-cut part", _lug(supports, supports.apart), plate),
-        cross_piece=_made("cross-piece", "cross-piece of the rods", "laser-cut part", _cross(supports), plate),
+        pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(supports, supports.clear), plate),
+        anchor_lug=_made("anchor-lug", "lug of the springs", CUT, _lug(supports, supports.apart), plate),
+        cross_piece=_made("cross-piece", "cross-piece of the rods", CUT, _cross(supports), plate),
     )
 
 
@@ -273,7 +275,8 @@ def _rollers(
 def _made(  # noqa: PLR0917
     name: str, title: str, process: str, shape: Shape, size: str, material: Material = STEEL
 ) -> Part:
-    return Part(part_id(name), title, process, size, shape, material)
+    """A part; plates are bored for pins after they are cut."""
+    return Part(part_id(name), title, process, size, shape, material, machined=process == CUT)
 
 
 def _flat(height: float, thick: float) -> str:

@@ -119,7 +119,7 @@ def driven_shaft(params: TuftingParams, sizes: NeedleSizes) -> Occurrence:
 def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A shaft about z from z = 0 [m]."""
     size = f"{round_size(diameter)}, {in_mm(length)}"
-    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL)
+    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL, machined=True)
 
 
 def needle_diameter(params: TuftingParams) -> float:
@@ -153,7 +153,8 @@ def eccentric(name: str, crank: float, shaft: float, thickness: float, material:
     shape = Prism(Profile(circle(complex(crank), radius), (circle(0j, shaft / 2),)), thickness)
     seats = {"O": Seat(placement(), shaft), "A": Seat(placement(crank), 2 * radius)}
     notes = (Sentence("sheet.bonded"),)
-    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats, notes=notes)
+    title, process = "eccentric of the crank", "machined link"
+    return Part(name, title, process, size, shape, material, seats=seats, notes=notes, machined=True)
 
 
 def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:

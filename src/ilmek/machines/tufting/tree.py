@@ -155,6 +155,7 @@ def bearing_plate(design: Tufting, feet: tuple[complex, ...] = ()) -> Part:
         f"plate {format_quantity(thick, 'mm')}",
         Prism(Profile(outline, tuple(holes)), thick),
         MATERIALS["structural steel"],
+        machined=True,
         seats={"O": Seat(placement(), 2 * first), "C": Seat(placement(away), 2 * second)},
     )
 

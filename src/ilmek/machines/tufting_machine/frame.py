@@ -104,7 +104,7 @@ def _end_plate(laid: TuftingLayout) -> Part:
         *(circle(at, JOURNAL / 2) for at in roller_axes(laid).values()),
     )
     shape = Prism(Profile(polygon(outline), holes), END_PLATE)
-    return Part(f"{NAME}/end-plate", "end plate", "laser-cut part", in_mm(END_PLATE), shape, STEEL)
+    return Part(f"{NAME}/end-plate", "end plate", "laser-cut part", in_mm(END_PLATE), shape, STEEL, machined=True)
 
 
 def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
@@ -117,7 +117,7 @@ def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
     shape = Prism(Profile(rounded_hull(np.array([*shafts, *ends]), radius), holes), row.width)
     seats = {name: Seat(placement(at.real, at.imag), row.outer) for name, at in zip("QP", shafts, strict=True)}
     name, title = f"{NAME}/looper-plate", "bearing plate of the loopers"
-    plate = Part(name, title, "laser-cut part", in_mm(row.width), shape, STEEL, seats=seats)
+    plate = Part(name, title, "laser-cut part", in_mm(row.width), shape, STEEL, seats=seats, machined=True)
     parts = laid.machine.looper_forces.parts
     low, high = (height - parts.level for height in parts.linkage.levels.across(list(BODIES)))
     drives = range(laid.machine.params.drives)

@@ -108,7 +108,7 @@ def looper_parts(params: TuftingMachineParams, drive: LooperDrive, mechanism: Me
         linkage_parts(NAME, mechanism, levels, formed, ("Q", "A", "P"), of="looper"),
         placement(about=(0.0, 0.0, 1.0), angle=-middle),
         sum(levels.across(list(BODIES))) / 2,
-        Part(LOOPER_SHAFT, "looper shaft", "steel bar", text, bar(shaft, long), STEEL),
+        Part(LOOPER_SHAFT, "looper shaft", "steel bar", text, bar(shaft, long), STEEL, machined=True),
         _arm(shaft, complex(_bar_beside(drive), looper.arm - looper.stem - side), side),
         Part(LOOPER_BAR, "looper bar", "steel bar", f"square {in_mm(side)}, {in_mm(long)}", square, STEEL),
         _hook(params, drive.sense),
@@ -121,7 +121,8 @@ def _arm(shaft: float, under: complex, side: float) -> Part:
     ends = under - 1j * radius + np.array([-side / 2, side / 2])
     outline = rounded_hull(np.array([0, *ends]), radius)
     shape = Prism(Profile(outline, (circle(0j, shaft / 2),)), ARM_THICKNESS)
-    return Part(ARM, "arm of the loopers", "laser-cut part", in_mm(ARM_THICKNESS), shape, MATERIALS["structural steel"])
+    steel = MATERIALS["structural steel"]
+    return Part(ARM, "arm of the loopers", "laser-cut part", "", shape, steel, machined=True)
 
 
 def _hook(params: TuftingMachineParams, sense: int) -> Part:

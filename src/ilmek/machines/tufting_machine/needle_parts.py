@@ -60,7 +60,15 @@ def needle_parts(params: TuftingMachineParams) -> NeedleParts:
     section = f"{in_mm(given.thickness)} x {in_mm(given.height)}, {in_mm(length)}"
     shape = Placed(Prism(Profile(rectangle(given.thickness, given.height)), length), (placement(y=-given.height / 2),))
     return NeedleParts(
-        Part(ROD, "push rod", "steel bar", f"{round_size(given.rod)}, {in_mm(rod)}", _down(given.rod, rod), STEEL),
+        Part(
+            ROD,
+            "push rod",
+            "steel bar",
+            f"{round_size(given.rod)}, {in_mm(rod)}",
+            _down(given.rod, rod),
+            STEEL,
+            machined=True,
+        ),
         Part(NEEDLE_BAR, "needle bar", "machined link", section, Sum((shape,)), material),
         _needle(params),
         pieces,

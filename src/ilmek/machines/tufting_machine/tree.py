@@ -131,7 +131,7 @@ def _headed_rod(machine: TuftingMachine) -> Part:
     diameter, length = machine.params.needle_bar.rod, _rod_length(machine) - radius
     down = placement(y=-radius, z=thick / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
     shape = Sum((Placed(head), Placed(bar(diameter, length), (down,))))
-    return Part(plain.id, plain.title, plain.process, plain.size, shape, plain.material)
+    return replace(plain, shape=shape)
 
 
 def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
@@ -139,8 +139,9 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     machine, forces = laid.machine, laid.machine.looper_forces
     (first, last), diameter = laid.ends, machine.params.looper.shaft
     end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
-    text = f"{round_size(diameter)}, {in_mm(end - first)}"
-    shaft = Part(LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", text, bar(diameter, end - first), STEEL)
+    shaft = Part(
+        LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", "", bar(diameter, end - first), STEEL, machined=True
+    )
     pulley = _pulley("looper-pulley", diameter)
     parts = (
         Occurrence(shaft, (placement(z=first),)),

@@ -47,14 +47,13 @@ from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.slot import bored_tube
 from ilmek.machines.warp_tension.spigot import (
     bored,
-    bored_shell,
     flange_radius,
     spigot_length,
     weld_force,
     weld_throat,
 )
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Shape, Turned
+from ilmek.part.shapes import Shape, Turned, bored_ends
 from ilmek.part.shapes import tube as hollow
 from ilmek.plane.contours import polygon
 from ilmek.records import computed, record, result
@@ -137,7 +136,7 @@ class Cylinder:
         """The tube with its slots, bored at both ends for its spigots, about z from z = 0."""
         bore, deep = self.spigot
         if self.name == SPACER:
-            return bored_shell(self.shell, bore / 2, deep)
+            return bored_ends(self.shell, bore / 2, deep)
         return bored_tube(self, self.length, bore / 2, deep)
 
     @property

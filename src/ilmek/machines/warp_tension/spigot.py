@@ -8,42 +8,25 @@ its bending moment M; the fit only centres:
 
 import math
 
-import numpy as np
-
 from ilmek.elements.fillet_welds import throat_for
+from ilmek.elements.tubes import turned_bore
 from ilmek.machines.warp_tension.slot import Ring, depth
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Turned
-from ilmek.plane.contours import polygon
 from ilmek.units import mm
 
-LENGTH, CUT, FLANGE = 20 * mm, 0.25 * mm, 8 * mm
-"""Length of a spigot, least depth to which a tube is bored for it, thickness of the flange [m]; assumed by this
-project: EN 10305-1 allows the bore of a tube some tenths of a millimetre, which a cut of this depth evens out.
-"""
+LENGTH, FLANGE = 20 * mm, 8 * mm
+"""Length of a spigot, thickness of the flange [m]; assumed by this project."""
 
 _STEP = 1 * mm
 
 
 def bored(cylinder: Ring) -> float:
     """Radius of the bore at the ends of a tube [m]: its diameter in whole millimetres, half of the metal at most."""
-    whole = math.ceil(2 * (cylinder.inner + CUT) / _STEP - 1e-9) * _STEP / 2
-    return min(whole, cylinder.inner + (cylinder.outer - cylinder.inner - depth(cylinder)) / 2)
+    return min(turned_bore(cylinder.inner), cylinder.inner + (cylinder.outer - cylinder.inner - depth(cylinder)) / 2)
 
 
 def spigot_length(span: float) -> float:
     """Length of the bores and of the spigots in them, of a tube of a length [m]."""
     return min(LENGTH, span / 4)
-
-
-def bored_shell(shell: Turned, bore: float, deep: float) -> Turned:
-    """A tube about z from z = 0, its profile from its inner edge on, bored at both ends to a radius, so deep [m]."""
-    (first, last), others = shell.profile.outline.points[:2], shell.profile.outline.points[2:]
-    if first.imag <= 0:
-        return shell
-    rise = 1j * (bore - first.imag)
-    inner = np.array([first + rise, first + rise + deep, first + deep, last - deep, last + rise - deep, last + rise])
-    return Turned(Profile(polygon(np.concatenate([inner, others]))))
 
 
 def weld_force(radius: float, torque: float, moment: float) -> float:

@@ -10,6 +10,7 @@ to where the tools work (`opener`); beyond it teeth of the width of `wall` hold 
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -137,6 +138,7 @@ class ToolBodies:
         if jaw > 0:
             members.append(Placed(box(jaw, half, by.finger), (placement(by.arm - jaw / 2, -half / 2, -half),)))
         part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), round_size(by.finger))
+        part = replace(part, machined=True)
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:

@@ -164,7 +164,13 @@ class ShuttleGuide:
         tall = -self.pulley[1] + self.axis.pulley_radius + self._thick + PLAY
         section = f"{format_quantity(tall / mm, '', 3)} x {format_quantity(BAR, 'mm')}"
         plate = Part(
-            part_id("bar"), "bar of the shuttle's axis", "steel bar", section, box(2 * self.reach, tall, BAR), STEEL
+            part_id("bar"),
+            "bar of the shuttle's axis",
+            "steel bar",
+            section,
+            box(2 * self.reach, tall, BAR),
+            STEEL,
+            machined=True,
         )
         yield Occurrence(plate, (placement(y=-tall / 2, z=self.rear),))
         rail = catalogue.guide_rail(part_id("rail"), "rail of the shuttle's guide", self.row, 2 * self.run)

@@ -167,7 +167,8 @@ class RapierSide:
         title = "plate of the devices at an edge"
         size = format_quantity(PLATE, "mm")
         shape = box(wide, high - low, PLATE)
-        part = Part(part_id("edge-plate"), title, "laser-cut part", size, shape, MATERIALS["structural steel"])
+        steel = MATERIALS["structural steel"]
+        part = Part(part_id("edge-plate"), title, "laser-cut part", size, shape, steel, machined=True)
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 

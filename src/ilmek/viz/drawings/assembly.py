@@ -1,4 +1,5 @@
-"""Sheets of an assembly: its views with item numbers and its list of items, and the same taken apart along its axes.
+"""Sheets of an assembly: its views with item numbers and its list of items, the same taken apart along its axes, and
+where its welded pieces stand.
 
 First-angle projection; hidden lines are left out, but dashed where an item is seen from no side. Of rows of pieces that
 are nearer than `CLOSE` on the paper some are drawn. [ISO 128, ISO 6433, ISO 7573]
@@ -46,6 +47,7 @@ from ilmek.viz.drawings.paper import (
     title_block,
 )  # fmt: skip
 from ilmek.viz.drawings.picture import SheetPicture
+from ilmek.viz.drawings.weldment import positions, welded_pieces
 
 CLOSE, LATTICE = 1.0, 40
 """Distance of pieces in a row from which all are drawn [mm]; members of a lattice, which assemblies about it leave out.
@@ -119,15 +121,21 @@ class _Titles:
 
 
 def assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> Iterator[AssemblySheet]:
-    """The sheets of an assembly: its views with its list; taken apart, where it is of more than one piece."""
+    """The sheets of an assembly: its views with its list; taken apart, where it is of more than one piece; where its
+    pieces stand, where some are welded.
+    """
     items, pieces = items_of(tree, assembly), pieces_of_assembly(tree, assembly)
     if not pieces:
         return
     blocks = exploded(tree, assembly, pieces)
-    titles = _Titles(assembly, assembly_mass(tree, assembly), issue, 1 + (len(blocks) > 1))
+    welded, apart = welded_pieces(tree, assembly, pieces), len(blocks) > 1
+    titles = _Titles(assembly, assembly_mass(tree, assembly), issue, 1 + apart + bool(welded))
     yield _views_sheet(titles, items, [(piece, 0.0) for piece in pieces])
-    if len(blocks) > 1:
+    if apart:
         yield _exploded_sheet(titles, items, blocks)
+    if welded:
+        paper, tables = positions(items, welded)
+        yield AssemblySheet(titles.sheet(paper, 1.0, tables, titles.pages), ())
 
 
 def _least_crowded(draw: Callable[[str, float], AssemblySheet], papers: Iterator[tuple[str, float]]) -> AssemblySheet:

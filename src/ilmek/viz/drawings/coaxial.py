@@ -1,23 +1,29 @@
 """Parts of turned shapes and keyed ends about one axis: drawn as one turned part, with the view on its end."""
 
 import math
+from collections import defaultdict
+from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Turned, rectangle
+from ilmek.part.shapes import Prism, Turned
 from ilmek.part.tolerances import FeatureKind
-from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, circle, polygon
+from ilmek.plane.contours import KeyedCircle, along, area, as_hole, as_keyed, bounds, circle, polygon
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.report.sheet import LineKind
+from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.viz.drawings.features import SAME, distinct
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import keyed_contour, keyway
 from ilmek.viz.drawings.joined import Member
+from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import DrawnView
+
+_CORNERS = 0.2
+"""Greatest share of a square that its corners, when cut off, take from it."""
 
 
 @record
@@ -25,14 +31,19 @@ class CoaxialPart:
     """The profile of all members in one half plane, their keyed ends and bores, and where the ends' grooves lie.
 
     grooves  begin and end along the axis, and distance of the floor from it [m]
-    squares  half widths across flats of square members: at these radii the profile is not round [m]
+    squares  outlines of square members, whole or with their corners off: the profile has their half width [m]
     """
 
     profile: Profile
     ends: tuple[KeyedCircle, ...]
     bores: tuple[KeyedCircle, ...]
     grooves: tuple[tuple[float, float, float], ...] = ()
-    squares: tuple[float, ...] = ()
+    squares: tuple[Contour, ...] = ()
+
+    @property
+    def half_widths(self) -> tuple[float, ...]:
+        """Half widths across flats of the square members: at these radii the profile is not round [m]."""
+        return tuple(distinct([bounds(square)[1].real for square in self.squares]))
 
 
 def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
@@ -40,7 +51,7 @@ def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
     profiles: list[ComplexArray] = []
     ends: list[KeyedCircle] = []
     bores: list[KeyedCircle] = []
-    squares: list[float] = []
+    squares: list[Contour] = []
     grooves: list[tuple[float, float, float]] = []
     for shape, position in members:
         before = len(ends)
@@ -55,19 +66,25 @@ def coaxial(members: tuple[Member, ...]) -> CoaxialPart | None:
         grooves += [(float(z.min()), float(z.max()), end.floor) for end in ends[before:]]
     if len(profiles) < 2:
         return None
-    whole = Profile(polygon(_union(profiles)))
-    return CoaxialPart(whole, tuple(ends), tuple(bores), tuple(grooves), tuple(squares))
+    outline, *holes = map(polygon, _union(profiles))
+    if any(area(hole) > 0 for hole in holes):
+        return None  # pieces apart
+    return CoaxialPart(Profile(outline, tuple(holes)), tuple(ends), tuple(bores), tuple(grooves), tuple(squares))
 
 
-def _square(shape: object, squares: list[float]) -> list[complex] | None:
-    """Corners in the half plane of a square bar about the axis, its half width noted; None: it is none."""
-    if not isinstance(shape, Prism) or shape.section.holes or len(shape.section.outline.points) != 4:
+def _square(shape: object, squares: list[Contour]) -> list[complex] | None:
+    """Corners in the half plane of a square bar about the axis, its outline noted; None: it is none."""
+    if not isinstance(shape, Prism) or shape.section.holes or len(shape.section.outline.points) not in {4, 8}:
         return None
     low, high = bounds(shape.section.outline)
     even = abs(low + high) < SAME and abs((high - low).real - (high - low).imag) < SAME
-    if not even or abs(shape.section.area - (high - low).real ** 2) > SAME**2:
+    points = shape.section.outline.points
+    corners = len(points) // 4
+    on_sides = np.isclose(np.maximum(np.abs(points.real), np.abs(points.imag)), high.real, atol=SAME).all()
+    square = np.isclose(shape.section.area, (high - low).real ** 2, rtol=_CORNERS * (corners - 1) + 1e-9)
+    if not (even and on_sides and square) or shape.section.outline.bulges.any():
         return None
-    squares.append(high.real)
+    squares.append(shape.section.outline)
     return [0j, shape.length + 0j, shape.length + 1j * high.real, 1j * high.real]
 
 
@@ -95,19 +112,60 @@ def _radius(contour: Contour, noted: list[KeyedCircle]) -> float | None:
     return None
 
 
-def _union(profiles: list[ComplexArray]) -> ComplexArray:
-    """The corners of all that lies between the least and greatest radius of the members, slab by slab."""
+def _union(profiles: list[ComplexArray]) -> list[ComplexArray]:
+    """The closed lines about all that the members fill, the outline first, holes clockwise.
+
+    Slabs between the levels of all corners are filled by trapezoids; sides that two of them share are left out.
+    """
     levels = distinct([float(z) for points in profiles for z in points.real])
-    inner: list[complex] = []
-    outer: list[complex] = []
+    onward: dict[complex, list[complex]] = defaultdict(list)
+    sides: dict[float, list[tuple[float, float, int]]] = defaultdict(list)
     for start, end in pairwise(levels):
-        quarter = (end - start) / 4
-        radii = [[r for points in profiles for r in _crossings(points, z)] for z in (start + quarter, end - quarter)]
-        for chain, pick in ((inner, min), (outer, max)):
-            first, last = (pick(each) for each in radii)
-            slope = (last - first) / (2 * quarter)
-            chain += [complex(start, first - slope * quarter), complex(end, last + slope * quarter)]
-    return _cornered(np.array(inner + outer[::-1]))
+        for (low, low_end), (high, high_end) in _trapezoids(profiles, start, end):
+            onward[_node(start, low)].append(_node(end, low_end))
+            onward[_node(end, high_end)].append(_node(start, high))
+            sides[start].append((low, high, -1))
+            sides[end].append((low_end, high_end, 1))
+    for z, own in sides.items():
+        for low, high in pairwise(distinct([r for side in own for r in side[:2]])):
+            middle = (low + high) / 2
+            net = sum(sign for first, last, sign in own if first < middle < last)
+            if net:
+                ends = (_node(z, low), _node(z, high))[::net]
+                onward[ends[0]].append(ends[1])
+    loops = list[ComplexArray]()
+    while onward:
+        loop = [next(iter(onward))]
+        while loop[-1] in onward:
+            after = onward[loop[-1]].pop()
+            if not onward[loop[-1]]:
+                del onward[loop[-1]]
+            loop.append(after)
+        loops.append(_cornered(np.array(loop[:-1])))
+    return sorted((loop for loop in loops if len(loop) > 2), key=lambda loop: -abs(area(polygon(loop))))
+
+
+def _node(z: float, r: float) -> complex:
+    """A corner, equal ones alike."""
+    return complex(round(z, 9), round(r, 9))
+
+
+def _trapezoids(
+    profiles: list[ComplexArray], start: float, end: float
+) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
+    """What the members fill of a slab: radii of the lower and of the upper side, each at both ends, apart."""
+    quarter, filled = (end - start) / 4, list[tuple[tuple[float, float], tuple[float, float]]]()
+    for points in profiles:
+        first, last = (sorted(_crossings(points, z)) for z in (start + quarter, end - quarter))
+        reached = [(a - (b - a) / 2, b + (b - a) / 2) for a, b in zip(first, last, strict=True)]
+        filled += zip(reached[::2], reached[1::2], strict=True)
+    merged = list[tuple[tuple[float, float], tuple[float, float]]]()
+    for low, high in sorted(filled, key=lambda own: sum(own[0])):
+        if merged and sum(low) <= sum(merged[-1][1]) + SAME:
+            merged[-1] = merged[-1][0], max(merged[-1][1], high, key=sum)
+        else:
+            merged.append((low, high))
+    yield from merged
 
 
 def _crossings(points: ComplexArray, z: float) -> list[float]:
@@ -132,14 +190,26 @@ def end_view(part: CoaxialPart, scale: float, fits: Fits) -> DrawnView:
     radii = distinct([float(radius) for radius in part.profile.outline.points.imag if radius > SAME])
     keyed_radii = [bore.radius for bore in (*part.ends, *part.bores)]
     for radius in radii:
-        if any(abs(radius - side) < SAME for side in part.squares):
-            view.contour(LineKind.VISIBLE, rectangle(2 * radius, 2 * radius))
-        elif all(abs(radius - other) > SAME for other in keyed_radii):
+        if any(abs(radius - side) < SAME for side in part.half_widths):
+            continue
+        if all(abs(radius - other) > SAME for other in keyed_radii):
             view.contour(LineKind.VISIBLE, circle(0j, radius))
+    for square in part.squares:
+        view.contour(LineKind.VISIBLE, square)
+    for points in {own.points.tobytes(): own.points for own in part.squares if len(own.points) == 8}.values():
+        side = np.abs(np.roll(points, -1) - points)
+        start = int(np.argmin(side))
+        foot = complex(points[start] + np.roll(points, -1)[start]) / 2 * view.scale
+        leg = float(side[start]) / math.sqrt(2)
+        ends = (complex(points[start]) * view.scale, complex(np.roll(points, -1)[start]) * view.scale)
+        words = f"4× {millimetres(leg)} × 45°"
+        view.leader(words, foot, 0.0, kind=DimensionKind.ALIGNED, value=leg, count=4, measured=ends)
     for bore in (*part.ends, *part.bores):
         view.contour(LineKind.VISIBLE, keyed_contour(bore))
     view.cross(0j, radii[-1])
-    for bores, kind in ((part.ends, FeatureKind.JOURNAL), (part.bores, FeatureKind.BORE)):
-        for bore in bores:
-            keyway(view, bore, fits, kind)
+    low = bounds(part.profile.outline)[0].real
+    for end, (begin, last, _) in zip(part.ends, part.grooves, strict=True):
+        keyway(view, end, fits, FeatureKind.JOURNAL, (begin - low, last - begin))
+    for bore in part.bores:
+        keyway(view, bore, fits, FeatureKind.BORE)
     return view

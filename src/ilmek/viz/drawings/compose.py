@@ -5,12 +5,15 @@ First-angle projection (ISO 5456-2): the view from the left stands right of the 
 
 from collections.abc import Sequence
 from functools import lru_cache
+from typing import cast
 
-from ilmek.part.shapes import Prism, Turned
+from ilmek.part.folding import folded_sheet
+from ilmek.part.shapes import Prism, Shape, Turned, shape_box
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.bends import bent_pictures
 from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
@@ -38,7 +41,7 @@ from ilmek.viz.drawings.paper import (
 from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
-from ilmek.viz.drawings.weld_symbols import Foot, cut_list, weld_symbols
+from ilmek.viz.drawings.weld_symbols import Foot, cut_list, weld_symbols, weld_table
 
 _BETWEEN, _PAD = 14.0, 6.0
 """Least distance of two views, and of anything from the frame [mm]."""
@@ -70,6 +73,8 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     tables = tables if holes is None else (*tables, holes)
     if part.cut is not None:
         tables = (*tables, cut_list(part.cut, part.pieces))
+    if part.welds:
+        tables = (*tables, weld_table(part.welds, shape_box(cast(Shape, shape))[0], part.pieces))
     if isinstance(shape, Prism):
         views, more = _prism_views(part, shape, fits, scale)
         return Arrangement(views, (*tables, *more))
@@ -80,7 +85,7 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     members = tuple(members_of(shape))
     one_axis = coaxial(members)
     if one_axis is not None:
-        views = {"front": turned_view(one_axis.profile, scale, fits, one_axis.grooves, one_axis.squares)}
+        views = {"front": turned_view(one_axis.profile, scale, fits, one_axis.grooves, one_axis.half_widths)}
         if one_axis.ends or one_axis.bores or one_axis.squares:
             views["right"] = end_view(one_axis, scale, fits)
         return Arrangement(views, tables)
@@ -100,11 +105,15 @@ def _prism_views(
         section, tables = outline_view(flat, scale, fits)
         face_notes(section, fits, *FRONT)
         return {"front": bar_view(flat, shape.length, scale, part.welds), "right": section}, tables
-    flat = flat_part(shape.section, fits, smooth=part.smooth)
+    sheet = folded_sheet(part.bent)
+    scribed = () if sheet is None else tuple(1j * bend.middle for bend in sheet.bends)
+    flat = flat_part(shape.section, fits, smooth=part.smooth, scribed=scribed)
     circles = cam_circles(part) if is_cam(part) else None
     front, tables = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
     if is_cam(part):
         mark_cam(front, part)
+    if sheet is not None and part.bent is not None:
+        tables = (*tables, *bent_pictures(part.bent, sheet))
     low, high = bounds(flat.outline)
     below = (high - low).real > (high - low).imag * 1.2
     edge = edge_view(flat, shape.length, scale, below=below)

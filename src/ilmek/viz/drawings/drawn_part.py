@@ -8,6 +8,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
 from ilmek.part.blanks import blanks_of, size_of
 from ilmek.part.features import drillings
+from ilmek.part.folding import folded_sheet
 from ilmek.part.part import CamMaking, Part
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
@@ -34,6 +35,7 @@ class DrawnPart:
     file     of its flat pattern, for the laser   smooth  its outline is a curve
     stated   what holds for the part as a whole; None: not known        cam  how a disc cam is cut; None: it is none
     welds    of the part to others       cut  section of stock, and length that it is cut to [m]; None: of no bar
+    bent     the part of which `shape` is the flat pattern; None: of none
     """
 
     number: str
@@ -56,6 +58,7 @@ class DrawnPart:
     cam: CamMaking | None = None
     welds: tuple[Weld, ...] = ()
     cut: tuple[str, float] | None = None
+    bent: Prism | None = None
 
     @property
     def mass(self) -> float:
@@ -129,11 +132,12 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     size = size_of(part) if part is not None else ""
     if isinstance(solid, RoundSolid):
         size = Sentence("sheet.development", size=f"⌀{format_quantity(2 * solid.outer, 'mm')}")
+    bent = part.shape if part is not None and isinstance(part.shape, Prism) and folded_sheet(part.shape) else None
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
-        _stated(part), part.cam if part else None, _welds(part, plate.tree),
+        _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent,
     )  # fmt: skip
 
 

@@ -44,7 +44,9 @@ _ARCS = 1e-6
 
 @record
 class FlatPart:
-    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, and the datum."""
+    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, the datum, and points of lines
+    to scribe.
+    """
 
     outline: Contour
     features: ContourFeatures
@@ -54,6 +56,7 @@ class FlatPart:
     cutouts: tuple[Contour, ...]
     datum: complex
     smooth: bool
+    scribed: tuple[complex, ...] = ()
 
     @property
     def holes(self) -> tuple[Hole, ...]:
@@ -90,7 +93,9 @@ class FlatPart:
         return sum(len(group.holes) for group in self.groups if not group.pitch) >= TABLE_FROM
 
 
-def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -> FlatPart:
+def flat_part(
+    section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False, scribed: tuple[complex, ...] = ()
+) -> FlatPart:
     """The features of a section; a smooth outline is a curve, with no corners to dimension."""
     holes, cuts = split_holes(section.holes)
     bores = tuple(bore for bore in map(as_keyed, cuts) if bore is not None)
@@ -109,7 +114,7 @@ def flat_part(section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False) -
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
     groups = hole_groups(holes, lambda hole: bore_note(fits, hole))
-    return FlatPart(outline, features, ring, groups, bores, others, datum, curve)
+    return FlatPart(outline, features, ring, groups, bores, others, datum, curve, scribed)
 
 
 def _datum(features: ContourFeatures, corner: complex, centres: list[complex], holes: list[Hole]) -> complex:
@@ -207,7 +212,7 @@ def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
     holes = () if flat.tabled else tuple(h.at for group in flat.groups if not group.pitch for h in group.holes)
     centres = tuple(group.centre for group in flat.groups if group.pitch)
     cuts = tuple(point for cut in flat.cutouts for point in _corners_of(cut, flat))
-    return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts)
+    return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts, *flat.scribed)
 
 
 def _corners_of(cut: Contour, flat: FlatPart) -> tuple[complex, ...]:
@@ -239,7 +244,9 @@ def _linear(view: DrawnView, flat: FlatPart) -> None:
 
 
 def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool) -> list[MeasuredLength]:
-    """The size over all, unless it stands there already; in brackets where arcs give it."""
+    """The size over all, unless it stands there already, in brackets where arcs give it; of a curve also the distance
+    of the datum from its end.
+    """
     low, high = bounds(flat.outline)
     ends, datum = (coordinate(low, across), coordinate(high, across)), coordinate(flat.datum, across)
     size = ends[1] - ends[0]
@@ -248,8 +255,11 @@ def _over_all(view: DrawnView, flat: FlatPart, values: list[float], across: bool
         return []
     known = {round(datum, 8), *(round(datum + value, 8) for value in values)}
     auxiliary = flat.dimensioned and not all(round(end, 8) in known for end in ends)
-    first, last = (complex(low.real, end) if across else complex(end, low.imag) for end in ends)
-    return [MeasuredLength(first * view.scale, last * view.scale, size, auxiliary=auxiliary)]
+    feet = [(complex(low.real, end) if across else complex(end, low.imag)) * view.scale for end in ends]
+    whole = MeasuredLength(feet[0], feet[1], size, auxiliary=auxiliary)
+    if flat.dimensioned or not ends[0] + SAME < datum < ends[1] - SAME or values:
+        return [whole]
+    return [MeasuredLength(feet[0], flat.datum * view.scale, datum - ends[0]), whole]
 
 
 def _foot(points: Sequence[complex], value: float, across: bool) -> complex:
@@ -317,8 +327,13 @@ def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
 
 
-def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) -> None:
-    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side."""
+def keyway(
+    view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind, seat: tuple[float, float] | None = None
+) -> None:
+    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side.
+
+    seat  of a shaft: from its end on the left to the keyway, and the length of that [m]; None: all through
+    """
     turn = bore.directions[0]
     corners = [bore.centre + turn * complex(bore.floor, side * bore.width / 2) for side in (-1, 1)]
     count = len(bore.directions)
@@ -327,6 +342,9 @@ def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) ->
     ends = (corners[0] * view.scale, corners[1] * view.scale)
     note = fits.note(bore.width, _KEYWAYS[kind])
     width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
+    if seat is not None:
+        begin, length = map(millimetres, seat)
+        width = Sentence("sheet.keyway-seat", keyway=width, length=length, begin=begin)
     view.leader(
         width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
     )  # fmt: skip

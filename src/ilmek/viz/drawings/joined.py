@@ -6,6 +6,7 @@ cut list, by section and length.
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,12 +15,12 @@ from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import Prism, Sum, Turned
 from ilmek.part.tolerances import FeatureKind
 from ilmek.part.twisted import TwistedBar
-from ilmek.plane.contours import along, as_hole, bounds
+from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import PARALLEL
+from ilmek.viz.drawings.flat import PARALLEL, keyway
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Axis, Projector
@@ -34,6 +35,9 @@ VIEWS: dict[str, tuple[Axis, Axis]] = {
 
 MOST_ENDS, MOST_LABELS = 14, 6
 """Ends of members that a view dimensions in a direction; more of them stand in the cut list alone."""
+
+MOST_MEMBERS = 16
+"""Members of which each has its row with its position."""
 
 PIECES = tuple(map(Sentence, ("sheet.item", "sheet.pieces", "sheet.section", "sheet.length")))
 
@@ -66,7 +70,29 @@ def joined_views(
     for line in visible:
         pictorial.line(LineKind.VISIBLE, line)
     views["corner"] = pictorial
-    return views, (_cut_list(members),)
+    twisted = [shape for shape, _ in members if isinstance(shape, TwistedBar)]
+    for bar in dict.fromkeys(twisted):
+        foot, side = bar.side / 2 * (1 + 1j) * scale, bar.side * scale
+        views["front"].leader(
+            f"□{millimetres(bar.side)}", foot, 0.0, kind=DimensionKind.ALIGNED, value=bar.side,
+            measured=(foot, foot - side),
+        )  # fmt: skip
+    return views, (_cut_list(members), *map(_twist_table, dict.fromkeys(twisted)))
+
+
+def _twist_table(bar: TwistedBar) -> SheetPicture:
+    """The lengths of a twisted bar, with the angle, the lead and the hand of each."""
+    rows = []
+    for (start, end), (first, last) in zip(pairwise(bar.stations), pairwise(bar.angles), strict=True):
+        turn = last - first
+        angle, lead = (
+            f"{math.degrees(abs(turn)):.4g}°",
+            millimetres((end - start) * 2 * math.pi / abs(turn or math.inf)),
+        )
+        hand = Sentence("sheet.twist-right" if turn > 0 else "sheet.twist-left") if turn else "—"
+        rows.append((millimetres(start), millimetres(end), angle, lead if turn else "—", hand))
+    names = ("twist-from", "twist-to", "bend-angle", "twist-lead", "twist-hand")
+    return table([Sentence(f"sheet.{name}") for name in names], rows, Sentence("sheet.twist"))
 
 
 def members_of(shape: object, position: Placement = IDENTITY) -> Iterator[Member]:
@@ -126,14 +152,38 @@ def _dimension(
             for value in values
         ]
         drawn = [foot * view.scale for foot in feet]
+        whole = _over_all(view, members, (up, right) if across else (right, up), values, across=across)
         if len(values) <= PARALLEL + 1:
             spans = [
                 MeasuredLength(drawn[0], foot, value - values[0])
                 for foot, value in zip(drawn[1:], values[1:], strict=True)
             ]
-            view.rows(spans, across=across)
+            view.rows([*spans, *whole], across=across)
         else:
             view.ordinates(drawn, drawn[0], across=across)
+            side = 0 if across else 1
+            view.rows(whole, across=across, beyond=view.body[side] - view.picture.box[side] + 6.0)
+
+
+def _over_all(
+    view: DrawnView,
+    members: tuple[Member, ...],
+    axes: tuple[FloatArray, FloatArray],
+    values: list[float],
+    *,
+    across: bool,
+) -> list[MeasuredLength]:
+    """The size over all in brackets, where the ends of the members, some of them centres, do not give it; axes  along
+    it, and across it.
+    """
+    reaches = [reach(member, axes[0]) for member in members]
+    low, high = min(ends[0] for ends in reaches), max(ends[1] for ends in reaches)
+    if high - low <= values[-1] - values[0] + 2 * SAME:
+        return []
+    foot = min(reach(member, axes[1])[0] for member in members)
+    ends = (complex(foot, end) if across else complex(end, foot) for end in (low, high))
+    first, last = (end * view.scale for end in ends)
+    return [MeasuredLength(first, last, high - low, auxiliary=True)]
 
 
 def _seen_round(member: Member, eye: FloatArray) -> bool:
@@ -183,6 +233,13 @@ def _circles(
         elif isinstance(shape, Prism):
             holes = [as_hole(contour) for contour in (shape.section.outline, *shape.section.holes)]
             rings = [(hole.at, hole.radius) for hole in holes if hole is not None]
+            shaft = as_keyed(shape.section.outline)
+            if shaft is not None:
+                rings.append((shaft.centre, shaft.radius))
+                keyway(view, _seen_keyed(shaft, position, right, up), fits, FeatureKind.JOURNAL)
+            for bore in filter(None, map(as_keyed, shape.section.holes)):
+                rings.append((bore.centre, bore.radius))
+                keyway(view, _seen_keyed(bore, position, right, up), fits, FeatureKind.BORE)
         for centre, radius in rings:
             at = position.points(np.array([centre.real, centre.imag, 0.0]))
             sizes.setdefault(round(radius, 8), []).append(complex(float(at @ right), float(at @ up)))
@@ -200,13 +257,45 @@ def _circles(
         )  # fmt: skip
 
 
+def _seen_keyed(bore: KeyedCircle, position: Placement, right: FloatArray, up: FloatArray) -> KeyedCircle:
+    """A bore with keyways as a view shows it."""
+
+    def seen(point: complex, origin: FloatArray | float) -> complex:
+        own = position.rotation @ np.array([point.real, point.imag, 0.0]) + origin
+        return complex(float(own @ right), float(own @ up))
+
+    directions = tuple(seen(own, 0.0) for own in bore.directions)
+    return bore._replace(centre=seen(bore.centre, position.origin), directions=directions)
+
+
 def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
-    """Members of one kind as a row: section and length."""
-    counts: dict[tuple[str, str], int] = {}
-    for shape, _ in members:
-        counts[_section(shape)] = counts.get(_section(shape), 0) + 1
-    rows = [(str(k), str(number), *words) for k, (words, number) in enumerate(counts.items(), 1)]
-    return table(PIECES, rows[:30], Sentence("sheet.members"))
+    """Members by section and length, each with where it lies from the lower left rear corner; of many those of one kind
+    as a row.
+    """
+    kinds: dict[tuple[str, str], list[Member]] = {}
+    for member in members:
+        kinds.setdefault(_section(member[0]), []).append(member)
+    if len(members) > MOST_MEMBERS:
+        rows = [(str(k), str(len(own)), *words) for k, (words, own) in enumerate(kinds.items(), 1)]
+        return table(PIECES, rows[:30], Sentence("sheet.members"))
+    axes = np.eye(3)
+    low = [min(reach(member, axis)[0] for member in members) for axis in axes]
+    placed = [
+        (
+            str(k),
+            "1",
+            *words,
+            *(span_words(*(np.array(reach(member, axis)) - least)) for axis, least in zip(axes, low, strict=True)),
+        )
+        for k, (words, own) in enumerate(kinds.items(), 1)
+        for member in own
+    ]
+    return table((*PIECES, "X", "Y", "Z"), placed, Sentence("sheet.members-placed"))
+
+
+def span_words(low: float, high: float) -> str:
+    """From where to where [mm], to 0.001 mm: `15…39`, or one value."""
+    return "…".join(dict.fromkeys(millimetres(value + 0.0) for value in (low, high)))
 
 
 def _section(shape: object) -> tuple[str, str]:
@@ -215,7 +304,7 @@ def _section(shape: object) -> tuple[str, str]:
         bore = f", bore ⌀{millimetres(2 * low.imag)}" if low.imag > SAME else ""
         return f"round ⌀{millimetres(2 * high.imag)}{bore}", millimetres(high.real - low.real)
     if isinstance(shape, TwistedBar):
-        return "twisted bar", millimetres(float(np.ptp(shape.mesh().points[:, 2])))
+        return f"□{millimetres(shape.side)}", millimetres(shape.length)
     assert isinstance(shape, Prism)
     return _outline(shape), millimetres(shape.length)
 

@@ -26,6 +26,12 @@ from ilmek.viz.drawings.weld_symbols import weld_symbols
 MOST_DIAMETERS = 10
 """Diameters of a turned part that are labelled; of more, the largest and smallest."""
 
+FINE = 400
+"""Points of a profile that is a curve: its outside is what is farther from the axis than half of it."""
+
+MOST_SEATS = 10
+"""Ends of welds that are dimensioned along a bar; more stand in the table of the welds alone."""
+
 
 @record
 class Shortening:
@@ -101,11 +107,12 @@ def turned_view(
     held = [span for one in fits.features if one.length > 0 for span in [span_of(one)]] if features.fully else []
     levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *held) for z in ends[:2])])
     cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
-    bored = low.imag > SAME or bool(profile.holes)
     gap = 1.2 / scale
     points = along(contour, 0.01 / scale)
     after = np.roll(points, -1)
     outer = _outer(points, after)
+    hollow = len(points) <= FINE and bool(np.any(~outer & (np.minimum(points.imag, after.imag) > SAME)))
+    bored = low.imag > SAME or bool(profile.holes) or hollow
     for start, end, outside in zip(points.tolist(), after.tolist(), outer.tolist(), strict=True):
         on_axis = max(start.imag, end.imag) < SAME
         for piece in () if on_axis else _stretch(cut, start, end, gap):
@@ -141,7 +148,7 @@ def _outer(points: ComplexArray, after: ComplexArray) -> np.ndarray:
     middle = (points + after) / 2
     upright = np.abs((after - points).real) < SAME
     outside = np.ones(len(points), dtype=bool)
-    if len(points) > 400:
+    if len(points) > FINE:
         return np.asarray(middle.imag > 0.5 * middle.imag.max())
     for number, at in enumerate(middle.tolist()):
         spans = (np.minimum(points.real, after.real) < at.real) & (np.maximum(points.real, after.real) > at.real)
@@ -158,8 +165,13 @@ def _edge_lines(view: DrawnView, cut: Shortening, corner: complex, contour: Cont
     """The circle of an edge, seen from the side: on the outside below the axis, of a bore above it."""
     z = float(cut.drawn(corner.real))
     points = along(contour, 1e-5)
+    after = np.roll(points, -1)
     near = points[np.abs(points.real - corner.real) < SAME]
-    outside, inside = float(near.imag.max()), float(near.imag.min())
+    spans = np.minimum(points.real, after.real) < corner.real - SAME
+    spans &= np.maximum(points.real, after.real) > corner.real + SAME
+    share = (corner.real - points.real[spans]) / (after.real[spans] - points.real[spans])
+    beside = points.imag[spans] + share * (after.imag[spans] - points.imag[spans])
+    outside, inside = max(near.imag.max(), *beside, 0.0), min(near.imag.min(), *beside, math.inf)
     if corner.imag >= outside - SAME:
         view.line(LineKind.VISIBLE, np.array([complex(z, 0.0), complex(z, -corner.imag)]))
         if not bored:
@@ -279,7 +291,11 @@ def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] 
         for line in shifted.picture.lines:
             view.line(LineKind.BREAK, line.points / scale + 1j * middle, body=False)
     feet = (complex(0.0, low.imag) * scale, complex(float(ends[1]), low.imag) * scale)
-    view.rows([MeasuredLength(*feet, length)], across=False)
+    spans = [MeasuredLength(*feet, length)]
+    seats = [round(z, 4) for weld in welds for z in weld.box[:, 2].tolist() if SAME < z < length - SAME]
+    seats = distinct(seats) if len(distinct(seats)) < MOST_SEATS else []
+    spans += [MeasuredLength(feet[0], complex(float(cut.drawn(z)), low.imag) * scale, z) for z in seats]
+    view.rows(spans, across=False)
     weld_symbols(view, welds, lambda weld: complex(float(cut.drawn(weld.middle[2])), high.imag) * scale)
     return view
 

@@ -234,7 +234,9 @@ class DrawnView:
         Returns the elbow of the line.
         """
         hung = None if note.is_bare else note.hanging().box
-        tip, elbow, text = self._spot(words, centre, radius, sector, hung)
+        tip, elbow, text = self._spot(
+            words, centre, radius, sector, hung or ((0.0, -LETTER, 0.0, 0.0) if lead else None)
+        )
         box = text_box(text)
         shelf = complex(box[2] if text.anchor == "left" else box[0], elbow.imag)
         shelf = elbow + 1.5 + text_width(lead, LETTER / CAPITAL) if lead else shelf

@@ -1,21 +1,24 @@
-"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet and throat, all round.
+"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet, throat, length, all round.
 
-Behind the tail stands what the part is welded to.
+Behind the tail stands what the part is welded to; a table has the position of each seam.
 """
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from ilmek.arrays import Float
+from ilmek.part.part_lists import cut_length
 from ilmek.part.welds import Weld
 from ilmek.plane.contours import circle
 from ilmek.report.sheet import LineKind, SheetLine
 from ilmek.sentences import Sentence
 from ilmek.units import format_number, mm
 from ilmek.viz.drawings.feature_note import LETTER
-from ilmek.viz.drawings.joined import PIECES
+from ilmek.viz.drawings.joined import PIECES, span_words
 from ilmek.viz.drawings.paper import table
-from ilmek.viz.drawings.picture import CAPITAL, SheetPicture
+from ilmek.viz.drawings.picture import CAPITAL, SheetPicture, millimetres
 from ilmek.viz.drawings.view import DrawnView
 from ilmek.viz.font import text_width
 
@@ -30,17 +33,28 @@ _SPACE = "\N{EM SPACE}"
 
 def weld_symbols(view: DrawnView, welds: Sequence[Weld], foot: Foot) -> None:
     """The symbols of welds in a view, those of one spot and kind with one arrow."""
-    spots: dict[tuple[complex, float, bool], list[str]] = {}
+    spots: dict[tuple[complex, str, str, bool], list[str]] = {}
     for weld in welds:
         at = foot(weld)
-        spot = complex(round(at.real, 1), round(at.imag, 1)), weld.throat, weld.all_round
+        spot = complex(round(at.real, 1), round(at.imag, 1)), _throat(weld), seam_lengths(weld), weld.all_round
         spots.setdefault(spot, []).append(weld.other.rpartition("/")[2])
-    for (at, throat, all_round), others in spots.items():
-        _symbol(view, at, f"a{format_number(throat / mm)}", ", ".join(sorted({*others})), all_round=all_round)
+    for (at, throat, length, all_round), others in sorted(spots.items(), key=lambda spot: -spot[0][0].real):
+        _symbol(view, at, (throat, length), ", ".join(sorted({*others})), all_round=all_round)
 
 
-def _symbol(view: DrawnView, at: complex, size: str, others: str, *, all_round: bool) -> None:
-    lead = f"{size}{_SPACE * 3}"
+def _throat(weld: Weld) -> str:
+    return f"a{format_number(weld.throat / mm)}"
+
+
+def seam_lengths(weld: Weld) -> str:
+    """Lengths of the seams of a weld [mm], to 0.1 mm; equal ones once: `2×54.6`."""
+    counts = Counter(millimetres(round(length, 4)) for length in weld.lengths)
+    return " + ".join(f"{number}×{length}" if number > 1 else length for length, number in counts.items())
+
+
+def _symbol(view: DrawnView, at: complex, sizes: tuple[str, str], others: str, *, all_round: bool) -> None:
+    size, length = sizes
+    lead = f"{size}{_SPACE * 3}{length}"
     words = f"{lead}{_SPACE * 2}{others}" if others else lead
     elbow = view.leader(words, at, 0.0, kind=None, sector=(at + _UPWARDS[0], at + _UPWARDS[1]), lead=lead)
     width = text_width(lead, LETTER / CAPITAL) + 1.5
@@ -58,7 +72,24 @@ def _symbol(view: DrawnView, at: complex, size: str, others: str, *, all_round: 
     view.draw(lines)
 
 
+def weld_table(welds: Sequence[Weld], low: Float[np.ndarray, " 3"], pieces: int) -> SheetPicture:
+    """Each weld with its position on the part: from where to where its contact is; low  least corner [m]."""
+    rows = []
+    for weld in welds:
+        ends = [span_words(*axis) for axis in np.round(weld.box - low, 4).T.tolist()]
+        seam = Sentence("sheet.weld-all-round" if weld.all_round else "sheet.weld-edges")
+        other = weld.other.rpartition("/")[2] or "—"
+        rows.append((other, _throat(weld), seam, seam_lengths(weld), *ends, f"{min(weld.pieces, pieces)}/{pieces}"))
+    return table(WELD_HEADER, rows, Sentence("sheet.welds"))
+
+
+WELD_HEADER = (
+    Sentence("sheet.weld-to"), "a", Sentence("sheet.seam"), Sentence("sheet.length"), "X", "Y", "Z",
+    Sentence("sheet.pieces"),
+)  # fmt: skip
+
+
 def cut_list(cut: tuple[str, float], pieces: int) -> SheetPicture:
     """What is cut for a part: section of stock and length [mm], ends square."""
-    row = ("1", str(pieces), cut[0], format_number(cut[1] / mm), "90° / 90°")
+    row = ("1", str(pieces), cut[0], cut_length(cut[1]), "90° / 90°")
     return table((*PIECES, Sentence("sheet.ends")), [row], Sentence("sheet.cut-list"))
