@@ -16,7 +16,7 @@ beam across = enine kiriş | beam across at the floor = zemindeki enine kiriş |
 beam across between the front feet = ön ayaklar arası enine kiriş | bearing = yatak | bearings = yataklar
 beam along an edge = kenar boyu kiriş+i | bell cranks = dirsekli kollar | belt = kayış | belt axis = kayış eksen+i
 block = blok | block under that plate = o levhanın alt blok+u | bracket = konsol
-bundle = demet | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaft = kam mil+i | cams = kamlar
+bundle = demet | half = yarı+sı | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaft = kam mil+i | cams = kamlar
 carriage = araba | tubes = tüpler | yarns = iplikler | heads' belt about a pulley = kasnaktaki kafa kayış+ı
 carriages = arabalar | carrier = taşıyıcı | centre gripper = orta kıskaç | centre jaws = orta çeneler | creel = cağlık
 centre-gripper grasp = orta kıskaç kavrama+sı | centre-gripper motion = orta kıskaç hareket+i | chain = zincir
