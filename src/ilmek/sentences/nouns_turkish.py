@@ -16,7 +16,7 @@ beam across = enine kiriş | beam across at the floor = zemindeki enine kiriş |
 beam across between the front feet = ön ayaklar arası enine kiriş | bearing = yatak | bearings = yataklar
 beam along an edge = kenar boyu kiriş+i | bell cranks = dirsekli kollar | belt = kayış | belt axis = kayış eksen+i
 block = blok | block under that plate = o levhanın alt blok+u | bracket = konsol
-bundle = demet | half = yarı+sı | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaft = kam mil+i | cams = kamlar
+bundle = demet | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaft = kam mil+i | cams = kamlar
 carriage = araba | tubes = tüpler | yarns = iplikler | heads' belt about a pulley = kasnaktaki kafa kayış+ı
 carriages = arabalar | carrier = taşıyıcı | centre gripper = orta kıskaç | centre jaws = orta çeneler | creel = cağlık
 centre-gripper grasp = orta kıskaç kavrama+sı | centre-gripper motion = orta kıskaç hareket+i | chain = zincir
@@ -54,7 +54,7 @@ spacer = ara parça | spacer cylinder = ara silindir | spacer bearings = ara sil
 spacer drive = ara silindir tahriğ+i | springs = yaylar | stand = ayaklık | step = adım | stop motion = durdurma düzen+i
 support = destek | take up = sar | take-up = sarma
 sensor of the warps' tension = çözgü gerginliği algılayıcı+sı | terminal = klemens | tie = bağ
-to tube = tüpe | toothed plate = dişli levha | trough = oluk | tube = tüp | tuck-in needle = kıvırma iğne+si
+half = yarı+sı | to tube = tüpe | toothed plate = dişli levha | trough = oluk | tube = tüp | tuck-in needle = kıvırma iğne+si
 turn back = geri dön | turning cam shaft = dönen kam mil+i | turning cutters = dönen kesiciler | wire = tel
 turning eccentric = dönen eksantrik | turning pile handler = dönen hav taşıyıcı+sı | turning pinion = dönen pinyon
 twisted bar = burgulu çubuk | twisted bars = burgulu çubuklar | two signals = iki sinyal | up = yukarı
