@@ -43,7 +43,7 @@ def test_two_plates_have_four_screws_and_what_is_too_thin_fails_the_check() -> N
     assert len(screw.positions) == 4
     assert screw_of(screw.part.purchase.row if screw.part.purchase else "") in SOCKET_SCREWS.values()
     assert fastening_check(tree).ok
-    assert fastenings(tree).contacts[Means.NONE] == 0
+    assert Means.NONE not in fastenings(tree).contacts
     loose = fastening_check(bolted(on_each_other(1 * mm, 1 * mm)))
     assert not loose.ok
     assert set(loose.parts) & {"test/lower", "test/upper"}
@@ -155,7 +155,7 @@ def test_drilled_parts_weigh_what_their_surface_encloses_and_the_kernel_measures
     for shape in shapes:
         mass, centre, _ = measured(shape.mesh(2 * um), 1.0)
         assert (
-            abs(mass - shape.volume) < 1e-3 * sum(hole.shape.volume for hole in drillings(shape)) + 1e-6 * shape.volume
+            abs(mass - shape.volume) < 5e-3 * sum(hole.shape.volume for hole in drillings(shape)) + 1e-6 * shape.volume
         )
         assert np.abs(centre - shape.moments.centre).max() < 2 * um
         assert step._volume(step.shape_solid(shape)) * mm**3 == pytest.approx(shape.volume, rel=1e-6)

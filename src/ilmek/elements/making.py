@@ -24,6 +24,7 @@ class Rate(NamedTuple):
 
 LASER, BENDING, SAWING, TURNING, MILLING = "laser cutting", "bending", "sawing", "turning", "milling"
 GRINDING, WELDING, HARDENING, COATING = "grinding", "welding", "hardening", "coating"
+DRILLING = "drilling"
 
 FINEST: Mapping[str, int] = {LASER: 12, SAWING: 14, BENDING: 14, WELDING: 16, TURNING: 6, MILLING: 7, GRINDING: 5}
 """Finest tolerance grade IT that a process holds with care, bores on a milling machine reamed or fine-bored; usual
@@ -73,6 +74,10 @@ RATES = (
     Rate(MILLING, "s a feature", 25.0, (10.0, 60.0)),
     Rate(MILLING, "s per cm2", 1.0, (0.4, 3.0)),
     Rate(MILLING, "s per cm3", 3.0, (0.5, 6.0)),
+    Rate(DRILLING, "per h", 45.0, (30.0, 75.0)),
+    Rate(DRILLING, "h a batch", 0.3, (0.1, 1.0)),
+    Rate(DRILLING, "s a piece", 45.0, (15.0, 120.0)),
+    Rate(DRILLING, "s a feature", 20.0, (8.0, 60.0), "drill, counterbore or tap a hole"),
     Rate(GRINDING, "per h", 60.0, (45.0, 100.0)),
     Rate(GRINDING, "h a batch", 1.5, (0.5, 3.0)),
     Rate(GRINDING, "s a piece", 240.0, (60.0, 600.0)),

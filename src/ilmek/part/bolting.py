@@ -142,9 +142,7 @@ def _with(
         stem = f"{both[0].id.rpartition('/')[0]}/{first}-{second}-screw"
         names[stem] += 1
         name = stem if names[stem] == 1 else f"{stem}-{names[stem]}"
-        own = replace(
-            catalogue.screw(name, f"screw of the {both[0].title} on the {both[1].title}", screw, ids[2]), joins=ids[:2]
-        )
+        own = replace(catalogue.screw(name, f"screw of the {both[0].title}", screw, ids[2]), joins=ids[:2])
         for body, positions in bodies.items():
             screws[body].append(Occurrence(own, tuple(positions)))
     return tree.replaced(

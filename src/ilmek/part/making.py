@@ -14,7 +14,18 @@ from itertools import combinations
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.elements.making import BENDING, COATING, GRINDING, HARDENING, LASER, MILLING, SAWING, TURNING, WELDING
+from ilmek.elements.making import (
+    BENDING,
+    COATING,
+    DRILLING,
+    GRINDING,
+    HARDENING,
+    LASER,
+    MILLING,
+    SAWING,
+    TURNING,
+    WELDING,
+)
 from ilmek.elements.materials import Material
 from ilmek.part.blanks import BAR, PLATE, Blank, flat_of, is_round, milled_of, sheet_of, stock_of, turned_of
 from ilmek.part.features import drillings
@@ -179,7 +190,7 @@ def _steps(shape: Shape, material: Material, process: str, machined: bool) -> tu
     treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if material.treatment else ()
     seats = _seats(shape) if machined else ()
     holes = len(drillings(shape))
-    drilled = (ProcessStep(MILLING, features=holes),) if holes else ()
+    drilled = (ProcessStep(DRILLING, features=holes),) if holes else ()
     return (*ROUTES[process](shape, material), *seats, *drilled, *treated)
 
 

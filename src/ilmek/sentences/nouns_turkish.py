@@ -58,7 +58,7 @@ side jaws = yan çeneler | side plate = yan levha | side-gripper grasp = yan kı
 side-gripper motion = yan kıskaç hareket+i | slide = sürgü | sliding knife = kayan bıçak | small pulley = küçük kasnak
 spacer = ara parça | spacer cylinder = ara silindir | spacer bearings = ara silindir yataklar+ı | spring = yay
 spacer drive = ara silindir tahriğ+i | springs = yaylar | stand = ayaklık | step = adım | stop motion = durdurma düzen+i
-support = destek | take up = sar | take-up = sarma
+support = destek | take up = sar | take-up = sarma | half = yarı+sı
 sensor of the warps' tension = çözgü gerginliği algılayıcı+sı | terminal = klemens | tie = bağ
 to tube = tüpe | toothed plate = dişli levha | trough = oluk | tube = tüp | tuck-in needle = kıvırma iğne+si
 turn back = geri dön | turning cam shaft = dönen kam mil+i | turning cutters = dönen kesiciler | wire = tel
