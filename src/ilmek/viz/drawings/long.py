@@ -231,7 +231,15 @@ def _diameters(  # noqa: PLR0917
                 ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
                 view.rows([MeasuredLength(*ends, 2 * radius, "⌀", note.words)], across=True)
             else:
-                _diameter(view, cut, radius, spans, note, "□" if square else "⌀", bounds(contour)[0].real)
+                _diameter(
+                    view,
+                    cut,
+                    radius,
+                    spans,
+                    note,
+                    "□" if square else "⌀",
+                    None if radius == radii[-1] else bounds(contour)[0].real,
+                )
 
 
 def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
@@ -242,17 +250,23 @@ def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
 
 
 def _diameter(  # noqa: PLR0917
-    view: DrawnView, cut: Shortening, radius: float, spans: list[Span], note: FeatureNote, sign: str, datum: float
+    view: DrawnView,
+    cut: Shortening,
+    radius: float,
+    spans: list[Span],
+    note: FeatureNote,
+    sign: str,
+    datum: float | None,
 ) -> None:
     """A diameter, or width across flats, of equal stretches of the axis with what they must hold, at the first.
 
-    datum  end of the part along the axis, from which a row of grooves is measured [m]
+    datum  end of the part along the axis, from which a row of grooves is measured [m]; None: it is the lands
     """
     starts = distinct([span[0] for span in spans])
     count = len(starts)
-    times = f"{count}× " if count > 1 else ""
+    times = f"{count}× " if count > 1 and datum is not None else ""
     size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
-    if count > MOST_DIAMETERS:
+    if count > MOST_DIAMETERS and datum is not None:
         pitch = float(np.median(np.diff(starts)))
         wide = float(np.median(np.diff(spans)))
         size = Sentence(
