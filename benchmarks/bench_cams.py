@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.cam_sweep import requirements, sweep
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams import limits
 from ilmek.cams.flat import FlatCam
@@ -21,7 +22,6 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.cams.sweep import requirements, sweep
 from ilmek.machines.cam import MACHINE, CamParams, design
 from ilmek.num.piecewise import supremum
 from ilmek.units import deg, mm

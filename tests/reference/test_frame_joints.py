@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.fillet_welds import STRENGTH, THROATS, RoundSquare, TwoSeams, throat_for
-from ilmek.elements.hexagon_screws import SCREWS, FourScrews
+from ilmek.elements.machine_screws import SCREWS, FourScrews
 from ilmek.machines.automated_loom import AutomatedLoomParams, LoomDesign, design
 from ilmek.machines.automated_loom.brackets import bracket_checks, brackets_of
 from ilmek.machines.automated_loom.feet import FEET, foot_for

@@ -28,7 +28,7 @@ from ilmek.machines.catalogue import find_machine
 from ilmek.part.part import Part
 from ilmek.part.plates import tolerated
 from ilmek.part.shapes import Prism
-from ilmek.report.sheet import Issue
+from ilmek.report.sheet import DrawingSheet, Issue
 from ilmek.viz.drawings.compose import sheets_of
 from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
 
@@ -68,10 +68,14 @@ def made_parts(machine: str, **values: str) -> Iterator[tuple[DrawnPart, Part]]:
                 yield draw(each, report.machine, name), each.part  # type: ignore[operator]
 
 
-def read(part: DrawnPart, folder: Path) -> ReadSheet:
-    """The first sheet of a part, written and read."""
-    path = folder / "sheet.dxf"
-    write_sheet_dxf(path, sheets_of(part, Issue(), projected)[0])
+def drawn_sheet(part: DrawnPart) -> DrawingSheet:
+    """The first sheet of a part."""
+    return sheets_of(part, Issue(), projected)[0]
+
+
+def read(sheet: DrawingSheet, path: Path) -> ReadSheet:
+    """A sheet, written to a file and read."""
+    write_sheet_dxf(path, sheet)
     space = ezdxf.readfile(path).modelspace()
     dimensions = [(own, own.dxf.get("angle", 0.0) == 90.0) for own in space.query("DIMENSION")]
     return ReadSheet(
@@ -117,9 +121,9 @@ def bores(solid: TopoDS_Shape) -> list[Bore]:
     return [*found.values()]
 
 
-def faults_of(part: DrawnPart, source: Part, folder: Path) -> list[str]:
+def faults_of(part: DrawnPart, source: Part, sheet: ReadSheet) -> list[str]:
     """What of the solid its sheet does not say: sizes over all, diameters of bores, where they are in a plate."""
-    sheet, solid = read(part, folder), part_solid(source)
+    solid = part_solid(source)
     faults = [
         f"size {size:.3f}"
         for size in envelope(solid).tolist()
@@ -150,12 +154,14 @@ def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Itera
     tables = [number for number, text in enumerate(sheet.texts) if text.startswith("Holes, from the datum")]
     cells = sheet.texts[tables[0] :] if tables else ()
     listed = [float(text) for text in cells if re.fullmatch(r"-?[\d.]+", text)]
+    radii = [value for kind, _, value in sheet.dimensions if kind == RADIUS]
     for name, upright in (("x", False), ("y", True)):
         own = sorted({round(centre.imag if upright else centre.real, 4) for centre in centres})
         given = [v for kind, up, v in sheet.dimensions if kind in {LINEAR, ORDINATE} and up is upright]
         values = np.abs(np.array([0.0, *given, *listed]))
         ends = corners[:, int(upright)].tolist()
         even = bool(own) and abs(own[0] - sum(ends) / 2) < NEAR  # on the line of symmetry
+        ends += [end + sign * radius for end, sign in zip(ends, (1, -1), strict=True) for radius in radii]
         others = [centre.imag if upright else centre.real for centre in every]
         datums = (
             [*ends, *others]

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from benchmarks.cam_sweep import requirements, sweep
 
 from ilmek.cams import limits
 from ilmek.cams.contact import FollowerLoad
@@ -11,7 +12,6 @@ from ilmek.cams.laws import LAWS
 from ilmek.cams.limits import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
-from ilmek.cams.sweep import requirements, sweep
 from ilmek.errors import ParameterError
 from ilmek.num.piecewise import supremum
 from ilmek.units import deg

@@ -258,7 +258,7 @@ def points_of(document: Drawing, page: str) -> dict[str, bool]:
         or ("Welds ISO 2553" in page and all(re.search(r"\ba\d[\d.]*\s+[\d.]", text) for text in symbols)),
         "22 bends with side, radius and K": "bent" not in page
         or all(word in page for word in ("DIN 6935", "Inner radius", "Side")),
-        "23 twist with angle, lead and hand": "twisted bar" not in page
+        "23 twist with angle, lead and hand": not re.search(r"twisted bar\b", page)
         or all(word in page for word in ("Lead", "Hand", "Angle")),
         "24 a cam's zero mark and direction": "cam plate" not in page or ("zero mark" in page and "turns" in page),
         "25 each keyway with its fit, angle and floor": page.count("keyway") == 0

@@ -3,23 +3,35 @@
 import math
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
+from axial import loose_hubs
 from default_machines import default_design
 from hypothesis import given
 from hypothesis import strategies as st
 
 from ilmek.elements.belts import BELTS
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.parallel_keys import keyed_end
+from ilmek.elements.plates import round_bore
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
+from ilmek.part import catalogue
 from ilmek.part.meetings import meetings
-from ilmek.part.part import Part
-from ilmek.part.shapes import Prism, Sum
-from ilmek.part.tree import JointKind, Tree
+from ilmek.part.part import SET_SCREW, Part, Seat
+from ilmek.part.placement import placement
+from ilmek.part.plates import pieces_of
+from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
+from ilmek.part.tolerances import FeatureKind
+from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import along, polygon_moments
+from ilmek.report.sheet import Issue
+from ilmek.viz.drawings.compose import sheets_of
+from ilmek.viz.drawings.drawn_part import drawn_piece
 
 LOOMS = ({}, {"beat": "linkage"}, {"knotting": "arms"})
 TREES = (
@@ -30,7 +42,7 @@ TREES = (
 BOUGHT_WHOLE = {"weft/turning cutters", "weft/fingers of the selector"}
 """Bodies that are bought devices, turned inside."""
 
-UNDER_WORK = {"weaver/magazine", "cam/cam", "hammer/comb"} | {
+UNDER_WORK = {"cam/cam", "hammer/comb"} | {
     f"weaver/{name} gripper's finger" for name in ("left side", "right side", "centre")
 }
 
@@ -47,6 +59,34 @@ def tree_of(machine: str, settings: tuple[tuple[str, str], ...]) -> Tree:
 
 def bought(tree: Tree, *kinds: str) -> Iterator[Part]:
     return (part for part, _ in tree.occurrences() if part.purchase is not None and part.process in kinds)
+
+
+@pytest.mark.parametrize(("machine", "settings"), TREES)
+def test_something_holds_every_hub_along_its_shaft(machine: str, settings: Any) -> None:
+    assert loose_hubs(tree_of(machine, settings)) == set()
+
+
+def test_a_hub_between_nothing_is_found() -> None:
+    """A keyed ring on a shaft: loose; beside a shoulder only: loose; between shoulder and nut: held; by a set screw."""
+    end = keyed_end(0.02, 1.0, 490e6)
+    long = replace(end, length=0.1)
+    steel = MATERIALS["structural steel"]
+    hub = Part("hub", "hub", "turned part", "", Prism(disc(0.02, *round_bore(0.02).cutouts), 0.02), steel)
+    plain = catalogue.keyed_journal(long)
+    shafts = plain, Sum((Placed(bar(0.03, 0.01)), Placed(plain, (placement(z=0.01),))))
+    nut = Part("nut", "nut", "turned part", "", tube(0.03, 0.005, 0.01), steel)
+    screwed = replace(hub, seats={SET_SCREW: Seat(placement(), 0.004)})
+    cases = (
+        (shafts[0], hub, (), True),
+        (shafts[1], hub, (), True),
+        (shafts[1], hub, (Occurrence(nut, (placement(z=0.03),)),), False),
+        (shafts[0], screwed, (), False),
+    )
+    for shape, ring, others, loose in cases:
+        shaft = Part("shaft", "shaft", "turned part", "", shape, steel)
+        parts = (Occurrence(shaft), Occurrence(ring, (placement(z=0.01),)), *others)
+        tree = Tree((RigidBody("turning", parts, joint=Joint(JointKind.PIN)),))
+        assert loose_hubs(tree) == ({"hub"} if loose else set())
 
 
 # DIN 6885-1: section, shortest and longest key [mm], typed here from the standard a second time
@@ -167,3 +207,24 @@ def test_every_pulley_of_a_machine_has_teeth(machine: str, settings: Any) -> Non
         assert np.count_nonzero(inside & ~np.roll(inside, 1)) == teeth
         assert 2 * radii.max() == pytest.approx(belt.pitch * teeth / math.pi - 2 * belt.groove.offset, abs=3e-5)
         assert len(toothed.section.holes) == 1
+
+
+@pytest.mark.parametrize(("machine", "settings"), TREES)
+def test_the_sheet_of_a_shaft_states_where_its_keyway_lies(machine: str, settings: Any) -> None:
+    """Length and begin, measured on the mesh: where points lie on the floor of the groove."""
+    for piece in pieces_of(tree_of(machine, settings)):
+        grooved = [one for one in piece.features if getattr(one, "kind", None) is FeatureKind.SHAFT_KEYWAY]
+        if not grooved:
+            continue
+        (sheet,) = sheets_of(drawn_piece(piece, machine, "shaft"), Issue(), None)
+        points = piece.shape.mesh().points
+        stated = [re.search(r"keyway .*, (\S+) long, (\S+) from the left end", str(text.text)) for text in sheet.texts]
+        seats = sorted((float(one[2]), float(one[1])) for one in stated if one)
+        half = grooved[0].nominal / 2
+        corners = points[(np.abs(np.abs(points[:, 1]) - half) < 1e-7) & (points[:, 0] > 0)]
+        levels = np.unique(np.round(corners[:, 2], 7))
+        assert seats, piece.title
+        for begin, long in seats:
+            low = points[:, 2].min() + begin / 1e3
+            assert np.abs(levels - low).min() < 1e-4
+            assert np.abs(levels - low - long / 1e3).min() < 1e-4

@@ -3,20 +3,22 @@
 from dataclasses import replace
 from pathlib import Path
 
+import ezdxf
 import numpy as np
+import pypdfium2 as pdfium
 import pytest
-
-pytest.importorskip("OCP")
-
-from sheet_judge import faults_of, made_parts
+from sheet_judge import drawn_sheet, faults_of, made_parts, read
+from tests.unit.test_drawing_sheets import points_of
 
 from ilmek.elements.materials import find_material
+from ilmek.io.drawings.pdf import write_sheets_pdf
 from ilmek.part.part import Part
 from ilmek.part.plates import plates_of
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, rounded_hull
+from ilmek.report.sheet import DrawingSheet
 from ilmek.units import mm
 from ilmek.viz.drawings.drawn_part import drawn_plate
 
@@ -32,15 +34,24 @@ DESIGNS: dict[str, tuple[str, dict[str, str]]] = {
 @pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_sheets_have_the_sizes_and_bores_of_their_solids(name: str, tmp_path: Path) -> None:
+    """Sizes over all, bores, and a toolmaker's points, of which one may be missing."""
     machine, values = DESIGNS[name]
-    checked, faults = 0, {}
+    sheets, files, faults = list[DrawingSheet](), list[Path](), {}
     for drawn, part in made_parts(machine, **values):
-        checked += 1
-        missing = faults_of(drawn, part, tmp_path)
+        sheets.append(drawn_sheet(drawn))
+        files.append(tmp_path / f"{len(files)}.dxf")
+        missing = faults_of(drawn, part, read(sheets[-1], files[-1]))
         if missing:
             faults[part.id] = missing
+    write_sheets_pdf(tmp_path / "book.pdf", tuple(sheets), name)
+    book = pdfium.PdfDocument(tmp_path / "book.pdf")
+    for number, (sheet, file) in enumerate(zip(sheets, files, strict=True)):
+        points = points_of(ezdxf.readfile(file), book[number].get_textpage().get_text_range().replace("\r", ""))
+        missing = [point for point, there in points.items() if not there]
+        if len(missing) > 1:
+            faults[sheet.number] = missing
     assert not faults
-    assert checked > 25
+    assert len(sheets) > 25
 
 
 def test_a_size_or_a_bore_that_is_left_out_is_found(tmp_path: Path) -> None:
@@ -54,8 +65,10 @@ def test_a_size_or_a_bore_that_is_left_out_is_found(tmp_path: Path) -> None:
     own = link(200 * mm, 10 * mm, 8 * mm)
     (plate,) = plates_of(Tree((RigidBody("body", (Occurrence(own),)),)))
     drawn = drawn_plate(plate, "probe", "link")
-    assert not faults_of(drawn, own, tmp_path)
-    assert faults_of(drawn, link(201 * mm, 10 * mm, 8 * mm), tmp_path) == ["size 231.000", "x of bores [0.0, 201.0]"]
-    assert faults_of(drawn, link(200 * mm, 11 * mm, 8 * mm), tmp_path) == ["bore 11.0"]
-    assert faults_of(drawn, link(200 * mm, 10 * mm, 9 * mm), tmp_path) == ["size 9.000"]
-    assert len(faults_of(replace(drawn, shape=Prism(Profile(circle(0j, 15 * mm)), 8 * mm)), own, tmp_path)) == 4
+    sheet = read(drawn_sheet(drawn), tmp_path / "link.dxf")
+    assert not faults_of(drawn, own, sheet)
+    assert faults_of(drawn, link(201 * mm, 10 * mm, 8 * mm), sheet) == ["size 231.000", "x of bores [0.0, 201.0]"]
+    assert faults_of(drawn, link(200 * mm, 11 * mm, 8 * mm), sheet) == ["bore 11.0"]
+    assert faults_of(drawn, link(200 * mm, 10 * mm, 9 * mm), sheet) == ["size 9.000"]
+    disc = drawn_sheet(replace(drawn, shape=Prism(Profile(circle(0j, 15 * mm)), 8 * mm)))
+    assert len(faults_of(drawn, own, read(disc, tmp_path / "disc.dxf"))) >= 4

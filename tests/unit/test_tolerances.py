@@ -9,8 +9,8 @@ from default_machines import default_design
 
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.fits import fit, tolerance_zone
-from ilmek.elements.hexagon_screws import SCREWS
 from ilmek.elements.linear_guides import LINEAR_GUIDES
+from ilmek.elements.machine_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.plates import round_bore

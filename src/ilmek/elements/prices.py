@@ -114,6 +114,8 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "magnet": PriceRates(each=1.0, per_kg=120.0),
     "stepper": PriceRates(each=90.0, per_W=0.5),
     "servo": PriceRates(each=350.0, per_W=0.5),
+    "micro servo": PriceRates(each=6.0, per_W=4.0),
+    "micro stepper": PriceRates(each=12.0, per_W=4.0),
     "solenoid": PriceRates(each=20.0, per_W=2.0),
     "reducer": PriceRates(each=180.0, per_W=0.2),
     "clutch and brake": PriceRates(each=350.0, per_kg=10.0),

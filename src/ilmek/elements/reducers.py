@@ -1,4 +1,4 @@
-"""Reducers: torque, efficiency, self-locking; stock ratios of planetary and worm gears.
+"""Reducers: torque, efficiency, self-locking; stock ratios of planetary gears.
 
 A reducer of ratio i and efficiency eta: M_motor = M_load / (i eta). With the same friction losses in back-driving,
 eta_back = 2 - 1/eta, so a self-locking reducer (eta_back <= 0) has eta <= 1/2: a worm can be self-locking or efficient,

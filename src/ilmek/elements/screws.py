@@ -1,4 +1,4 @@
-"""Screws: force and torque with friction in both directions, buckling; steep screws as rotating guides.
+"""Screws: force and torque with friction in both directions, buckling.
 
     T = F d/2 tan(λ + ρ),   η = tan λ / tan(λ + ρ);   back-driven:  T' = F d/2 tan(λ - ρ),   η' = tan(λ - ρ) / tan λ
     tan λ = P / (π d),   tan ρ = μ / cos α

@@ -1,7 +1,6 @@
 """Critical speeds of a shaft: natural frequencies of bending, with masses, on any supports.
 
     uniform, alone:   w = (βl)² sqrt(E I / m') / l²,   βl = n π (hinged), cos βl cosh βl = -1 (cantilever), +1 (clamped)
-    Dunkerley:  1/w² ≈ Σ 1/wi² (too low)          Rayleigh:  w² ≈ g Σ m y / Σ m y² (too high)
 
 `frequencies` is the finite element solution: cubic beams with their consistent mass. Its error falls with the fourth
 power of their length, (π / n)⁴ / 1440 for n elements in a half wave: 2e-7 for the first mode of one span. Gyroscopic

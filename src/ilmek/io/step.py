@@ -116,7 +116,10 @@ def part_solid(part: Part) -> TopoDS_Shape:
 def shape_solid(shape: object) -> TopoDS_Shape:
     """A shape of the package `part` [mm]: prisms, turned profiles; twisted bars and sums as one compound of solids."""
     if isinstance(shape, Prism):
-        return BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
+        solid = BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
+        for hole in shape.drilled:
+            solid = BRepAlgoAPI_Cut(solid, _placed(shape_solid(hole.shape), hole.position)).Shape()
+        return solid
     if isinstance(shape, Turned):
         around_x = BRepPrimAPI_MakeRevol(_face(shape.profile), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0))).Shape()
         return _placed(around_x, ALONG_WIDTH.inverse)

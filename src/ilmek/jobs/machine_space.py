@@ -7,6 +7,7 @@ from types import MappingProxyType
 from ilmek.errors import ParameterError
 from ilmek.io.glb import glb_bytes
 from ilmek.io.mjcf import mjcf_text
+from ilmek.part.bolting import bolted
 from ilmek.part.space import frames_of, parts_of
 from ilmek.part.tree import Tree
 from ilmek.report import Report
@@ -27,6 +28,7 @@ def machine_glb(tree: Tree, report: Report) -> bytes:
 
 def machine_file(option: str, tree: Tree, report: Report, pose: str | None = None) -> bytes | str:
     """The content of the file of an option: `--glb`, `--step` or `--mjcf`; pose  as of `solids`."""
+    tree = bolted(tree)
     return machine_glb(tree, report) if option == "--glb" else bodies_file(option, tree, report, pose)
 
 

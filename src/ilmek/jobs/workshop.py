@@ -20,7 +20,7 @@ from ilmek.io.schema import Table
 from ilmek.jobs.drawings import write_drawings
 from ilmek.jobs.machine_space import machine_file
 from ilmek.jobs.workshop_papers import PAPER_KINDS, write_index, write_papers
-from ilmek.part.plates import tolerated
+from ilmek.part.plates import of_tree, tolerated
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import area
 from ilmek.progress import SILENT, Progress
@@ -186,8 +186,9 @@ def write_workshop(
         raise OutputError(
             f"{report.machine} has no plates and no cam tables", do="leave out --workshop; its page: --report FILE.html"
         )
-    plates, tables = _own_names([*map(tolerated, report.all_plates)]), _own_names(report.all_cam_tables)
-    pieces = _own_names([*map(tolerated, report.all_pieces)])
+    plates = _own_names([tolerated(of_tree(plate, papers.tree)) for plate in report.all_plates])
+    pieces = _own_names([tolerated(of_tree(piece, papers.tree)) for piece in report.all_pieces])
+    tables = _own_names(report.all_cam_tables)
     allowed = tolerance or Tolerance()
     with joined(outputs, force=force) as made, made.folder(folder) as work:
         left_out: list[str] = []

@@ -11,6 +11,8 @@ from ilmek.io.table_csv import rows_csv
 from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.tree_manual import UP, assembly_check, tree_manual
+from ilmek.part.bolting import bolted
+from ilmek.part.fastenings import fastening_check
 from ilmek.part.insertion import insertions
 from ilmek.part.part_lists import part_lists
 from ilmek.part.projection import widest_view
@@ -37,11 +39,12 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
         return machine.papers(design, report)
     if machine.tree is None:
         return NO_PAPERS
-    tree = machine.tree(design)
-    steps = insertions(tree, UP)
-    pages = tree_manual(tree, steps, widest_view(tree)), spares_of(tree)
+    bare = machine.tree(design)
+    steps, tree = insertions(bare, UP), bolted(bare)
+    pages = tree_manual(bare, steps, widest_view(bare), tree), spares_of(tree)
     shown = tuple(page for page in pages if page is not None)
-    return Papers(shown, part_lists(tree, PRICES), (assembly_check(steps),), tree)
+    checks = fastening_check(tree), assembly_check(steps)
+    return Papers(shown, part_lists(tree, PRICES), checks, tree)
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:

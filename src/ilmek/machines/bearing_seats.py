@@ -2,7 +2,7 @@
 
 A shaft reaches through bearing and bracket, and ends there, where its reducer is flanged on. An insert
 bearing comes in its flanged housing (UCF), any other sits in a square plate as wide as itself. Four screws hold it on
-the bracket, which has their threads; they bear the shaft's force by friction [`elements.hexagon_screws`].
+the bracket, which has their threads; they bear the shaft's force by friction [`elements.machine_screws`].
 
 Axes of a seat: z along the shaft to the outside, 0 at the side of the bearing that is turned to the inside.
 """
@@ -15,7 +15,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.columns import STEEL
-from ilmek.elements.hexagon_screws import FourScrews
+from ilmek.elements.machine_screws import FourScrews
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement

@@ -6,9 +6,10 @@ that stands, else in the link of the lower level; all others turn on it.
 """
 
 import itertools
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import field
 from types import MappingProxyType
+from typing import TypeAlias
 
 import numpy as np
 
@@ -46,7 +47,9 @@ JOURNAL = "journal"
 TURN = "turn"
 """Drive of a linkage in space: a turn of its crank, or its way to and fro."""
 
-_Z = (0.0, 0.0, 1.0)
+Direction: TypeAlias = tuple[float, float, float]
+
+_Z: Direction = (0.0, 0.0, 1.0)
 
 
 @record
@@ -211,20 +214,48 @@ def linkage_bodies(
     suffix: str = "",
 ) -> tuple[RigidBody, ...]:
     """The moving bodies of `linkage_tree`, z [m] above the plate that stands; suffix: of their ids."""
+    mechanism = motion.plan.mechanism
+
+    def fixed(body: str) -> tuple[Occurrence, ...]:
+        return (*_fixed(parts, mechanism, body), *others.get(body, ()))
+
+    def seats(body: str, joint: str) -> tuple[str, ...]:
+        pin, plate = parts.pins.get(joint), parts.plates.get(body)
+        return (f"{plate.id}:{joint}", f"{pin.id}:{JOURNAL}") if pin and plate else ()
+
+    return jointed_bodies(parts.machine, motion, fixed, seats, angle, z=z, suffix=suffix)
+
+
+def jointed_bodies(
+    machine: str,
+    motion: Motion,
+    occurrences: Callable[[str], tuple[Occurrence, ...]],
+    seats: Callable[[str, str], tuple[str, ...]],
+    angle: FloatArray | None = None,
+    *,
+    line: Callable[[str, str], Direction] = lambda _body, _slide: _Z,
+    z: float = 0.0,
+    suffix: str = "",
+) -> tuple[RigidBody, ...]:
+    """The moving bodies of a linkage at the first sample of a motion, each on the body that carries it.
+
+    occurrences  what is fixed in a body      seats  that meet in the joint by which a body is carried
+    line         direction of the slide by which a body is carried
+    angle        as of `linkage_tree`      z  height above what stands [m]      suffix  of the ids
+    """
     mechanism, carried = motion.plan.mechanism, carriers(motion.plan.mechanism)
     motions = _motions(motion, {body: parent for body, (parent, _) in carried.items()}, angle)
     bodies = []
     for body, (parent, number) in carried.items():
         joint, on_ground = mechanism.joints[number], parent == GROUND
-        kind = JointKind.SLIDE if isinstance(joint, Slide) else JointKind.PIN
-        pin, plate = parts.pins.get(joint.name), parts.plates.get(body)
-        seats = (f"{plate.id}:{joint.name}", f"{pin.id}:{JOURNAL}") if pin and plate else ()
+        slides = isinstance(joint, Slide)
+        kind, along = (JointKind.SLIDE, line(body, joint.name)) if slides else (JointKind.PIN, _Z)
         bodies.append(
             RigidBody(
-                body_id(parts.machine, body) + suffix,
-                (*_fixed(parts, mechanism, body), *others.get(body, ())),
-                body_id(parts.machine, parent) + ("" if on_ground else suffix),
-                Joint(kind, _Z, motions.get(body), seats),
+                body_id(machine, body) + suffix,
+                occurrences(body),
+                body_id(machine, parent) + ("" if on_ground else suffix),
+                Joint(kind, along, motions.get(body), seats(body, joint.name)),
                 (placement(z=z if on_ground else 0.0).after(resting(motion, body, parent)),),
             )
         )

@@ -5,12 +5,13 @@ The order and the moves are those of `part.insertion`.
 
 import math
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
 
-from ilmek.elements.hexagon_screws import screw_of
+from ilmek.elements.machine_screws import screw_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion
 from ilmek.part.insertion_units import Direction, InsertedUnit
@@ -111,14 +112,30 @@ def machine_of(body: str) -> str:
     return machine if dash else OWN
 
 
-def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View) -> Paper:
-    """A section for the rows of each machine that follow each other, with a picture from a side and its steps."""
+def _with_screws(steps: Iterable[AssemblyStep], tree: Tree) -> tuple[AssemblyStep, ...]:
+    """The rows with the screws of fixed joints: each comes with the second of the parts that it joins."""
+    rows, come = list(steps), dict[str, int]()
+    for number, step in enumerate(rows):
+        for part in () if step.built else step.parts:
+            come.setdefault(part.id, number)
+    screws: dict[int, dict[Part, int]] = defaultdict(dict)
+    for part, pieces in tree.occurrences():
+        if part.joins:
+            screws[max(come.get(name, 0) for name in part.joins)][part] = pieces
+    return tuple(replace(step, parts={**step.parts, **screws[number]}) for number, step in enumerate(rows))
+
+
+def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tree) -> Paper:
+    """A section for the rows of each machine that follow each other, with a picture from a side and its steps.
+
+    screwed  the tree with the screws of its fixed joints, which the steps are without
+    """
     seen, standing = outlines(tree, view), set[str]()
-    fasteners = frozenset(part.id for part, _ in tree.occurrences() if part.process == FASTENER)
-    titles = {part.id: part.title for part, _ in tree.occurrences()}
-    joins = {name: [titles[one] for one in own] for name, own in joined_by(tree, fasteners).items()}
+    fasteners = frozenset(part.id for part, _ in screwed.occurrences() if part.process == FASTENER)
+    titles = {part.id: part.title for part, _ in screwed.occurrences()}
+    joins = {name: [titles[one] for one in own] for name, own in joined_by(screwed, fasteners).items()}
     sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
-    numbered = enumerate(assembly_steps(steps), 1)
+    numbered = enumerate(_with_screws(assembly_steps(steps), screwed), 1)
     for machine, grouped in groupby(numbered, key=lambda row: machine_of(row[1].bodies[0])):
         rows = tuple(grouped)
         coming = {body for _, step in rows for body in step.bodies}

@@ -7,14 +7,14 @@ import numpy as np
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.belts import BeltType
 from ilmek.elements.columns import STEEL
-from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
+from ilmek.elements.machine_screws import MachineScrew
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.motors import STEPPER, Motor
+from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.reducers import Reducer
 from ilmek.elements.springs import CompressionSpring
-from ilmek.part.part import CLAMP, SET_SCREW, Bought, Part, Seat, bought_part
+from ilmek.part.part import CLAMP, SET_SCREW, Bought, HolePattern, Part, Seat, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, disc, rectangle, shape_box, stepped, tube
@@ -66,14 +66,15 @@ def motor(  # noqa: PLR0917
     together  how many of them move one body      shaft  diameter and length of its end in a hub [m]; None: not drawn
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     """
+    holes = flange_holes(row)
     if row is not None:
         peak = "holding" if row.kind == STEPPER else "peak"
         data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}"
-        bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data)
+        bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data, holes=holes)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
         required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
-        bought = Bought(required, power=torque * speed, drives=together)
+        bought = Bought(required, power=torque * speed, drives=together, holes=holes)
         room, kind = box(SPECIAL_FACE, SPECIAL_FACE, 2 * SPECIAL_FACE), "servo"
     stub = (Placed(bar(*shaft)),) if shaft else ()
     behind = Sum((Placed(room, (placement(z=-room.length),)), *stub))
@@ -112,7 +113,7 @@ def reducer(  # noqa: PLR0917
     given = row.torque * by.ratio * by.efficiency if row else math.nan
     motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
     data = ", ".join(filter(None, (shaft, *motors)))
-    bought = Bought(f"{by.kind} {by.ratio:g}:1", power=row.power if row else 0.0, data=data)
+    bought = Bought(f"{by.kind} {by.ratio:g}:1", power=row.power if row else 0.0, data=data, holes=flange_holes(row))
     return bought_part(name, title, "reducer", Sum((Placed(room), Placed(output[1]))) if output else room, bought)
 
 
@@ -188,6 +189,12 @@ def set_screw(hub: float) -> float:
     return next(thread for most, thread in _SET_SCREWS if hub <= most + 1e-9)
 
 
+def flange_holes(row: Motor | None) -> HolePattern | None:
+    """The holes of the flange of a motor, or of one that is in no table."""
+    pattern = FLANGE_HOLES.get(row.face if row else SPECIAL_FACE)
+    return None if pattern is None else HolePattern(pattern[0], pattern[0], pattern[1])
+
+
 def keyed_journal(end: KeyedEnd) -> Prism:
     """The end of a shaft about z from z = 0, with its groove towards +x; a second one opposite."""
     return Prism(Profile(keyed_bore(end.diameter / 2, end.keyway.width, -end.keyway.in_shaft, end.number)), end.length)
@@ -230,7 +237,7 @@ def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
     return Placed(Prism(Profile(rectangle(row.flange, row.flange), bores), FLANGE))
 
 
-def screw(name: str, title: str, row: HexagonScrew, length: float) -> Part:
+def screw(name: str, title: str, row: MachineScrew, length: float) -> Part:
     """A hexagon head screw along z: its head below z = 0, its thread above; the mass is that of both in steel."""
     shape = stepped((row.across, row.head), (row.diameter, length))
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
@@ -251,7 +258,8 @@ def spring_part(name: str, title: str, row: CompressionSpring, length: float) ->
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
     """The rail of a linear guide along z, its base on y = 0, upwards."""
     section = polygon(rectangle(row.rail, row.rail_height).points + 0.5j * row.rail_height)
-    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length)
+    holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True)
+    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=holes)
     return Part(
         name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
     )
@@ -263,5 +271,5 @@ def guide_block(name: str, title: str, row: LinearGuide) -> Part:
     corners = [-half, -inner, -inner, inner, inner, half, half, -half]
     heights = [low, low, row.rail_height, row.rail_height, low, low, row.height, row.height]
     section = Profile(polygon(np.array(corners) + 1j * np.array(heights)))
-    shape = Prism(section, row.block_length)
-    return Part(name, title, "guide carriage", shape=shape, purchase=Bought(f"carriage {row.name}", row.block_mass))
+    bought = Bought(f"carriage {row.name}", row.block_mass, holes=HolePattern(*row.holes, row.block_screw))
+    return Part(name, title, "guide carriage", shape=Prism(section, row.block_length), purchase=bought)

@@ -16,7 +16,7 @@ from ilmek.part.clearances import Approach
 from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.tree import Tree
+from ilmek.part.tree import STANDING, Tree
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -53,7 +53,8 @@ class Contacts:
 class _Piece:
     """A piece of a part where it stands.
 
-    rigid  names all that moves with it        along  direction in which `MANY` of it follow each other
+    rigid  names all that moves with it        held  names all that no joint lets move against it
+    along  direction in which `MANY` of it follow each other
     """
 
     part: str
@@ -61,6 +62,7 @@ class _Piece:
     position: Placement
     collider: Collider
     rigid: tuple[tuple[str, int], ...]
+    held: tuple[tuple[str, int], ...]
     along: Float[np.ndarray, " 3"] | None = None
 
 
@@ -82,9 +84,12 @@ def contacts(tree: Tree, gap: float = TOUCHING) -> Contacts:
 def joined_by(tree: Tree, names: frozenset[str]) -> dict[str, tuple[str, ...]]:
     """By the id of each of some fasteners the ids of the parts that its pieces join, in the tree's order.
 
-    They are those that it touches and that move with it; and what stands round the middle of it, such as the room of a
-    reducer round the key in its hollow shaft.
+    They are those that it states; or those that it touches and that move with it, and what stands round the middle of
+    it, such as the room of a reducer round the key in its hollow shaft.
     """
+    stated = {part.id: part.joins for part, _ in tree.occurrences() if part.id in names and part.joins}
+    if stated:
+        return joined_by(tree, names - stated.keys()) | stated
     pieces = tuple(_pieces(tree))
     boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
     found: dict[str, set[str]] = {name: set() for name in names}
@@ -140,6 +145,42 @@ def _touch(own: _Piece, its: _Piece) -> Touch:
     return Touch(own.part, its.part, lies, np.sort(ends, axis=0))
 
 
+@record
+class StandingTouches:
+    """Pieces that stand to each other: the ids of their parts, and the pairs of their numbers that touch.
+
+    lowest  of each, over the lowest of all [m]      ground  they stand
+    """
+
+    parts: tuple[str, ...]
+    pairs: tuple[tuple[int, int], ...]
+    lowest: tuple[float, ...]
+    ground: bool
+
+
+def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
+    """The pieces that no joint lets move against each other, and which of them touch."""
+    pieces = tuple(_pieces(tree))
+    groups: dict[tuple[tuple[str, int], ...], dict[int, int]] = {}
+    for number, piece in enumerate(pieces):
+        own = groups.setdefault(piece.held, {})
+        own[number] = len(own)
+    boxes = _boxes(pieces) if pieces else np.empty((0, 2, 3))
+    pairs = _near(boxes, TOUCHING) if pieces else np.empty((0, 2), int)
+    together = np.array([pieces[one].held == pieces[two].held for one, two in pairs.tolist()], bool)
+    pairs = pairs[together]
+    touch, _, _ = _measured(pieces, pairs, TOUCHING, shared=False)
+    for held, own in groups.items():
+        between = ((one, two) for one, two in pairs[touch].tolist() if pieces[one].held == held)
+        height = boxes[list(own), 0, 1]
+        yield StandingTouches(
+            tuple(pieces[number].part for number in own),
+            tuple((own[one], own[two]) for one, two in between),
+            tuple((height - height.min()).tolist()),
+            ground=not held,
+        )
+
+
 def open_parts(tree: Tree) -> tuple[str, ...]:
     """Ids of the parts whose mesh encloses no volume: what they have in common with others is not known."""
     shaped = ((part.id, part.shape) for part, _ in tree.occurrences() if part.shape is not None)
@@ -149,7 +190,7 @@ def open_parts(tree: Tree) -> tuple[str, ...]:
 def _pieces(tree: Tree) -> Iterator[_Piece]:
     for chain in chains(tree):
         here = poses(chain, "", np.zeros(1))
-        body, rigid = Placement(here.origin[0], here.rotation[0]), _rigid(chain)
+        body, rigid, held = Placement(here.origin[0], here.rotation[0]), _rigid(chain), _held(chain)
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 own, positions = collider(occurrence.part.shape), occurrence.positions
@@ -159,7 +200,7 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
                     else None
                 )
                 for position in positions:
-                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, along)
+                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, held, along)
 
 
 def _boxes(pieces: Sequence[_Piece]) -> Float[np.ndarray, "pieces 2 3"]:
@@ -181,6 +222,12 @@ def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
     return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
 
 
+def _held(chain: Chain) -> tuple[tuple[str, int], ...]:
+    """The chain up to its last link that a joint lets move."""
+    jointed = [k for k, link in enumerate(chain) if link.body.joint.kind not in STANDING]
+    return tuple((link.name, link.index) for link in chain[: jointed[-1] + 1 if jointed else 0])
+
+
 def _unit(vector: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
     return np.asarray(vector / np.linalg.norm(vector))
 
@@ -199,7 +246,7 @@ def _near(boxes: Float[np.ndarray, "pieces 2 3"], gap: float) -> Int[np.ndarray,
 
 
 def _measured(
-    pieces: Sequence[_Piece], pairs: Int[np.ndarray, "pairs 2"], gap: float
+    pieces: Sequence[_Piece], pairs: Int[np.ndarray, "pairs 2"], gap: float, *, shared: bool = True
 ) -> tuple[BoolArray, Float[np.ndarray, " pairs"], Float[np.ndarray, " pairs"]]:
     """Of each pair whether it touches, and mean depth [m] and volume [m³] in common where it stands to each other."""
     rotation = np.array([piece.position.rotation for piece in pieces])
@@ -214,7 +261,7 @@ def _measured(
         own, its = (pieces[number] for number in pairs[k])
         lies = own.collider, its.collider, turned[k], moved[k]
         apart = gap_between(*lies, gap)
-        together = own.rigid == its.rigid and (apart <= 0 or inside(*lies))
+        together = shared and own.rigid == its.rigid and (apart <= 0 or inside(*lies))
         return apart <= gap, *(common.depth(*lies) if together else (0.0, 0.0))
 
     for alike, in_rows in _alike(pieces, pairs, turned, moved):

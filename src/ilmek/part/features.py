@@ -5,6 +5,7 @@ among the contours of a prism's section; of a sum those of its members. Arcs tha
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ilmek.arrays import Float
 from ilmek.elements.keyways import Keyway, keyway_for
 from ilmek.errors import ParameterError
 from ilmek.part.placement import IDENTITY, Placement, placement
-from ilmek.part.shapes import Prism, Shape, Sum, Turned
+from ilmek.part.shapes import Drilling, Prism, Shape, Sum, Turned
 from ilmek.plane.contours import STRAIGHT, KeyedCircle, as_hole, as_keyed, bounds, counter_clockwise
 from ilmek.plane.vectors import dot, following
 from ilmek.records import record
@@ -65,6 +66,9 @@ def _features(shape: Shape) -> Iterator[FeatureOfSize]:
         outer = () if shape.section.smooth else (shape.section.outline,)
         yield from (one for contour in outer for one in _of_contour(contour, shape.length, inside=False))
         yield from (one for contour in shape.section.holes for one in _of_contour(contour, shape.length, inside=True))
+        for hole in shape.drilled:
+            walls = (own for own in _turned(hole.shape) if not own.inside)
+            yield from (replace(own, inside=True).placed(hole.position) for own in walls)
     elif isinstance(shape, Sum):
         for member in shape.members:
             own = tuple(_features(member.shape))
@@ -119,6 +123,19 @@ def _is_square(contour: Contour) -> bool:
     sides = following(contour.points) - contour.points
     even = np.ptp(np.abs(sides)) < _LEAST
     return bool(even and np.max(np.abs(dot(sides, following(sides)))) < _LEAST * np.abs(sides[0]))
+
+
+def drillings(shape: object) -> tuple[Drilling, ...]:
+    """The drilled holes of a shape, in its axes; those of its sections are not among them."""
+    if isinstance(shape, Prism):
+        return shape.drilled
+    if isinstance(shape, Sum):
+        return tuple(
+            replace(hole, position=member.positions[0].after(hole.position))
+            for member in shape.members
+            for hole in drillings(member.shape)
+        )
+    return ()
 
 
 @record

@@ -16,7 +16,7 @@ import numpy as np
 from scipy.spatial import ConvexHull
 
 from ilmek.arrays import Float
-from ilmek.elements.hexagon_screws import screw_of
+from ilmek.elements.machine_screws import screw_of
 from ilmek.part.colliders import MANY, collider
 from ilmek.part.part import Part
 from ilmek.part.part_lists import FASTENER
@@ -24,7 +24,7 @@ from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.shapes import Shape
 from ilmek.part.straight_moves import FIT, FittedSolid, MovedSolids, Vector, fitted
-from ilmek.part.tree import JointKind, Tree
+from ilmek.part.tree import STANDING, Tree
 from ilmek.records import record
 from ilmek.report.scene import Solid
 
@@ -139,14 +139,14 @@ def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterat
         grouped[links[: next(several, len(links) - 1) + 1]].append(links)
     for prefix, own in grouped.items():
         link, axes = prefix[-1], _axes(prefix)
-        carriers = frozenset(before.name for before in prefix[depth:-1] if before.body.joint.kind not in _STANDING)
+        carriers = frozenset(before.name for before in prefix[depth:-1] if before.body.joint.kind not in STANDING)
         pieces = tuple(piece for links in own for piece in _pieces(links))
         if pieces and len(prefix) > depth and len(link.body.positions) > 1:
             inner = tuple(_units(own, len(prefix), numbers)) if link.index == 0 else ()
             yield InsertedUnit(next(numbers), link.name, pieces, axes, carriers, inner)
             continue
         single = tuple(_of_body(pieces, axes, carriers, numbers))
-        if len(prefix) <= depth or link.body.joint.kind in _STANDING:
+        if len(prefix) <= depth or link.body.joint.kind in STANDING:
             yield from single
             continue
         kept = tuple(unit for unit in single if not unit.fastens)
@@ -154,9 +154,6 @@ def _units(every: Sequence[Chain], depth: int, numbers: Iterator[int]) -> Iterat
             whole = tuple(piece for unit in kept for piece in unit.pieces)
             yield InsertedUnit(next(numbers), link.name, whole, axes, carriers, kept if len(kept) > 1 else ())
         yield from (unit for unit in single if unit.fastens)
-
-
-_STANDING = {JointKind.FIXED, JointKind.MISSING}
 
 
 def _pieces(links: Chain) -> Iterator[StandingPart]:

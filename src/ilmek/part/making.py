@@ -17,6 +17,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.making import BENDING, COATING, GRINDING, HARDENING, LASER, MILLING, SAWING, TURNING, WELDING
 from ilmek.elements.materials import Material
 from ilmek.part.blanks import BAR, PLATE, Blank, flat_of, is_round, milled_of, sheet_of, stock_of, turned_of
+from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of, members_of
 from ilmek.part.part import Part
@@ -177,7 +178,9 @@ def steps_of(part: Part) -> tuple[ProcessStep, ...]:
 def _steps(shape: Shape, material: Material, process: str, machined: bool) -> tuple[ProcessStep, ...]:
     treated = (ProcessStep(HARDENING, mass=material.density * shape.volume),) if material.treatment else ()
     seats = _seats(shape) if machined else ()
-    return (*ROUTES[process](shape, material), *seats, *treated)
+    holes = len(drillings(shape))
+    drilled = (ProcessStep(MILLING, features=holes),) if holes else ()
+    return (*ROUTES[process](shape, material), *seats, *drilled, *treated)
 
 
 def _seats(shape: Shape) -> Steps:

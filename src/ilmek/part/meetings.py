@@ -15,7 +15,7 @@ from ilmek.part.features import FeatureOfSize, faces_of, features_of_size
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.tree import JointKind, Tree
+from ilmek.part.tree import STANDING, JointKind, Tree
 from ilmek.records import record
 from ilmek.units import um
 
@@ -135,14 +135,13 @@ def _joint(bore: _Placed, inner: _Placed) -> tuple[JointKind, str]:
 def _relative(chain: Chain, inner: Chain) -> tuple[JointKind, str]:
     """How the ends of two chains move in each other, and the id of the body that does."""
     common = sum(1 for one, other in zip(chain, inner, strict=False) if one == other)
-    moving = [link for own in (inner, chain) for link in own[common:] if link.body.joint.kind not in _STANDING]
+    moving = [link for own in (inner, chain) for link in own[common:] if link.body.joint.kind not in STANDING]
     if not moving:
         return JointKind.FIXED, inner[-1].name
     kinds = {link.body.joint.kind for link in moving}
     return JointKind.PIN if kinds & _TURNING else JointKind.SLIDE, moving[-1].name
 
 
-_STANDING = {JointKind.FIXED, JointKind.MISSING}
 _TURNING = {JointKind.PIN, JointKind.ROLLING, JointKind.TRANSMISSION}
 
 

@@ -1,8 +1,9 @@
 """Closed surfaces of triangles of extruded and turned shapes, in the part's own axes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
+from manifold3d import Manifold, Mesh64
 
 from ilmek.arrays import ComplexArray, IntArray
 from ilmek.part.convex import prism_corners, ring_corners
@@ -71,3 +72,16 @@ def joined(*solids: Solid) -> Solid:
         np.concatenate([solid.points for solid in solids]),
         np.concatenate([solid.triangles + begin for solid, begin in zip(solids, begins, strict=True)]),
     )
+
+
+def without(solid: Solid, cutters: Iterable[Solid]) -> Solid:
+    """A closed surface less what others enclose."""
+    left = _manifold(solid)
+    for cutter in cutters:
+        left -= _manifold(cutter)
+    mesh = left.to_mesh64()
+    return Solid(np.array(mesh.vert_properties[:, :3]), np.array(mesh.tri_verts, dtype=int))
+
+
+def _manifold(solid: Solid) -> Manifold:
+    return Manifold(Mesh64(np.ascontiguousarray(solid.points, float), solid.triangles.astype(np.uint64)))

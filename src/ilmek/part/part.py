@@ -24,6 +24,20 @@ SET_SCREW, CLAMP = "set screw", "clamp"
 
 
 @record
+class HolePattern:
+    """The holes for screws of a bought part, about the middle of the face that it stands on or that carries others.
+
+    across, along  distances of neighbouring holes [m]; 0: one row, at the middle      thread  by name
+    in_rows  the row along the face is repeated over its length, of a rail; else there are two
+    """
+
+    across: float
+    along: float
+    thread: str
+    in_rows: bool = False
+
+
+@record
 class Bought:
     """A bought part, by its row of a catalogue.
 
@@ -31,6 +45,7 @@ class Bought:
     data    what a buyer must know besides: flange, shaft, torque; default: the part's size
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
+    holes   for its screws; None: its maker drills it where its seat is
     """
 
     row: str
@@ -39,6 +54,7 @@ class Bought:
     power: float = 0.0
     drives: int = 0
     data: str = ""
+    holes: HolePattern | None = None
 
 
 @record
@@ -105,6 +121,7 @@ class Part:
     cam: CamMaking | None = None
     throat: float = 0.0
     machined: bool = False
+    joins: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):

@@ -8,7 +8,7 @@ import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
-from ilmek.elements.hexagon_screws import screw_of
+from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.assemblies import drawings_of_parts
 from ilmek.part.bill import line_of

@@ -1,6 +1,7 @@
 """The made parts of a tree for the workshop: flat ones as plates, all others as solids."""
 
 from dataclasses import replace
+from functools import lru_cache
 from typing import TypeVar
 
 from ilmek.part.blanks import size_of
@@ -37,20 +38,34 @@ def pieces_of(tree: Tree, whole: Tree | None = None) -> tuple[WorkPiece, ...]:
 def _piece(part: Part, number: int, whole: Tree) -> WorkPiece:
     assert part.material is not None
     assert part.shape is not None
-    return WorkPiece(
-        plate_name(part),
-        part.title,
-        size_of(part),
-        part.material.designation,
-        number,
-        part.shape,
-        part.shape.volume,
-        part,
-        whole,
-    )
+    designation, volume = part.material.designation, part.shape.volume
+    return WorkPiece(plate_name(part), part.title, size_of(part), designation, number, part.shape, volume, part, whole)
 
 
 View = TypeVar("View", Plate, WorkPiece)
+
+
+def of_tree(made: View, tree: object) -> View:
+    """A plate or piece of a part as that is in a tree, with its holes for what it meets there."""
+    if not isinstance(made.part, Part) or not isinstance(tree, Tree) or made.part.drawing is not None:
+        return made
+    part = _parts(tree).get(made.part.id, made.part)
+    if part is made.part:
+        return made
+    own = _plate(part, made.number, tree) if isinstance(made, Plate) else _piece(part, made.number, tree)
+    return replace(made, **{name: getattr(own, name) for name in _HOLED[type(made)]})
+
+
+_HOLED: dict[type, tuple[str, ...]] = {
+    Plate: ("outline", "holes", "cutouts", "area", "solid", "part", "tree"),
+    WorkPiece: ("shape", "volume", "part", "tree"),
+}
+"""What a part with holes has otherwise."""
+
+
+@lru_cache(maxsize=4)
+def _parts(tree: Tree) -> dict[str, Part]:
+    return {part.id: part for part, _ in tree.occurrences()}
 
 
 def tolerated(made: View) -> View:
@@ -108,6 +123,7 @@ def _plate(part: Part, number: int, whole: Tree) -> Plate:
         paths=part.paths,
         marks=part.marks,
         notes=(*part.notes, *_cutter(part)),
+        solid=_piece(part, number, whole) if shape.drilled else None,
         part=part,
         tree=whole,
     )

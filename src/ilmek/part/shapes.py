@@ -1,6 +1,7 @@
 """Shapes of parts by features, exact, each in the part's own axes; prisms, turned shapes, and sums of shapes.
 
-    prism    a section in x and y from z = 0 to its length: a plate, a bar or tube of stock cut to length, a box
+    prism    a section in x and y from z = 0 to its length: a plate, a bar or tube of stock cut to length, a box; less
+             what is drilled out of it: blind holes, counterbores, holes across
     turned   the profile (z, r) turned about the z axis: shafts, rollers, pins, cylinders, cones
     sum      shapes at positions that touch and do not overlap: weldments, patterns
 
@@ -23,9 +24,9 @@ import numpy as np
 from ilmek.arrays import ComplexArray, Float
 from ilmek.errors import ParameterError
 from ilmek.part.convex import Points, circumscribed, convex_pieces, frustums, prism_corners
-from ilmek.part.mesh import extruded, joined, revolved
+from ilmek.part.mesh import extruded, joined, revolved, without
 from ilmek.part.moments import Moments, together
-from ilmek.part.placement import IDENTITY, Placement
+from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.plane.contours import along, bounds, circle, counter_clockwise, polygon
 from ilmek.plane.solids import thinned
@@ -78,10 +79,14 @@ class Shape(Protocol):
 
 @record
 class Prism:
-    """A section between z = 0 and its length [m]. Raises ParameterError for a length that is not above 0."""
+    """A section between z = 0 and its length [m], less holes that are apart from each other and within it.
+
+    Raises ParameterError for a length that is not above 0.
+    """
 
     section: Profile
     length: float
+    drilled: tuple["Drilling", ...] = ()
 
     def __post_init__(self) -> None:
         _require_above_zero("a prism's length", self.length)
@@ -89,7 +94,7 @@ class Prism:
     @property
     def volume(self) -> float:
         """Volume [m³]."""
-        return self.section.area * self.length
+        return self.section.area * self.length - math.fsum(hole.shape.volume for hole in self.drilled)
 
     @property
     def moments(self) -> Moments:
@@ -97,24 +102,65 @@ class Prism:
         m, length = self.section.moment, self.length
         xz, yz = length**2 / 2 * m(1, 0), length**2 / 2 * m(0, 1)
         xx, xy, yy, zz = length * m(2, 0), length * m(1, 1), length * m(0, 2), length**3 / 3 * m(0, 0)
-        return Moments(
+        whole = Moments(
             length * m(0, 0),
             length * np.array([m(1, 0), m(0, 1), length / 2 * m(0, 0)]),
             np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]),
         )
+        return whole + together(hole.shape.moments.placed(hole.position) for hole in self.drilled) * -1.0
 
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles; arcs become chords inside of them."""
         loops = (along(contour, deviation) for contour in self.section.contours)
-        return extruded([_fewer(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
+        whole = extruded([_fewer(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
+        return without(whole, [hole.cutter(deviation) for hole in self.drilled]) if self.drilled else whole
 
     def pieces(self, deviation: float = CHORD) -> tuple[Points, ...]:
-        """Prisms over convex pieces of the section."""
+        """Prisms over convex pieces of the section; what is drilled is filled."""
         outline, *holes = self.section.contours
         around = circumscribed(outline, deviation)
         around = _fewer(around, deviation) if self.section.smooth else around
         pieces = convex_pieces(around, [along(hole, deviation) for hole in holes])
         return tuple(prism_corners(piece, self.length) for piece in pieces)
+
+
+@record
+class Drilling:
+    """A round hole in steps, apart from others.
+
+    position  of its mouth, z into the material      steps  diameter and length of each from there [m]
+    bore      diameter of the hole of the section that it is round, as a counterbore is [m]; 0: none
+    through   it ends in the open, too
+    """
+
+    position: Placement
+    steps: tuple[tuple[float, float], ...]
+    bore: float = 0.0
+    through: bool = False
+
+    @property
+    def shape(self) -> "Turned":
+        """What is taken away, in its own axes."""
+        return _taken(self.steps, self.bore)
+
+    def cutter(self, deviation: float) -> Solid:
+        """A closed surface about what is taken away, and beyond it where it is open."""
+        first, *others = ((diameter, float(length)) for diameter, length in self.steps)
+        steps = [(first[0], first[1] + _OPEN), *others]
+        if self.through:
+            steps[-1] = (steps[-1][0], steps[-1][1] + _OPEN)
+        solid = stepped(*steps).mesh(deviation)
+        return Solid(self.position.after(placement(z=-_OPEN)).points(solid.points), solid.triangles)
+
+
+_OPEN = 0.1 * mm
+"""By how much a cutter begins and ends in the open [m]."""
+
+
+@lru_cache(maxsize=256)
+def _taken(steps: tuple[tuple[float, float], ...], bore: float) -> "Turned":
+    diameter, length = steps[0]
+    return tube(diameter, (diameter - bore) / 2, length) if bore else stepped(*steps)
 
 
 @record

@@ -39,6 +39,10 @@ class JointKind(StrEnum):
     """Nothing holds the body yet: its support is not designed."""
 
 
+STANDING = frozenset({JointKind.FIXED, JointKind.MISSING})
+"""Joints that let nothing move."""
+
+
 @record
 class Joint:
     """The joint of a body to its parent.

@@ -74,6 +74,12 @@ class Weld:
         return (sum(each),) if self.all_round else tuple(each)
 
 
+def welded_together(one: Part, other: Part) -> bool:
+    """Whether two parts are welded where they touch."""
+    processes = {one.process, other.process}
+    return WELDED in processes and processes <= _WITH
+
+
 @lru_cache(maxsize=8)
 def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     """The welds of a tree by the ids of the parts whose sheets have them, like ones once."""

@@ -83,7 +83,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     shared  diameter of the shaft that drives the cranks of a comb [m]; 0: none
     """
     eye, centre, arm = linkage.params.width / 2, shaft(linkage), linkage.lengths["beater"]
-    corner, about, driving = beam_corner(linkage), max(eye, shared / 2) + _AROUND, shared_axis(linkage)
+    corner, about, driving = beam_corner(linkage), max(eye, shared / 2) + _AROUND, shared_axis(linkage, shared)
     low, end = corner.imag + top, corner.real + wide
     corners = np.array(
         [
@@ -107,9 +107,18 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
 
 
-def shared_axis(linkage: BeatUp) -> complex:
-    """Axis of the shaft that drives the cranks of a comb, in the side view, beyond their circles [m]."""
-    away = linkage.lengths["crank"] + linkage.params.width + 2 * _AROUND
+def _teeth(linkage: BeatUp, shared: float) -> int:
+    """Teeth of the pulleys on a shaft of a diameter [m] and on the cranks."""
+    radius = max(linkage.params.width / 2, shared / 2 + _AROUND)
+    return max(BELT.least_teeth, math.ceil(2 * math.pi * radius / BELT.pitch))
+
+
+def shared_axis(linkage: BeatUp, shared: float) -> complex:
+    """Axis of the shaft, of a diameter [m], that drives the cranks of a comb, in the side view, beyond their circles;
+    the pulleys have room beside each other [m].
+    """
+    pulleys = 2 * BELT.tip_radius(_teeth(linkage, shared)) + 3 * catalogue.RIM_HEIGHT
+    away = max(linkage.lengths["crank"] + linkage.params.width + 2 * _AROUND, pulleys)
     return shaft(linkage) + away * cmath.exp(0.25j * math.pi)
 
 
@@ -154,12 +163,11 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> I
     """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
     end, thickness = shared_end(linkage, torque, len(stations)), linkage.params.thickness
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
-    axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage)]))[0])
+    axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage, end.shaft)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
     size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
     shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
-    pulleys = max(linkage.params.width / 2, end.shaft / 2 + _AROUND)
-    teeth = min(math.ceil(2 * math.pi * pulleys / BELT.pitch), math.floor(math.pi * abs(axis) / BELT.pitch))
+    teeth = _teeth(linkage, end.shaft)
     tips = BELT.tip_radius(teeth) + 0.05 * mm
     outer, inner = (rounded_hull(np.array([0, axis]), radius) for radius in (tips + BELT_BODY, tips))
     length = belt_length(BELT, teeth, teeth, abs(axis))

@@ -174,7 +174,7 @@ def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Seq
         before = parts[one.part.id].positions if one.part.id in parts else ()
         parts[one.part.id] = replace(one, positions=(*before, *one.positions))
     end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH + NECK
-    axis = complex(in_links_axes(design, np.array([shared_axis(design)]))[0])
+    axis = complex(in_links_axes(design, np.array([shared_axis(design, shared)]))[0])
     belts = shared_drive(design, start.start_torque, stations)
     drive = driving(start_parts(start), end, axis)
     return RigidBody(CARRIAGE, (*beam_occurrences(design, beam), *parts.values(), *belts, *drive))

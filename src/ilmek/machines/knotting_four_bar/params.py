@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from ilmek.errors import ParameterError
+from ilmek.machines.knotting_four_bar.hands.task import HandsTask
 from ilmek.machines.strength_params import LINK_MATERIALS, StrengthParams
 from ilmek.params import Params, Setting, declared, kind, nested
 from ilmek.params.text_lists import read_poses
@@ -128,6 +129,7 @@ class KnottingFourBarParams(Params):
         20 * MPa, above=0.0, at_most=2e9, doc="allowed bending stress of the teeth; a cautious value for acetal"
     )
     warp_pitch: float = warp_pitch_of(2 * mm, "distance of the two warps between the sides, for the proof of the knot")
+    task: HandsTask = nested(HandsTask, doc="hands to search for a knot, in place of this four-bar")
 
     def check_together(self) -> None:
         """Raise ParameterError for branch 0, and where links are given beside poses."""

@@ -7,12 +7,12 @@ body lies at z = 0 with the axes that the body has in the mechanism.
 import cmath
 import math
 from collections.abc import Iterator
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 
-from ilmek.linkage.model import GROUND, Slide
-from ilmek.machines.link_tree import JOURNAL, TURN, body_id
+from ilmek.linkage.model import GROUND
+from ilmek.machines.link_tree import JOURNAL, body_id, jointed_bodies, linkage_closures
 from ilmek.machines.own_linkage.axes import PinAxis, SlideLine
 from ilmek.machines.own_linkage.construction import PLAY, Construction, rail_ends
 from ilmek.machines.own_linkage.layers import RingSide
@@ -20,12 +20,10 @@ from ilmek.machines.own_linkage.parts import LOOSE, PartStock, base_part, link_p
 from ilmek.machines.own_linkage.shafts import housing_length, key_direction, shaft_lengths, shaft_seat
 from ilmek.machines.own_linkage.sizes import shaft_bearing
 from ilmek.part import catalogue
-from ilmek.part.link_motion import carriers, closures, link_motions, resting
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.records import record
-from ilmek.units import turn
 
 _Z = (0.0, 0.0, 1.0)
 _FLUSH = 1e-7
@@ -45,31 +43,16 @@ class PlacedPart:
 def own_tree(built: Construction) -> Tree:
     """The tree of a construction: at the first sample of its motion, with the motions over all of it."""
     placed = tuple(_placed(built, PartStock(built.name)))
-    mechanism, motion = built.machine.mechanism, built.motion
-    carried = carriers(mechanism)
-    parents = {body: parent for body, (parent, _) in carried.items()}
-    motions = {} if len(motion) < 2 else link_motions(motion, motion, parents, TURN, np.linspace(0, turn, len(motion)))
-    pins = {one.part.id: one.part for one in placed}
-    bodies = [RigidBody(body_id(built.name, GROUND), _occurrences(placed, GROUND), joint=Joint(JointKind.MISSING))]
-    for body, (parent, number) in carried.items():
-        joint = mechanism.joints[number]
-        slides = isinstance(joint, Slide)
-        bodies.append(
-            RigidBody(
-                body_id(built.name, body),
-                _occurrences(placed, body),
-                body_id(built.name, parent),
-                Joint(
-                    JointKind.SLIDE if slides else JointKind.PIN,
-                    _direction(built, body, joint.name) if slides else _Z,
-                    motions.get(body),
-                    _seats(built, pins, placed, body, joint.name),
-                ),
-                (resting(motion, body, parent),),
-            )
-        )
-    ids = {body: body_id(built.name, body) for body in mechanism.moving}
-    return Tree(tuple(bodies), closures(mechanism, {GROUND: body_id(built.name, GROUND), **ids}))
+    parts = {one.part.id: one.part for one in placed}
+    ground = RigidBody(body_id(built.name, GROUND), _occurrences(placed, GROUND), joint=Joint(JointKind.MISSING))
+    bodies = jointed_bodies(
+        built.name,
+        built.motion,
+        partial(_occurrences, placed),
+        partial(_seats, built, parts, placed),
+        line=partial(_direction, built),
+    )
+    return Tree((ground, *bodies), linkage_closures(built.name, built.machine.mechanism))
 
 
 def _direction(built: Construction, body: str, slide: str) -> tuple[float, float, float]:

@@ -6,6 +6,7 @@ square bar that is twisted where the carriage goes on from the opened warps, in 
 """
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -58,6 +59,7 @@ from ilmek.part.shapes import Prism, Shape, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
+from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm
 
 ROD, COLLAR = 5 * mm, 4 * mm
@@ -183,7 +185,8 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     finger = weaver.params.finger
     bore = polygon(rectangle(finger, finger).points + 1j * height)
     section = Profile(polygon(np.array(corners)), (bore,))
-    yield _at(_plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR), 0j, front)
+    block = _plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR)
+    yield _at(replace(block, notes=(Sentence("sheet.bonded"),)), 0j, front)
     yield from drawbar(weaver, CENTRE_MOTION, front)
     begin = weaver.shape.partition - NUT
     rod = _made("centre-rod", "rod of the centre gripper's carriage", bar(ROD, front - begin))

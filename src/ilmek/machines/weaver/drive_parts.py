@@ -11,7 +11,7 @@ from ilmek.elements.plates import round_bore
 from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.design import Weaver
-from ilmek.machines.weaver.head_shape import RAIL_AXIS
+from ilmek.machines.weaver.head_shape import AXLE, RAIL_AXIS
 from ilmek.machines.weaver.hub_keys import OUTPUT, SMALL_KEY, hub_diameter, small_key
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.parts import MOTOR
@@ -139,7 +139,8 @@ def colour_motors(weaver: Weaver) -> Iterator[Occurrence]:
     colours = [(COLOUR_MOTOR, "motor of the colours"), (TIER_MOTOR, "motor of the tiers")]
     two = weaver.magazine.tiers > 1
     for number, (name, title) in enumerate(colours[: 2 if two else 1]):
-        part = catalogue.motor(name, title, chosen.stepper, chosen.torque, chosen.speed)
+        shaft = None if two else (catalogue.motor_shaft(chosen.stepper), AXLE)
+        part = catalogue.motor(name, title, chosen.stepper, chosen.torque, chosen.speed, shaft=shaft)
         x = (2 * number - 1) * chosen.face / 2 if two else 0.0
         yield Occurrence(part, (_upright(x, flange, under.real),))
 

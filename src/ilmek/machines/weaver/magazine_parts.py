@@ -15,10 +15,12 @@ from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, 
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
+from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, placement
-from ilmek.part.shapes import bar, box, tube
+from ilmek.part.shapes import bar, box, shape_box, tube
 from ilmek.part.tree import Occurrence
+from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, round_size, turn
 
 TUBE_CARRIER, TUBE_AXLE, TUBE_FLAG = part_id("tube-carrier"), part_id("tube-axle"), part_id("tube-flag")
@@ -31,8 +33,8 @@ FLAG, SENSING = (4 * mm, 2 * mm), 1 * mm
 BESIDE_INDEX = 1 * mm
 """Between the index sensor and a motor [m]; assumed by this project."""
 
-AXLE_DIAMETER = 8 * mm
-"""Of the axle between motor and carrier [m]; assumed by this project."""
+AXLE_WALL, OVER_MOTOR = 4.5 * mm, 0.5 * mm
+"""Wall of the axle under the carrier about the motor's shaft, and from it to the motor [m]; assumed by this project."""
 
 
 def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
@@ -61,17 +63,24 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     lying = UPRIGHT.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 4))
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
     flange = shape.magazine.imag - CARRIER - AXLE
-    size = round_size(AXLE_DIAMETER)
-    axle = Part(
-        TUBE_AXLE, f"axle of the {kind}", "pin or bush", size, bar(AXLE_DIAMETER, low - CARRIER - flange), STEEL
-    )
-    yield Occurrence(axle, (placement(0.0, flange, depth).after(UPRIGHT),))
-    begin, end = AXLE_DIAMETER / 2, _index_at(weaver)
+    axle = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR)
+    yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
+    begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
     size = f"{in_mm(FLAG[1])} thick"
     flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL)
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
+
+
+def _axle(weaver: Weaver, kind: str, length: float) -> Part:
+    """The axle of a length [m] on its motor's shaft; of several tiers without a bore, as that is beside it."""
+    bore = catalogue.motor_shaft(selector_of(weaver.params, weaver.magazine).stepper)
+    outer = bore + 2 * AXLE_WALL
+    beside = weaver.magazine.tiers > 1
+    shape = bar(outer, length) if beside else tube(outer, AXLE_WALL, length)
+    notes = () if beside else (Sentence("sheet.bonded"),)
+    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", round_size(outer), shape, STEEL, notes=notes)
 
 
 def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:

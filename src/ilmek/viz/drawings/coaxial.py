@@ -207,7 +207,9 @@ def end_view(part: CoaxialPart, scale: float, fits: Fits) -> DrawnView:
     for bore in (*part.ends, *part.bores):
         view.contour(LineKind.VISIBLE, keyed_contour(bore))
     view.cross(0j, radii[-1])
-    for bores, kind in ((part.ends, FeatureKind.JOURNAL), (part.bores, FeatureKind.BORE)):
-        for bore in bores:
-            keyway(view, bore, fits, kind)
+    low = bounds(part.profile.outline)[0].real
+    for end, (begin, last, _) in zip(part.ends, part.grooves, strict=True):
+        keyway(view, end, fits, FeatureKind.JOURNAL, (begin - low, last - begin))
+    for bore in part.bores:
+        keyway(view, bore, fits, FeatureKind.BORE)
     return view

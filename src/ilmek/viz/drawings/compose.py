@@ -18,6 +18,7 @@ from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, rad
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
 from ilmek.viz.drawings.drawn_part import DrawnPart
+from ilmek.viz.drawings.drilled import drilled_table
 from ilmek.viz.drawings.edge import edge_view
 from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
 from ilmek.viz.drawings.fits import Fits
@@ -68,6 +69,8 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     fits, shape = Fits(part.features, part.stated.roughness if part.stated else None), part.shape
     fit_table = fits.table()
     tables = () if fit_table is None else (fit_table,)
+    holes = drilled_table(shape, part.features)
+    tables = tables if holes is None else (*tables, holes)
     if part.cut is not None:
         tables = (*tables, cut_list(part.cut, part.pieces))
     if part.welds:

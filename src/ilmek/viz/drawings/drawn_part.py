@@ -7,6 +7,7 @@ from dataclasses import field
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
 from ilmek.part.blanks import blanks_of, size_of
+from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
 from ilmek.part.part import CamMaking, Part
 from ilmek.part.plates import FLAT
@@ -120,8 +121,9 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     outline = as_contour(plate.outline, 1 * um)
     cuts = [*(circle(hole.at, hole.radius) for hole in plate.holes)]
     cuts += [as_contour(cutout, 1 * um) for cutout in plate.cutouts]
-    shape = Prism(Profile(outline, tuple(cuts)), plate.thickness)
     solid = plate.solid
+    drilled = drillings(solid.shape) if isinstance(solid, WorkPiece) and isinstance(solid.shape, Prism) else ()
+    shape = Prism(Profile(outline, tuple(cuts)), plate.thickness, drilled)
     volume = shape.volume if solid is None else solid.volume
     material = next((row for row in MATERIALS.values() if plate.material in {row.name, row.designation}), None)
     part = plate.part if isinstance(plate.part, Part) else None

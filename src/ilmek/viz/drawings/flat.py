@@ -327,8 +327,13 @@ def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None
 _KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
 
 
-def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) -> None:
-    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side."""
+def keyway(
+    view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind, seat: tuple[float, float] | None = None
+) -> None:
+    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side.
+
+    seat  of a shaft: from its end on the left to the keyway, and the length of that [m]; None: all through
+    """
     turn = bore.directions[0]
     corners = [bore.centre + turn * complex(bore.floor, side * bore.width / 2) for side in (-1, 1)]
     count = len(bore.directions)
@@ -337,6 +342,9 @@ def keyway(view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind) ->
     ends = (corners[0] * view.scale, corners[1] * view.scale)
     note = fits.note(bore.width, _KEYWAYS[kind])
     width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
+    if seat is not None:
+        begin, length = map(millimetres, seat)
+        width = Sentence("sheet.keyway-seat", keyway=width, length=length, begin=begin)
     view.leader(
         width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
     )  # fmt: skip

@@ -84,7 +84,7 @@ KINDS = {
 def figures(request: FiguresRequest, context: Context) -> MachineFigures:
     """Draw figures of a design. Raises as `design_machine` does, and ParameterError for an unknown part."""
     machine, params = find_machine(request.name).ordered(request.settings)
-    design = designed(machine.name, params, context.progress)
+    design = designed(machine, params, context.progress)
     children = tuple(machine.children(design))
     drawn, warnings = _drawn(machine, design, children, request.part)
     chosen = [one for one in drawn if request.names is None or one.name in request.names]
@@ -99,7 +99,7 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
 def tables(request: TablesRequest, context: Context) -> MachineTables:
     """The tables of a design. Raises as `design_machine` does, and ParameterError for an unknown part."""
     machine, params = find_machine(request.name).ordered(request.settings)
-    design = designed(machine.name, params, context.progress)
+    design = designed(machine, params, context.progress)
     component = machine
     if request.part:
         child = _part(machine, tuple(machine.children(design)), request.part)

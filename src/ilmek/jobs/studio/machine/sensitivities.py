@@ -9,6 +9,7 @@ from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.checks import ratio_of
 from ilmek.jobs.studio.machine.tasks import parameters_of, value_text
 from ilmek.jobs.studio.machine.view import judged, report_for
+from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Params, Setting, Value
 from ilmek.report import Check, Report
 from ilmek.units import format_quantity, parse_unit
@@ -133,7 +134,7 @@ def _by_choice(name: str, params: Params, report: Report, parameter: Parameter, 
     other = others[(others.index(value) + 1) % len(others)]
     step = f"{value_text(other, '')} instead of {value_text(value, '')}"
     try:
-        then = _checks(report_for(name, params.with_values({parameter.name: other})))
+        then = _checks(report_for(find_machine(name), params.with_values({parameter.name: other})))
     except IlmekError as error:
         return Sensitivity(parameter.name, step, f"no design: {error}")
     now = _checks(report)
@@ -158,7 +159,7 @@ def _by_steps(name: str, params: Params, report: Report, parameter: Parameter, v
             continue
         try:
             moved = int(at) if parameter.kind is int else at
-            ends.append((at, _checks(report_for(name, params.with_values({parameter.name: moved})))))
+            ends.append((at, _checks(report_for(find_machine(name), params.with_values({parameter.name: moved})))))
         except IlmekError as error:
             refused = str(error)
     now = _checks(report)

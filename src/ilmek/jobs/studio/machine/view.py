@@ -14,6 +14,7 @@ from ilmek.jobs.studio.checks import ShownCheck, finite, printed, shown_check
 from ilmek.jobs.studio.machine.tasks import DesignRequest, parameters_of, value_text
 from ilmek.jobs.studio.words import all_in_page, in_page
 from ilmek.machines.catalogue import find_machine
+from ilmek.machines.component import AnyComponent
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
@@ -123,29 +124,28 @@ def nearest(request: DesignRequest, context: Context) -> NearestTasks:
 def judged(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
     """The parameters of a machine for settings, and the report of its design as of `report_for`."""
     machine, params = find_machine(name).ordered(settings)
-    return params, report_for(machine.name, params, progress)
+    return params, report_for(machine, params, progress)
 
 
 def whole(name: str, settings: Mapping[str, Setting], progress: Progress = SILENT) -> tuple[Params, Report]:
     """The same with its parts against each other in space."""
     machine, params = find_machine(name).ordered(settings)
-    return params, machine.report(designed(machine.name, params, progress), illustrated=False)
+    return params, machine.report(designed(machine, params, progress), illustrated=False)
 
 
-def report_for(name: str, params: Params, progress: Progress = SILENT) -> Report:
+def report_for(machine: AnyComponent, params: Params, progress: Progress = SILENT) -> Report:
     """The report of a design without tables, figures and its parts against each other. The last ones are kept."""
-    return _kept(name, params, progress)[1]
+    return _kept(machine, params, progress)[1]
 
 
-def designed(name: str, params: Params, progress: Progress = SILENT) -> Any:
+def designed(machine: AnyComponent, params: Params, progress: Progress = SILENT) -> Any:
     """A design of a machine. The last ones are kept."""
-    return _kept(name, params, progress)[0]
+    return _kept(machine, params, progress)[0]
 
 
-def _kept(name: str, params: Params, progress: Progress) -> tuple[Any, Report]:
-    key = name, params
+def _kept(machine: AnyComponent, params: Params, progress: Progress) -> tuple[Any, Report]:
+    key = machine.name, params
     if (found := _DESIGNS.get(key)) is None:
-        machine = find_machine(name)
         design = machine.designed(params, progress)
         found = _DESIGNS[key] = design, machine.report(design, illustrated=False, assembled=False)
         if len(_DESIGNS) > _MOST:

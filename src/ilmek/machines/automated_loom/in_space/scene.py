@@ -24,6 +24,7 @@ from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import warp_positions, warp_shafts
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.tree import HEAD
+from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.space import frames_of, parts_of, rotations
@@ -48,7 +49,7 @@ def scene(loom: LoomDesign, report: Report) -> Scene:
     side, winding = loom.side, loom.warp_tension
     whole = scene_of(
         report,
-        branches_of(loom),
+        tuple(screwed_branches(loom)),
         loom_tree(loom),
         warps=_warps(loom),
         carpet=carpet(winding.params.cloth, (loom.rows, loom.columns), side.pile, side.lower),
@@ -131,6 +132,14 @@ def _in_the_scene(branches: tuple[MachineTree, ...]) -> tuple[MachineTree, ...]:
 def branches_of(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of all machines of a loom and of its equipment, each after what carries it."""
     return (*machine_branches(loom), *equipment(loom))
+
+
+def screwed_branches(loom: LoomDesign) -> Iterator[MachineTree]:
+    """The trees with the screws of their fixed joints."""
+    screwed = {body.id: body for body in bolted(loom_tree(loom)).bodies}
+    for branch in branches_of(loom):
+        bodies = (replace(body, occurrences=screwed[body.id].occurrences) for body in branch.tree.bodies)
+        yield replace(branch, tree=branch.tree.replaced(bodies))
 
 
 @lru_cache(maxsize=4)

@@ -8,6 +8,8 @@ from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
+from ilmek.part.bolting import bolted
+from ilmek.part.fastenings import fastening_check
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
@@ -22,6 +24,6 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
     )
-    tree = loom_tree(loom)
-    checks = (*safety_checks(loom, report), reached)
+    tree = bolted(loom_tree(loom))
+    checks = (*safety_checks(loom, report), fastening_check(tree), reached)
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)

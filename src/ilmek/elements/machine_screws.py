@@ -1,4 +1,5 @@
-"""Hexagon head screws with a full thread, of the property class 8.8: sizes, preload, and what a group of them holds.
+"""Screws of the property class 8.8, with a hexagon head and full thread, or a socket in a head that is sunk: sizes,
+preload, what a group of them holds, and the holes and threads for them.
 
     F_p = 0.7 f_ub A_s,    F_s = mu (n F_p - 0.8 sum F_t) / gamma                [EN 1993-1-8, 3.9; ISO 898-1, ISO 4017]
 
@@ -7,7 +8,7 @@
 
 A screw that is tightened by a torque M is twisted too, so that its preload F is lower than F_p; mu_t is the friction of
 thread and head, 0.12 oiled, d_s the diameter of A_s, D_k the mean one of the head's ring, 0.92 of its width, on a hole
-of 1.1 d.
+of 1.1 d.           [ISO 4762 heads; ISO 273 medium holes; DIN 974-1 counterbores, series 1]
 
 A screw that is preloaded presses the joined faces; their friction mu, 0.2 of faces as rolled [table 3.7, class D],
 holds the force across it, n screws with the pulls F_t along them, gamma 1.25.
@@ -37,14 +38,19 @@ LENGTHS = tuple(length * mm for length in (16, 20, 25, 30, 35, 40, 45, 50, 55, 6
 
 
 @dataclass(frozen=True, slots=True)
-class HexagonScrew:
-    """A screw: diameter of its thread [m], stress area [m²], width across flats and height of its head [m]."""
+class MachineScrew:
+    """A screw: diameter of its thread [m], stress area [m²], width across flats or diameter and height of its head [m].
+
+    hole, sink  diameters of the hole for it and of the counterbore for its head [m]; 0: it is not sunk
+    """
 
     name: str
     diameter: float
     area: float
     across: float
     head: float
+    hole: float = 0.0
+    sink: float = 0.0
 
     @property
     def preload(self) -> float:
@@ -102,17 +108,25 @@ class HexagonScrew:
         """The longest screw up to a length [m]; the shortest of all where none is."""
         return max((length for length in LENGTHS if length <= most + 1e-9), default=LENGTHS[0])
 
+    def engaged(self, material: str) -> float:
+        """Usual least length of its thread in a material, by its name [m].
+
+        >>> SOCKET_SCREWS["M4"].engaged("aluminium alloy"), SOCKET_SCREWS["M4"].engaged("structural steel")
+        (0.006, 0.004)
+        """
+        return self.diameter * (_IN_SOFT if material in _SOFT else 1.0)
+
     def designation(self, length: float) -> str:
         """As ordered.
 
         >>> SCREWS["M12"].designation(0.04)
         'ISO 4017 - M12 x 40 - 8.8'
         """
-        return f"ISO 4017 - {self.name} x {length / mm:g} - 8.8"
+        return f"{_SUNK if self.sink else _HEXAGON} - {self.name} x {length / mm:g} - 8.8"
 
 
 SCREWS = {
-    name: HexagonScrew(name, diameter * mm, area * mm**2, across * mm, head * mm)
+    name: MachineScrew(name, diameter * mm, area * mm**2, across * mm, head * mm)
     for name, diameter, area, across, head in (
         ("M6", 6, 20.1, 10, 4.0),
         ("M8", 8, 36.6, 13, 5.3),
@@ -126,14 +140,43 @@ SCREWS = {
 """By thread, ascending: stress areas of ISO 898-1, table 4, heads of ISO 4017."""
 
 
-def screw_of(designation: str) -> HexagonScrew | None:
+SOCKET_SCREWS = {
+    name: MachineScrew(name, diameter * mm, area * mm**2, across * mm, diameter * mm, hole * mm, sink * mm)
+    for name, diameter, area, across, hole, sink in (
+        ("M2", 2.0, 2.07, 3.8, 2.4, 4.3),
+        ("M2.5", 2.5, 3.39, 4.5, 2.9, 5.0),
+        ("M3", 3.0, 5.03, 5.5, 3.4, 6.5),
+        ("M4", 4.0, 8.78, 7.0, 4.5, 8.0),
+        ("M5", 5.0, 14.2, 8.5, 5.5, 10.0),
+        ("M6", 6.0, 20.1, 10.0, 6.6, 11.0),
+        ("M8", 8.0, 36.6, 13.0, 9.0, 15.0),
+        ("M10", 10.0, 58.0, 16.0, 11.0, 18.0),
+        ("M12", 12.0, 84.3, 18.0, 13.5, 20.0),
+    )
+}
+"""By thread, ascending: heads of ISO 4762, as high as the thread is wide, holes and counterbores for them."""
+
+SOCKET_LENGTHS = tuple(
+    length * mm
+    for length in (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100, 110, 120, 130, 140)
+)
+"""Lengths of socket screws [m]."""
+
+_SOFT, _IN_SOFT = frozenset({"aluminium alloy", "tin bronze", "POM", "beech"}), 1.5
+"""Materials in which threads are longer, and their length over the diameter, 1 in steel [VDI 2230-1, 5.5.5]."""
+
+_HEXAGON, _SUNK = "ISO 4017", "ISO 4762"
+
+
+def screw_of(designation: str) -> MachineScrew | None:
     """The screw of a designation as ordered; None for that of anything else.
 
     >>> screw_of("ISO 4017 - M12 x 40 - 8.8") is SCREWS["M12"], screw_of("DIN 6885-1 B 5 x 5 x 8")
     (True, None)
     """
-    thread = designation.removeprefix("ISO 4017 - ").partition(" x ")[0]
-    return SCREWS.get(thread)
+    standard, _, size = designation.partition(" - ")
+    rows = {_HEXAGON: SCREWS, _SUNK: SOCKET_SCREWS}.get(standard, {})
+    return rows.get(size.partition(" x ")[0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,20 +192,20 @@ class FourScrews:
     lever: float
     least: float = 0.0
 
-    def distance(self, screw: HexagonScrew) -> float:
+    def distance(self, screw: MachineScrew) -> float:
         """Of neighbouring screws [m]: each stands 1.2 of its diameter off the edges."""
         return self.side - 2 * EDGE * screw.diameter
 
-    def pull(self, screw: HexagonScrew) -> float:
+    def pull(self, screw: MachineScrew) -> float:
         """Sum of the pulls along the two screws that the lever strains [N]."""
         return self.force * self.lever / self.distance(screw)
 
-    def holds(self, screw: HexagonScrew) -> float:
+    def holds(self, screw: MachineScrew) -> float:
         """Force across that they hold [N]."""
         return screw.slip(4, self.pull(screw))
 
     @property
-    def screw(self) -> HexagonScrew:
+    def screw(self) -> MachineScrew:
         """The smallest that holds the force, from that for which the plate is drilled; the largest where none does."""
         offered = [one for one in SCREWS.values() if self.least <= one.diameter < 0.2 * self.side] or [SCREWS["M6"]]
         return next((one for one in offered if self.holds(one) >= self.force), offered[-1])

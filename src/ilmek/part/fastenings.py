@@ -1,0 +1,150 @@
+"""What holds the parts of a tree together that stand to each other, and which parts nothing holds.
+
+Parts that touch are joined by a weld, a screw or key, a fit, or by what a bought part brings with it: snaps, threads,
+hooks. Of the parts that move together all are held that are joined to each other, directly or by others; those that are
+not joined to most of them are in the air, though they touch.
+"""
+
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from enum import StrEnum
+from functools import lru_cache
+
+from ilmek.part.contacts import StandingTouches, joined_by, standing_touches
+from ilmek.part.meetings import meetings
+from ilmek.part.part import Part
+from ilmek.part.tree import JointKind, Tree
+from ilmek.part.welds import welded_together
+from ilmek.records import record
+from ilmek.report import Check, at_most
+from ilmek.units import mm
+
+Pair = frozenset[str]
+
+
+class Means(StrEnum):
+    """By what two parts are held to each other."""
+
+    SCREW = "screw"
+    KEY = "key"
+    WELD = "weld"
+    FIT = "fit"
+    OWN = "its own"
+    NONE = "none"
+
+
+OWN = {
+    "terminal": "snaps onto its rail, EN 60715",
+    "power supply": "snaps onto its rail, EN 60715",
+    "motion controller": "snaps onto its rail, EN 60715",
+    "safety relay": "snaps onto its rail, EN 60715",
+    "axis of the control": "in its row of the cabinet",
+    "levelling foot": "its thread with a nut",
+    "belt": "lies round its pulleys",
+    "belt and pulleys": "lies round its pulleys",
+    "spring": "stands in or hooks into its seats",
+    "energy chain": "its end pieces",
+    "yarn package": "on its peg",
+    "yarn tube": "in its bore",
+    "conduit": "clips in its duct",
+    "bearing": "between its shoulders",
+}
+"""How bought parts hold themselves, by their process."""
+
+
+@record
+class Fastenings:
+    """The contacts of parts that stand to each other by their means, and the ids of parts that none holds."""
+
+    contacts: Mapping[Means, int]
+    loose: tuple[str, ...]
+
+
+@lru_cache(maxsize=4)
+def fastenings(tree: Tree) -> Fastenings:
+    """What holds the parts of a tree."""
+    parts = {part.id: part for part, _ in tree.occurrences()}
+    means = _means(tree, parts)
+    counted, loose = Counter[Means](), dict[str, None]()
+    for group in standing_touches(tree):
+        joined, free = _Joined(len(group.parts)), []
+        for pair in group.pairs:
+            one, other = (group.parts[number] for number in pair)
+            held = means.get(frozenset((one, other))) or _by_itself(parts[one], parts[other])
+            counted[held] += 1
+            if held is Means.NONE:
+                free.append(pair)
+            else:
+                joined.join(*pair)
+        loose |= dict.fromkeys(group.parts[number] for number in _loose(group, joined, free))
+    return Fastenings(dict(counted), tuple(loose))
+
+
+def _loose(group: StandingTouches, joined: "_Joined", free: Sequence[tuple[int, int]]) -> Iterator[int]:
+    """Of pieces that nothing holds to the largest group, nor stand on the floor, those that touch what is held."""
+    groups = joined.groups()
+    standing = [own for own in groups if group.ground and any(group.lowest[number] < _ON_FLOOR for number in own)]
+    held = {number for own in standing or groups[:1] for number in own}
+    for own in groups:
+        if own[0] not in held:
+            ends = {number for pair in free for number in pair if not held.isdisjoint(pair)}
+            yield from ends & set(own) or own
+
+
+_ON_FLOOR = 1 * mm
+"""Height over the lowest part up to which parts stand on the floor [m]."""
+
+
+def fastening_check(tree: Tree) -> Check:
+    """Whether something holds each part to the others that it stands to."""
+    loose = fastenings(tree).loose
+    source = "welds, screws, keys, fits of all parts that touch and stand to each other"
+    return at_most("parts without a fastening", len(loose), 0, "1", source).with_cure(
+        "give the parts named faces that screws have room on", *loose
+    )
+
+
+def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
+    """By the ids of two parts what joins them."""
+    found: dict[Pair, Means] = {}
+    for meeting in meetings(tree):
+        if meeting.joint is JointKind.FIXED:
+            found[frozenset((meeting.bore.part.id, meeting.inner.part.id))] = Means.FIT
+    fasteners = {name for name, part in parts.items() if part.process == "fastener"}
+    for name, joined in joined_by(tree, frozenset(fasteners)).items():
+        purchase = parts[name].purchase
+        means = Means.KEY if purchase is not None and purchase.row.startswith("DIN 6885") else Means.SCREW
+        for other in joined:
+            found |= {frozenset((name, other)): means}
+            found |= {frozenset((other, third)): means for third in joined if third != other}
+    return found
+
+
+def _by_itself(one: Part, other: Part) -> Means:
+    if welded_together(one, other):
+        return Means.WELD
+    return Means.OWN if {one.process, other.process} & OWN.keys() else Means.NONE
+
+
+class _Joined:
+    """Pieces that are joined to each other, by number."""
+
+    def __init__(self, number: int) -> None:
+        self._before = list(range(number))
+
+    def join(self, one: int, other: int) -> None:
+        """Two pieces are joined."""
+        self._before[self._first(one)] = self._first(other)
+
+    def groups(self) -> list[list[int]]:
+        """The pieces that are joined to each other, the largest group first."""
+        groups: dict[int, list[int]] = defaultdict(list)
+        for number in range(len(self._before)):
+            groups[self._first(number)].append(number)
+        return sorted(groups.values(), key=len, reverse=True)
+
+    def _first(self, number: int) -> int:
+        while self._before[number] != number:
+            self._before[number] = self._before[self._before[number]]
+            number = self._before[number]
+        return number

@@ -1,0 +1,169 @@
+"""Screws of fixed joints: by the meshes of the parts, of which neither the faces nor the holes of the code know."""
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+from made_parts import measured
+
+from ilmek.arrays import Float, FloatArray
+from ilmek.elements.columns import STEEL
+from ilmek.elements.machine_screws import SOCKET_SCREWS, screw_of
+from ilmek.machines.automated_loom import MACHINE, loom_tree
+from ilmek.machines.catalogue import MACHINES
+from ilmek.part.bolting import bolted
+from ilmek.part.fastenings import Means, fastening_check, fastenings
+from ilmek.part.features import drillings
+from ilmek.part.part import Part
+from ilmek.part.placement import Placement, placement
+from ilmek.part.poses import chains, poses
+from ilmek.part.shapes import Drilling, Prism, Shape, box, square_tube
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.report.scene import Solid
+from ilmek.units import mm, um
+
+SETTINGS = ({}, {"beat": "linkage"})
+LONE = ("weft", "tufting-machine", "shedding", "hammer")
+
+
+def plate(name: str, thickness: float, wide: float = 0.06, z: float = 0.0) -> Occurrence:
+    part = Part(f"test/{name}", name, "machined link", "", box(wide, 0.05, thickness), STEEL)
+    return Occurrence(part, (placement(z=z),))
+
+
+def on_each_other(first: float, second: float) -> Tree:
+    return Tree((RigidBody("test/body", (plate("lower", first), plate("upper", second, z=first))),))
+
+
+def test_two_plates_have_four_screws_and_what_is_too_thin_fails_the_check() -> None:
+    tree = bolted(on_each_other(12 * mm, 10 * mm))
+    (screw,) = (own for own in tree.bodies[0].occurrences if own.part.joins)
+    assert set(screw.part.joins) == {"test/lower", "test/upper"}
+    assert len(screw.positions) == 4
+    assert screw_of(screw.part.purchase.row if screw.part.purchase else "") in SOCKET_SCREWS.values()
+    assert fastening_check(tree).ok
+    assert fastenings(tree).contacts[Means.NONE] == 0
+    loose = fastening_check(bolted(on_each_other(1 * mm, 1 * mm)))
+    assert not loose.ok
+    assert set(loose.parts) & {"test/lower", "test/upper"}
+
+
+def test_a_tube_has_threads_in_its_wall_and_no_heads_in_it() -> None:
+    tube = Part("test/tube", "tube", "welded frame", "", square_tube(0.06, 0.006, 0.3), STEEL)
+    lies = placement(y=0.03, about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+    tree = bolted(Tree((RigidBody("test/body", (Occurrence(tube), Occurrence(plate("top", 0.012).part, (lies,)))),)))
+    (screw,) = (own.part for own in tree.bodies[0].occurrences if own.part.joins)
+    assert screw.joins == ("test/top", "test/tube")
+    (drilled,) = (own.part.shape for own in tree.bodies[0].occurrences if own.part.id == "test/tube")
+    assert {hole.through for hole in drillings(drilled)} == {True}
+    assert {round(hole.steps[0][1], 9) for hole in drillings(drilled)} == {0.006}
+
+
+@pytest.mark.parametrize("settings", SETTINGS)
+def test_every_screw_of_a_loom_is_in_a_hole_and_in_a_thread(settings: dict[str, str]) -> None:
+    loom = MACHINE.designed(MACHINE.params.read(settings))
+    tree = bolted(loom_tree(loom))
+    assert sum(number for part, number in tree.occurrences() if part.joins) > 300
+    assert not list(faults(tree))
+
+
+@pytest.mark.parametrize("machine", LONE)
+def test_every_screw_of_a_machine_is_in_a_hole_and_in_a_thread(machine: str) -> None:
+    component = MACHINES[machine]
+    assert component.tree is not None
+    assert not list(faults(bolted(component.tree(component.designed(component.params())))))
+
+
+def test_a_planted_screw_without_holes_is_seen() -> None:
+    tree = bolted(on_each_other(12 * mm, 10 * mm))
+    body = tree.bodies[0]
+    (screw,) = (own for own in body.occurrences if own.part.joins)
+    bare = on_each_other(12 * mm, 10 * mm).bodies[0]
+    assert len(list(faults(Tree((RigidBody("test/body", (*bare.occurrences, screw)),))))) == 1
+
+
+def faults(tree: Tree) -> Iterator[str]:
+    """Screws of which a ring about the shank is not in its hole, or one at its thread's tip is not in the material.
+
+    Of each part of screws the first is tried, at four points round: through the part under the head there is a hole
+    wider than the screw, in material; the other part has material about the thread, of a diameter's length at least.
+    """
+    stands: dict[str, list[Placement]] = {}
+    for chain in chains(tree):
+        here = poses(chain, "", np.zeros(1))
+        for occurrence in chain[-1].body.occurrences:
+            lies = Placement(here.origin[0], here.rotation[0])
+            stands.setdefault(occurrence.part.id, []).extend(lies.after(own) for own in occurrence.positions)
+    parts = {part.id: part for part, _ in tree.occurrences()}
+    for screw in (part for part in parts.values() if part.joins):
+        row = screw_of(screw.purchase.row) if screw.purchase else None
+        assert row is not None
+        assert screw.shape is not None
+        length = float(screw.shape.mesh().points[:, 2].max())
+        head, thread = (parts[name] for name in screw.joins)
+        lies = stands[screw.id][0]
+        under = ring(lies, row.hole / 2 - 50 * um, 0.2 * mm)
+        about = ring(lies, row.hole / 2 + 100 * um, 0.2 * mm)
+        tapped = ring(lies, row.diameter / 2 - 100 * um, length - 0.2 * mm)
+        ends = (ring(lies, row.diameter / 2 + 100 * um, length - share * row.diameter) for share in (0.05, 0.95))
+        around = np.concatenate([*ends])
+        if not any(hollow(head, own, under, about) for own in stands[head.id]):
+            yield f"{screw.id}: no hole in {head.id}"
+        elif not any(hollow(thread, own, tapped, around) for own in stands[thread.id]):
+            yield f"{screw.id}: no thread in {thread.id}"
+
+
+def ring(lies: Placement, radius: float, z: float) -> Float[np.ndarray, "points 3"]:
+    """Points round the axis of a screw [m]."""
+    angle = math.pi / 8 + np.arange(4) * math.pi / 2
+    return lies.points(np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(4, z)], axis=1))
+
+
+def hollow(part: Part, lies: Placement, free: FloatArray, filled: FloatArray) -> bool:
+    """Whether a part that lies there has no material at some points and has it at others."""
+    assert part.shape is not None
+    solid = part.shape.mesh(5 * um)
+    back = lies.inverse
+    return not inside(solid, back.points(free)).any() and bool(inside(solid, back.points(filled)).all())
+
+
+def inside(solid: Solid, points: FloatArray) -> FloatArray:
+    """Whether points are in a closed surface: its solid angle there is a whole one.   [Van Oosterom, Strackee 1983]"""
+    found = []
+    for point in points:
+        a, b, c = (solid.points[solid.triangles[:, k]] - point for k in range(3))
+        x, y, z = (np.linalg.norm(own, axis=1) for own in (a, b, c))
+        above = (a * np.cross(b, c)).sum(1)
+        below = x * y * z + (a * b).sum(1) * z + (b * c).sum(1) * x + (c * a).sum(1) * y
+        found.append(abs(float(np.arctan2(above, below).sum())) > math.pi)
+    return np.array(found)
+
+
+def drilled_parts() -> list[Shape]:
+    """Ten drilled shapes of a loom, the most drilled first."""
+    loom = MACHINE.designed(MACHINE.params())
+    shapes = (part.shape for part, _ in bolted(loom_tree(loom)).occurrences() if part.material is not None)
+    holed = [shape for shape in shapes if isinstance(shape, Prism) and shape.drilled]
+    return sorted(holed, key=lambda shape: -len(drillings(shape)))[:10]  # type: ignore[return-value]
+
+
+def test_drilled_parts_weigh_what_their_surface_encloses_and_the_kernel_measures() -> None:
+    shapes = drilled_parts()
+    assert len(shapes) == 10
+    step = pytest.importorskip("ilmek.io.step")
+    for shape in shapes:
+        mass, centre, _ = measured(shape.mesh(2 * um), 1.0)
+        assert (
+            abs(mass - shape.volume) < 1e-3 * sum(hole.shape.volume for hole in drillings(shape)) + 1e-6 * shape.volume
+        )
+        assert np.abs(centre - shape.moments.centre).max() < 2 * um
+        assert step._volume(step.shape_solid(shape)) * mm**3 == pytest.approx(shape.volume, rel=1e-6)
+
+
+def test_a_counterbored_hole_takes_away_what_it_is_made_of() -> None:
+    lies = placement(z=0.02, about=(1.0, 0.0, 0.0), angle=math.pi)
+    hole = Drilling(lies, ((0.011, 0.006), (0.0066, 0.014)), through=True)
+    shape = Prism(box(0.05, 0.04, 0.02).section, 0.02, (hole,))
+    taken = math.pi / 4 * (0.011**2 * 0.006 + 0.0066**2 * 0.014)
+    assert shape.volume == pytest.approx(0.05 * 0.04 * 0.02 - taken, rel=1e-12)
