@@ -9,6 +9,7 @@ from ilmek.machines.warp_tension import MACHINE, WarpTensionParams
 from ilmek.machines.warp_tension.cylinders import LOWER, SPACER, UPPER, cylinders
 from ilmek.machines.warp_tension.spigot import weld_force
 from ilmek.machines.warp_tension.tree import tree
+from ilmek.part.contacts import contacts
 from ilmek.part.features import features_of_size
 from ilmek.part.placement import placement
 from ilmek.part.welds import welds_of
@@ -63,3 +64,10 @@ def test_each_tube_is_welded_round_both_ends_to_the_flanges_of_its_shaft_ends() 
         for weld in own:
             assert weld.lengths == (pytest.approx(2 * math.pi * cylinder.shell.outer_radius, rel=1e-3),)
             assert weld.throat >= cylinder.throat
+
+
+def test_the_machine_alone_is_one_group_and_nothing_is_through_another() -> None:
+    assert MACHINE.tree is not None
+    lone = contacts(MACHINE.tree(MACHINE.design(WarpTensionParams())))
+    assert len(lone.groups) == 1
+    assert not lone.through

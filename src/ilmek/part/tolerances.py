@@ -3,11 +3,24 @@
 They follow from what meets in the joints of a tree: `tolerancing`.
 """
 
+import math
 from enum import StrEnum
 
 from ilmek.part.placement import Placement
 from ilmek.records import record
-from ilmek.units import format_quantity, um
+from ilmek.units import format_quantity, mm, um
+
+GROOVE_SHARE, GROOVE_STEP = 0.05, 0.05 * mm
+"""Allowed error of the position of a groove in a row over their pitch, and its step [m]; assumed by this project."""
+
+
+def groove_tolerance(pitch: float) -> float:
+    """Tolerance ± of the middle of each groove of a row from the end of the part [m]: errors do not add up.
+
+    >>> round(groove_tolerance(2e-3), 9), round(groove_tolerance(4e-3), 9)
+    (0.0001, 0.0002)
+    """
+    return max(math.floor(GROOVE_SHARE * pitch / GROOVE_STEP + 1e-9), 1) * GROOVE_STEP
 
 
 class FeatureKind(StrEnum):

@@ -108,7 +108,7 @@ SHEETS = {
     "sheet.floor": "{size} to its floor",
     "sheet.on-circle": "{holes} on ⌀{circle}",
     "sheet.square-turned": "{size} at {angle}",
-    "sheet.grooves": "{size}, {wide} wide, pitch {pitch}",
+    "sheet.grooves": "{size}, {wide} wide, pitch {pitch}, first at {first} from the left, each ±{error}",
     "sheet.base-circle": "base circle ⌀{size}",
     "sheet.prime-circle": "prime circle ⌀{size}",
     "sheet.zero-mark": "0°: zero mark, scribed on this side; stamp the number beside it",

@@ -108,7 +108,7 @@ SHEETS = {
     "sheet.floor": "tabanına {size}",
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",
     "sheet.square-turned": "{size}, {angle}",
-    "sheet.grooves": "{size}, genişlik {wide}, adım {pitch}",
+    "sheet.grooves": "{size}, genişlik {wide}, adım {pitch}, ilki soldan {first}, her biri ±{error}",
     "sheet.base-circle": "temel daire ⌀{size}",
     "sheet.prime-circle": "asal daire ⌀{size}",
     "sheet.zero-mark": "0°: sıfır işareti, bu yüze çizilir; yanına numara vurulur",

@@ -5,11 +5,13 @@ Each cylinder has its own axes: z along it, 0 in the middle of its width, the dr
 
 import cmath
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.warp_tension.attachment import on_cylinder
 from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
@@ -17,13 +19,16 @@ from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.spigot import FLANGE
 from ilmek.part import catalogue
 from ilmek.part.part import Part
-from ilmek.part.placement import IDENTITY, Placement, placement
+from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.plane.contours import circle
+from ilmek.plane.contours import circle, rounded_hull
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, round_size, turn
+
+GAP = 20 * mm
+"""Room between the cylinders of the machine alone [m]; assumed by this project."""
 
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
@@ -32,19 +37,48 @@ WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
     """The bodies of the three cylinders.
 
-    positions  of each cylinder's axes by its name; default: all in one, as the machine has no side view of its own
+    positions  of each cylinder's axes by its name; default: one above the other between plates, as the machine has no
+    side view of its own
     """
-    where, shells = positions or {}, _shells(design)
-    drives = _drives(design)
-    return Tree(
-        tuple(
-            body
-            for cylinder, shell in zip(cylinders(design), shells, strict=True)
-            for body in _bodies(
-                design.params, cylinder, shell, drives[cylinder.name], where.get(cylinder.name, IDENTITY)
-            )
-        )
+    shells, drives = _shells(design), _drives(design)
+    where = positions or {own.name: placement(y=y) for own, y in zip(cylinders(design), _heights(design), strict=True)}
+    bodies = (
+        body
+        for cylinder, shell in zip(cylinders(design), shells, strict=True)
+        for body in _bodies(design.params, cylinder, shell, drives[cylinder.name], where[cylinder.name])
     )
+    stand = () if positions else (RigidBody(part_id("stand"), tuple(_plates(design))),)
+    return Tree((*stand, *bodies))
+
+
+def _heights(design: WarpTensionDesign) -> tuple[float, ...]:
+    """Heights of the axes of the cylinders one above the other [m]."""
+    drives = _drives(design)
+    upper, lower, spacer = (
+        max(2 * own.flange, own.seat.side, *map(catalogue.face_of, drives[own.name][:1])) + GAP
+        for own in cylinders(design)
+    )
+    return 0.0, -(upper + lower) / 2, -(upper + 2 * lower + spacer) / 2
+
+
+def _plates(design: WarpTensionDesign) -> Iterator[Occurrence]:
+    """The plates on which the bearings of the cylinders stand alone, one for each width of a bearing on both sides."""
+    seats = [(own.seat, 1j * y) for own, y in zip(cylinders(design), _heights(design), strict=True)]
+    far = design.params.span / 2 + design.params.stub
+    for number, wide in enumerate(sorted({seat.bearing.width for seat, _ in seats}), 1):
+        own = [(seat, axis) for seat, axis in seats if seat.bearing.width == wide]
+        axes, radius = np.array([axis for _, axis in own]), max(seat.radius for seat, _ in own)
+        outline = rounded_hull(axes, radius) if len(own) > 1 else circle(complex(axes[0]), radius)
+        bores = [circle(axis, seat.bore / 2) for seat, axis in own]
+        screws = [
+            circle(complex(axis + corner), seat.screws.screw.diameter / 2)
+            for seat, axis in own
+            for corner in seat.corners()
+        ]
+        shape = Prism(Profile(outline, (*bores, *screws)), BRACKET)
+        steel, title = MATERIALS["structural steel"], "plate of the cylinders' bearings"
+        plate = Part(part_id(f"plate-{number}"), title, "laser-cut part", "", shape, steel, machined=True)
+        yield Occurrence(plate, (placement(z=far + wide), placement(z=-far - wide - BRACKET)))
 
 
 def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.part.profile import Profile
-from ilmek.part.tolerances import FeatureKind
+from ilmek.part.tolerances import FeatureKind, groove_tolerance
 from ilmek.part.welds import Weld
 from ilmek.plane.contours import along, bounds, counter_clockwise
 from ilmek.records import record
@@ -231,7 +231,15 @@ def _diameters(  # noqa: PLR0917
                 ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
                 view.rows([MeasuredLength(*ends, 2 * radius, "⌀", note.words)], across=True)
             else:
-                _diameter(view, cut, radius, spans, note, "□" if square else "⌀")
+                _diameter(
+                    view,
+                    cut,
+                    radius,
+                    spans,
+                    note,
+                    "□" if square else "⌀",
+                    None if radius == radii[-1] else bounds(contour)[0].real,
+                )
 
 
 def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
@@ -242,17 +250,33 @@ def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
 
 
 def _diameter(  # noqa: PLR0917
-    view: DrawnView, cut: Shortening, radius: float, spans: list[Span], note: FeatureNote, sign: str
+    view: DrawnView,
+    cut: Shortening,
+    radius: float,
+    spans: list[Span],
+    note: FeatureNote,
+    sign: str,
+    datum: float | None,
 ) -> None:
-    """A diameter, or width across flats, of equal stretches of the axis with what they must hold, at the first."""
+    """A diameter, or width across flats, of equal stretches of the axis with what they must hold, at the first.
+
+    datum  end of the part along the axis, from which a row of grooves is measured [m]; None: it is the lands
+    """
     starts = distinct([span[0] for span in spans])
     count = len(starts)
-    times = f"{count}× " if count > 1 else ""
+    times = f"{count}× " if count > 1 and datum is not None else ""
     size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
-    if count > MOST_DIAMETERS:
+    if count > MOST_DIAMETERS and datum is not None:
         pitch = float(np.median(np.diff(starts)))
-        wide = millimetres(float(np.median(np.diff(spans))))
-        size = Sentence("sheet.grooves", size=size, wide=wide, pitch=millimetres(pitch))
+        wide = float(np.median(np.diff(spans)))
+        size = Sentence(
+            "sheet.grooves",
+            size=size,
+            wide=millimetres(wide),
+            pitch=millimetres(pitch),
+            first=millimetres(starts[0] + wide / 2 - datum),
+            error=millimetres(groove_tolerance(pitch)),
+        )
     first, last = cut.drawn(np.array(spans[0]))
     share = 0.5 if cut.whole else 0.8
     at = complex(first + share * (last - first), radius) * view.scale
