@@ -9,8 +9,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from benchmarks.pencil import real_roots
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray
-from ilmek.num.pencil import real_roots
 from ilmek.synthesis.burmester.curve import burmester_curve
 from ilmek.synthesis.burmester.links import arms_through_five_poses, four_bars
 from ilmek.synthesis.dyad import RootKind, arms_through_points, arms_through_poses

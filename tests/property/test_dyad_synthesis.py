@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from benchmarks.pencil import real_roots, roots
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from ilmek.errors import ParameterError
-from ilmek.num.pencil import real_roots, roots
 from ilmek.synthesis.dyad import TwoLinkArm, dyads_through_points, dyads_through_poses, four_bar
 from ilmek.units import deg, mm
 

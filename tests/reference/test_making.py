@@ -86,15 +86,14 @@ def milled(part: Measured, holes: int, density: float, price: float) -> float:
     return density * price * 1.05 * blank + money(35, 45 + thick * wide * CM2) + money(55, cut)
 
 
-def turned(part: Measured, price: float, allowance: float = 4e-3, finished: float | None = None) -> float:
-    """About z: the two equal sides of its box are its diameter."""
+def turned(part: Measured, price: float, bar: float, finished: float | None = None) -> float:
+    """About z: the two equal sides of its box are its diameter; bar  of which it is turned, 2 mm longer."""
     x, y, z = part.sides
-    diameter, long = (y, z) if y - x < z - y else (y, x)
-    diameter += allowance
-    blank = math.pi / 4 * diameter**2 * (long + 3e-3)
+    long = (z if y - x < z - y else x) + 2e-3
+    section = math.pi / 4 * bar**2
     area = part.surface if finished is None else finished
-    cut = 60 + 0.6 * area * CM2 + 3 * (blank - part.volume) * CM3
-    return STEEL * price * 1.05 * blank + money(50, cut)
+    cut = 60 + 0.6 * area * CM2 + 3 * (section * long - part.volume) * CM3
+    return STEEL * price * 1.05 * section * (long + 3e-3) + money(50, cut)
 
 
 def welded(part: Measured) -> float:
@@ -122,9 +121,9 @@ def cam(part: Measured) -> float:
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
         ("weaver/side-plate", lambda part: milled(part, 1, ALLOY, 6.0)),
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
-        ("warp-tension/upper-end", lambda part: turned(part, 1.6)),
-        ("tension-compensator/pin", lambda part: turned(part, 1.3, 0.0, math.pi / 2 * 12e-3**2)),
-        ("automated-loom/peg", lambda part: turned(part, 1.3, 0.0, math.pi / 2 * part.sides[1] ** 2)),
+        ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3)),
+        ("tension-compensator/pin", lambda part: turned(part, 1.3, 12e-3, math.pi / 2 * 12e-3**2)),
+        ("automated-loom/peg", lambda part: turned(part, 1.3, 42e-3)),
         ("automated-loom/column", welded),
         ("automated-loom/creel-rail", welded),
         ("weaver/pile-handler-cam", cam),
@@ -148,8 +147,8 @@ def test_plates_are_welded_along_the_edges_of_what_touches() -> None:
 def test_a_bush_is_drilled_of_the_bar_and_a_tube_is_cut_of_stock() -> None:
     shape, steel = tube(30e-3, 5e-3, 40e-3), MATERIALS["structural steel"]
     bush, cut = (steps_of(Part("a", "a", kind, shape=shape, material=steel)) for kind in ("pin or bush", "steel tube"))
-    assert bush[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * 30e-3**2 * 43e-3)
-    assert bush[1].volume == pytest.approx(math.pi / 4 * (30e-3**2 * 43e-3 - (30e-3**2 - 20e-3**2) * 40e-3))
+    assert bush[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * 32e-3**2 * 45e-3)
+    assert bush[1].volume == pytest.approx(math.pi / 4 * (32e-3**2 * 42e-3 - (30e-3**2 - 20e-3**2) * 40e-3))
     assert cut[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * (30e-3**2 - 20e-3**2) * 43e-3)
     assert len(cut) == 2
 

@@ -35,6 +35,13 @@ class RollingBearing:
     speed: float
     flange: float = 0.0
 
+    @property
+    def standard(self) -> str:
+        """What its order states besides its name: seals, standard."""
+        if self.kind == INSERT:
+            return f", ISO 9628{', cast housing ISO 3228' if self.flange else ''}, with grub screws"
+        return "-2RS, DIN 625-1" if self.kind == DEEP_GROOVE else ", DIN 5412-1"
+
 
 _BALL = """
 6000 10 26 8 4.55 1.97 0.019 30000

@@ -189,21 +189,6 @@ def batch_price(part: BillLine, prices: Mapping[str, PriceRates]) -> float:
     return sum(prices[step.kind].batch for step in part.steps)
 
 
-def written(prices: Mapping[str, PriceRates] = PRICES) -> str:
-    """A table as a text for editing and `read_prices`.
-
-    >>> read_prices(written()) == PRICES
-    True
-    """
-    lines = [
-        f"{kind} {label} = {getattr(rates, name):g}"
-        for kind, rates in prices.items()
-        for label, name in _RATES.items()
-        if getattr(rates, name)
-    ]
-    return "\n".join(lines)
-
-
 def _line(entry: str) -> tuple[str, str, float]:
     """Kind, rate and value of a line."""
     left, _, right = entry.partition("=")

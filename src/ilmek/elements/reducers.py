@@ -41,6 +41,11 @@ class Reducer:
         return 2 - 1 / self.efficiency
 
     @property
+    def kind(self) -> str:
+        """What has such an efficiency: a worm locks itself."""
+        return "worm reducer" if self.self_locking else "planetary reducer"
+
+    @property
     def self_locking(self) -> bool:
         """Whether the load cannot drive it backwards: efficiency at most 1/2."""
         return self.back_driving_efficiency <= 0

@@ -13,8 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from ilmek.arrays import Bool, BoolArray, Complex, Float, NumberArray
-from ilmek.num.pencil import REAL
-from ilmek.num.pencil3 import product
+from ilmek.num.pencil3 import REAL, product
 
 Conic: TypeAlias = Float[np.ndarray, "*batch 3 3"]
 

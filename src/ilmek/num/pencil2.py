@@ -10,8 +10,7 @@ q : c2 and c0 : q with q = -(c1 + sgn(c1) sqrt(c1² - 4 c0 c2)) / 2, without can
 import numpy as np
 
 from ilmek.arrays import Bool, Float, Num, NumberArray
-from ilmek.num.pencil import REAL
-from ilmek.num.pencil3 import SINGULAR, Roots
+from ilmek.num.pencil3 import REAL, SINGULAR, Roots
 
 Rows = Num[np.ndarray, "*batch 2 2"]
 

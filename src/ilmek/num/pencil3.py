@@ -12,12 +12,14 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import Bool, Float, Num, NumberArray
-from ilmek.num.pencil import REAL
 
 Rows = Num[np.ndarray, "*batch 3 3"]
 
 TURNS = np.pi * np.array([0.0, 0.25, 0.5, 0.75, 0.1, 0.6])
 """Directions in the plane of (x, k) for the rotation; a cubic vanishes in three directions at most."""
+
+REAL = 1e-6
+"""Greatest imaginary part of a real root, relative to the root or 1: rounding splits a double root that far."""
 
 SINGULAR = 1e-9
 """Greatest singular value, relative to the pencil, that counts as zero."""

@@ -3,6 +3,7 @@
 from collections.abc import Container
 from dataclasses import replace
 
+from ilmek.part.blanks import size_of
 from ilmek.part.making import steps_of
 from ilmek.part.part import Part
 from ilmek.part.tree import JointKind, Tree
@@ -48,7 +49,7 @@ def line_of(part: Part, number: int = 1) -> BillLine:
     return BillLine(
         name=part.title,
         number=number,
-        description=part.size or (bought.row if bought else ""),
+        description=size_of(part),
         material=part.material.name if part.material else "",
         kind=part.process,
         mass=part.mass,

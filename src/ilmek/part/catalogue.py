@@ -10,13 +10,14 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.hexagon_screws import HexagonScrew
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.motors import Motor
+from ilmek.elements.motors import STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
+from ilmek.elements.reducers import Reducer
 from ilmek.elements.springs import CompressionSpring
 from ilmek.part.part import CLAMP, SET_SCREW, Bought, Part, Seat, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar, box, disc, rectangle, shape_box, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, disc, rectangle, shape_box, stepped, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import as_hole, as_keyed, bounds, circle, keyed_bore, polygon
 from ilmek.report import Contour
@@ -66,7 +67,9 @@ def motor(  # noqa: PLR0917
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
     """
     if row is not None:
-        bought = Bought(row.name, row.mass, power=row.power, drives=together)
+        peak = "holding" if row.kind == STEPPER else "peak"
+        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}"
+        bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
         required = f"to measure: {format_quantity(torque, 'Nm', 3)} at {format_quantity(speed, 'rpm', 3)}"
@@ -85,18 +88,19 @@ def motor_shaft(row: Motor | None) -> float:
 def reducer(  # noqa: PLR0917
     name: str,
     title: str,
-    ratio: float,
+    by: Reducer,
     row: Motor | None,
     end: KeyedEnd | None = None,
-    output: tuple[Placed, ...] = (),
+    output: tuple[float, Sum] | None = None,
 ) -> Part:
     """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
 
-    end  of the shaft that its hollow shaft takes: the room of both is open      output  its own shaft
+    end  of the shaft that its hollow shaft takes: the room of both is open
+    output  diameter of its own shaft, and the shape of that
     """
     face = row.face if row else SPECIAL_FACE
-    bought = Bought(f"{ratio:g}:1", power=row.power if row else 0.0)
-    room = box(face, face, REDUCER_LENGTH * face)
+    room: Shape = box(face, face, REDUCER_LENGTH * face)
+    shaft = "" if output is None else f"output shaft {in_mm(output[0])}"
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
         hollow = abs(corner) + HOLLOW
@@ -104,7 +108,16 @@ def reducer(  # noqa: PLR0917
         room = Prism(
             Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, BEFORE_KEY + end.length)
         )
-    return bought_part(name, title, "reducer", Sum((Placed(room), *output)) if output else room, bought)
+        shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
+    given = row.torque * by.ratio * by.efficiency if row else math.nan
+    motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
+    data = ", ".join(filter(None, (shaft, *motors)))
+    bought = Bought(f"{by.kind} {by.ratio:g}:1", power=row.power if row else 0.0, data=data)
+    return bought_part(name, title, "reducer", Sum((Placed(room), Placed(output[1]))) if output else room, bought)
+
+
+def _flange_of(row: Motor) -> str:
+    return f"flange {in_mm(row.face)}, shaft {in_mm(row.shaft)}"
 
 
 def toothed_pulley(  # noqa: PLR0917
@@ -208,7 +221,7 @@ def bearing(name: str, title: str, row: RollingBearing, holes: tuple[Contour, ..
     """A rolling bearing about z from z = 0, with its square flange, drilled for its screws, if it has one."""
     ring = Placed(tube(row.outer, (row.outer - row.bore) / 2, row.width))
     shape = Sum((ring,)) if row.flange <= 0 else Sum((ring, _flange(row, holes)))
-    return bought_part(name, title, "bearing", shape, Bought(row.name, row.mass))
+    return bought_part(name, title, "bearing", shape, Bought(row.name, row.mass, data=f"{row.name}{row.standard}"))
 
 
 def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
@@ -229,8 +242,9 @@ def spring_part(name: str, title: str, row: CompressionSpring, length: float) ->
     """A compression spring about z from z = 0, drawn at a length [m]; its mass is that of all coils."""
     wire, coil = row.wire_diameter, row.diameter
     made = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, row.free_length))
-    bought = Bought(made, row.mass * (row.coils + 2) / row.coils)
     size = f"{row.wire}, wire x coil x length in mm"
+    data = f"{size}, {row.coils + 2:.3g} coils, ends ground, {format_quantity(row.rate, 'N/mm', 3)}"
+    bought = Bought(made, row.mass * (row.coils + 2) / row.coils, data=data)
     return bought_part(name, title, "spring", tube(coil + wire, wire, length), bought, size=size)
 
 

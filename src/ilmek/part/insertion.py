@@ -9,8 +9,8 @@ lengths `MOVES`. What cannot leave at all is taken with what the fewest units bl
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import chain
 
 import numpy as np
@@ -31,7 +31,7 @@ _SHORT = 20 * mm
 _SIZES = (3, 8, 24)
 """Most units of a group that is put together on the bench: first small ones are tried."""
 
-_MOST_INNER = 60
+_MOST_INNER = 400
 """Most units of which the order on the bench is searched: a larger body comes as it is built elsewhere."""
 
 _LEVEL = 0.05
@@ -62,6 +62,21 @@ def insertions(tree: Tree, up: Vector, welded: frozenset[str] = frozenset()) -> 
     return _Plan(units_of(tree), up, welded).steps()
 
 
+@dataclass(frozen=True)
+class _Known:
+    """What a search has learned of units, as far as it goes [m]: it stays true while what it names stands.
+
+    met       whether one that moves by a length meets another       watched  what is in the way of one to the outside
+    known     what is in the way of a move from a distance           stuck    by what a search among units ended
+    """
+
+    reach: float
+    met: dict[tuple[InsertedUnit, InsertedUnit, Direction, float], bool] = field(default_factory=dict)
+    known: dict[tuple[InsertedUnit, Direction, Direction], InsertedUnit] = field(default_factory=dict)
+    watched: dict[tuple[InsertedUnit, Direction], InsertedUnit] = field(default_factory=dict)
+    stuck: dict[Hashable, frozenset[InsertedUnit]] = field(default_factory=dict)
+
+
 class _Plan:
     """Taking units apart: what still stands, and what is known to be in the way of what.
 
@@ -69,18 +84,21 @@ class _Plan:
     """
 
     def __init__(
-        self, units: Sequence[InsertedUnit], up: Vector | None = None, welded: frozenset[str] = frozenset()
+        self,
+        units: Sequence[InsertedUnit],
+        up: Vector | None = None,
+        welded: frozenset[str] = frozenset(),
+        learned: _Known | None = None,
     ) -> None:
         self.welded = welded
         self.units = sorted(units, key=lambda unit: unit.number)
         self.standing = set(self.units)
         self.up = np.zeros(3) if up is None else up
         self.boxes = np.stack([unit.solid.box for unit in self.units])
-        self.reach = float(np.linalg.norm(np.ptp(self.boxes.reshape(-1, 3), axis=0)))
+        self.learned = learned or _Known(float(np.linalg.norm(np.ptp(self.boxes.reshape(-1, 3), axis=0))))
+        self.met, self.known = self.learned.met, self.learned.known
+        self.watched, self.stuck = self.learned.watched, self.learned.stuck
         self.near: dict[tuple[InsertedUnit, Direction], list[InsertedUnit]] = {}
-        self.met: dict[tuple[InsertedUnit, InsertedUnit, Direction, float], bool] = {}
-        self.known: dict[tuple[InsertedUnit, Direction, Direction], InsertedUnit] = {}
-        self.watched: dict[tuple[InsertedUnit, Direction], InsertedUnit] = {}
         self.through: set[frozenset[InsertedUnit]] = set()
         self.beside: dict[InsertedUnit, set[InsertedUnit]] = {unit: set() for unit in self.units}
         self.carried = {own: [unit for unit in self.units if own.name in unit.carriers] for own in self.units}
@@ -98,13 +116,15 @@ class _Plan:
         while len(self.standing) > 1:
             steps = self._next()
             if steps[0].blocking and not self.welded:
-                built = [unit for unit in (*steps[0].units, *steps[0].blocking) if unit.inner]
+                own = self.standing | set(steps[0].units)
+                near = (*steps[0].units, *steps[0].blocking)
+                built = [unit for unit in (*near, *self.units) if unit.inner and unit in own]
                 if built:  # it is put together in its place
-                    own = self.standing | set(steps[0].units)
-                    parts = _Plan([*(own - {built[0]}), *built[0].inner]).steps()
+                    rest = [*(own - {built[0]}), *built[0].inner]
+                    parts = _Plan(rest, self.up, learned=self.learned).steps()
                     return (*parts, *reversed(taken))
             taken += steps
-        bench = [Insertion((unit,), bench=_bench((unit,))) for unit in self.standing]
+        bench = [Insertion((unit,), bench=_bench((unit,))) for unit in self.units if unit in self.standing]
         return (*bench, *reversed(taken))
 
     def _next(self) -> list[Insertion]:
@@ -117,12 +137,9 @@ class _Plan:
             if not alone and units[0].name not in self.welded and (steps := self._body(units)):
                 return steps
         last = all(name in self.welded for name in bodies)
-        for units in (units for name, units in bodies.items() if last or name not in self.welded):
-            step = self._single(units) or self._group(units) or self._by_moves(units)
-            if step:
-                break
-        else:
-            step = self._held()
+        leaving = [units for name, units in bodies.items() if last or name not in self.welded]
+        tries = (search(units) for search in (self._single, self._group, self._by_moves) for units in leaving)
+        step = next(filter(None, tries), None) or self._held()
         self.standing -= set(step.units)
         return [step]
 
@@ -184,7 +201,7 @@ class _Plan:
         return self.met[key]
 
     def _far(self, direction: Direction) -> Vector:
-        return self.reach * np.array(direction)
+        return self.learned.reach * np.array(direction)
 
     def _may_leave(self, leaving: set[InsertedUnit]) -> bool:
         """Whether what touched what leaves still hangs together, and nothing that it carries stays."""
@@ -227,6 +244,9 @@ class _Plan:
 
         length  of the move [m]; default: to the outside
         """
+        key = tuple(units), direction, most, length
+        if self._still_stuck(key):
+            return None
         group, rest = set(units), list(units)
         while rest:
             unit = rest.pop()
@@ -234,27 +254,33 @@ class _Plan:
             for other in chain((own for own in self.carried[unit] if own in self.standing), along):
                 if other not in group:
                     if len(group) >= min(most, len(self.standing) - 1):
+                        self.stuck[key] = frozenset((*group, other))
                         return None
                     group.add(other)
                     rest.append(other)
         return group
+
+    def _still_stuck(self, key: Hashable) -> bool:
+        """Whether all still stand by which something was found not to move: as less stands, it moves no worse."""
+        return key in self.stuck and self.stuck[key] <= self.standing
 
     def _by_moves(self, units: Sequence[InsertedUnit]) -> Insertion | None:
         """Of some units one leaves, alone or with those that hold it, by several moves."""
         tried: set[frozenset[InsertedUnit]] = set()
         for unit in units:
             held = (self._held_along([unit], along, _SIZES[1], _SHORT) for along in unit.directions)
-            for group in ({unit}, *(own for own in held if own is not None and len(own) > 1 and self._whole(own))):
-                if frozenset(group) not in tried and self._may_leave(group):
-                    tried.add(frozenset(group))
-                    moves = self._path(group, unit)
-                    if moves:
+            groups = (own for own in held if own is not None and len(own) > 1 and self._whole(own))
+            for group in chain(({unit},), groups):
+                key = frozenset(group)
+                if key not in tried and not self._still_stuck(key) and self._may_leave(group):
+                    tried.add(key)
+                    if moves := self._path(group, unit):
                         return self._step(group, moves)
         return None
 
     def _path(self, group: set[InsertedUnit], unit: InsertedUnit) -> tuple[Vector, ...]:
         """Moves by which a group of which a unit is one comes to the outside: the fewest, `MOST_MOVES` at most."""
-        ends: list[tuple[Vector, ...]] = [()]
+        ends, met = list[tuple[Vector, ...]]([()]), set[InsertedUnit](group)
         lengths = (*unit.first_moves, *MOVES)
         for _ in range(MOST_MOVES - 1):
             longer: list[tuple[Vector, ...]] = []
@@ -267,27 +293,30 @@ class _Plan:
                     longer += [
                         (*moves, length * along)
                         for length in (MOVES if moves else lengths)
-                        if self._clear(group, length * along, sum(moves, np.zeros(3)))
+                        if self._clear(group, length * along, sum(moves, np.zeros(3)), met)
                     ]
             for moves in longer:
                 for direction in filter(self._open, MAIN):
-                    if self._clear(group, self._far(direction), sum(moves, np.zeros(3))):
+                    if self._clear(group, self._far(direction), sum(moves, np.zeros(3)), met):
                         return (*moves, self._far(direction))
             ends = longer
+        self.stuck[frozenset(group)] = frozenset(met)
         return ()
 
-    def _clear(self, group: set[InsertedUnit], move: Vector, start: Vector) -> bool:
-        """Whether a group meets nothing that stands by a move from a distance to its seat [m]."""
+    def _clear(self, group: set[InsertedUnit], move: Vector, start: Vector, met: set[InsertedUnit]) -> bool:
+        """Whether a group, moved from a distance to its seat [m], meets nothing; what it meets joins `met`."""
         for unit in group:
             key = unit, tuple(move.tolist()), tuple(start.tolist())
             known = self.known.get(key)
             if known in self.standing and known not in group:
+                met.add(known)
                 return False
             low, high = swept_box(unit.solid.box + start, move)
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
             for other in {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group:
                 if frozenset((unit, other)) not in self.through and meets(unit.solid, other.solid, move, start):
                     self.known[key] = other
+                    met.add(other)
                     return False
         return True
 
@@ -295,8 +324,8 @@ class _Plan:
         """Of what nothing leads to the outside, what the fewest stand in the way of."""
         blocked = (
             ([other for other in self._before(unit, along) if self._meets(unit, other, along)], unit, along)
-            for unit in self.standing
-            if unit.name not in self.welded
+            for unit in self.units
+            if unit in self.standing and unit.name not in self.welded
             for along in filter(self._open, unit.directions)
         )
         blocking, unit, along = min(blocked, key=lambda own: len(own[0]))

@@ -7,6 +7,7 @@ from dataclasses import field
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.elements.class_masses import class_mass
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
 from ilmek.part.moments import Moments
@@ -26,7 +27,8 @@ SET_SCREW, CLAMP = "set screw", "clamp"
 class Bought:
     """A bought part, by its row of a catalogue.
 
-    row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: not weighed
+    row     of the catalogue, as ordered: `NEMA 34`        mass  of one [kg]; nan: that of its class [`class_masses`]
+    data    what a buyer must know besides: flange, shaft, torque; default: the part's size
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
     """
@@ -36,6 +38,7 @@ class Bought:
     length: float = 0.0
     power: float = 0.0
     drives: int = 0
+    data: str = ""
 
 
 @record
@@ -71,7 +74,7 @@ class Part:
     """A kind of thing: what it is, how it is made, of what, and where others sit on it.
 
     id       unique: machine and part, `tension-compensator/lever`         title   for people
-    size     for people: the section or the length that it is cut to; default: the catalogue's row
+    size     of a bought part, for people; default: the catalogue's row. That of a made one is its blank's [`blanks`]
     process  how it is made [`making`], or the kind by which it is bought      shape   in the part's own axes
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
@@ -116,7 +119,7 @@ class Part:
         if self.material is not None and self.shape is not None:
             return self.shape.moments * self.material.density
         assert self.purchase is not None
-        mass = self.purchase.mass
+        mass = self.mass
         if math.isnan(mass):
             return None
         if self.shape is None:
@@ -125,12 +128,21 @@ class Part:
         return volume * (mass / volume.zeroth)
 
     @property
+    def designation(self) -> str:
+        """As a bought part is ordered: its catalogue's row with its data; of a made one none."""
+        if self.purchase is None:
+            return ""
+        row, data = self.purchase.row, self.purchase.data or self.size
+        return row if data in row else data if row in data else f"{row}, {data}"
+
+    @property
     def mass(self) -> float:
-        """Mass of one [kg]; nan: not weighed."""
+        """Mass of one [kg]: of a made part by its shape, of a bought one its catalogue's, else that of its class."""
         if self.material is not None and self.shape is not None:
             return self.shape.volume * self.material.density
-        assert self.purchase is not None
-        return self.purchase.mass
+        bought = self.purchase
+        assert bought is not None
+        return class_mass(self.process, bought.length, bought.power) if math.isnan(bought.mass) else bought.mass
 
 
 def bought_part(name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "") -> Part:

@@ -8,23 +8,17 @@ import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from ilmek.elements.hexagon_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.assemblies import drawings_of_parts
 from ilmek.part.bill import line_of
+from ilmek.part.blanks import PLATE, blanks_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.part import Part
-from ilmek.part.shapes import Prism, Shape, Sum, Turned, shape_box
 from ilmek.part.tree import Tree
-from ilmek.plane.contours import bounds
 from ilmek.report import Table, columns
 from ilmek.sentences import Sentence
 from ilmek.units import format_number, mm
-
-CUT = ("welded frame", "steel tube", "steel bar", "carbon tube", "pin or bush", "turned part")
-"""Processes of parts that are cut from bars or tubes of stock."""
 
 BARS = (6.0, 12.0)
 """Lengths in which bars and tubes are sold [m]: the shorter one, unless a piece is longer."""
@@ -34,9 +28,6 @@ SAW = 3 * mm
 
 FASTENER = "fastener"
 """Process of screws and keys."""
-
-_ON_AXIS = 1e-9
-"""Radius below which a bore is rounding [m]."""
 
 
 def part_lists(tree: Tree, prices: Mapping[str, PriceRates]) -> tuple[Table, ...]:
@@ -55,7 +46,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
         line, bought = line_of(part, number), part.purchase
-        source = ("", "make") if bought is None else (bought.row, "buy")
+        source = (part.designation, "make" if bought is None else "buy")
         drawing = part.id if bought is None else ""
         material = part.material.designation if part.material else ""
         into = " ".join(assemblies[part.id])
@@ -69,7 +60,7 @@ def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     ordered: dict[tuple[str, str, float], list[tuple[Part, int]]] = defaultdict(list)
     for part, number in tree.occurrences():
         if part.purchase is not None:
-            ordered[part.process, part.purchase.row, part.purchase.length].append((part, number))
+            ordered[part.process, part.designation, part.purchase.length].append((part, number))
     heads = columns("designation | kind | length of one [m] | quantity | mass of all [kg] 6 | price of all | parts")
     rows = tuple(
         (
@@ -90,9 +81,9 @@ def cut_list(tree: Tree) -> Table:
     """A row for each section of stock: its pieces by length, their sum, and the bars that they are cut from."""
     stock: dict[tuple[str, str], list[tuple[float, int, str]]] = defaultdict(list)
     for part, number in tree.occurrences():
-        if part.material is not None and part.process in CUT:
-            section, length = section_of(part)
-            stock[section, part.material.designation].append((length, number, part.id))
+        for blank in blanks_of(part):
+            if blank.form != PLATE and part.material is not None:
+                stock[blank.name, part.material.designation].append((blank.length, number, part.id))
     heads = columns("section | material | pieces | lengths | length of all [m] 6 | length of a bar [m] | bars")
     heads = (*heads, *columns("least number of bars | parts"))
     rows = []
@@ -106,50 +97,6 @@ def cut_list(tree: Tree) -> Table:
             (section, material, len(pieces), named, math.fsum(pieces), bar, len(bars_for(pieces, bar)), least, ids)
         )
     return Table("cut-list", Sentence("list.cut"), heads, tuple(rows))
-
-
-def section_of(part: Part) -> tuple[str, float]:
-    """The stock that a part is cut from, in mm, and the length that it is cut to [m], without allowance.
-
-    Of a part of more than one shape or of another kind it is the bar that its box has room in.
-    """
-    assert part.shape is not None
-    low, high = shape_box(part.shape)
-    width, height, length = (high - low).tolist()
-    own = _widest(part.shape)
-    wall = _wall(own)
-    if _is_round(own):
-        return (f"tube {_mm(width)} x {_mm(wall)}" if wall else f"round {_mm(max(width, height))}"), length
-    sides = " x ".join(map(_mm, sorted((width, height))))
-    return (f"hollow section {sides} x {_mm(wall)}" if wall else f"bar {sides}"), length
-
-
-def _widest(shape: Shape) -> Shape:
-    """The shape, or that member of a sum which is the widest."""
-    if not isinstance(shape, Sum):
-        return shape
-    return max((_widest(member.shape) for member in shape.members), key=lambda own: float(np.ptp(shape_box(own), 0)[0]))
-
-
-def _is_round(shape: Shape) -> bool:
-    """Whether it is cut from round stock: no corner of its section is much farther out than all its sides."""
-    if not isinstance(shape, Prism):
-        return isinstance(shape, Turned)
-    low, high = bounds(shape.section.outline)
-    size, middle = high - low, (low + high) / 2
-    return float(np.abs(shape.section.outline.points - middle).max()) <= 0.525 * min(size.real, size.imag)
-
-
-def _wall(shape: Shape) -> float:
-    """Wall of a tube or hollow section [m]; 0: it is solid, or has a bore of another form."""
-    if isinstance(shape, Turned):
-        inner, outer = float(shape.profile.outline.points.imag.min()), shape.outer_radius
-        return outer - inner if inner > _ON_AXIS else 0.0
-    if not isinstance(shape, Prism) or not shape.section.holes:
-        return 0.0
-    (low, high), (begin, end) = bounds(shape.section.outline), bounds(shape.section.holes[0])
-    walls = (high - low - (end - begin)) / 2
-    return walls.real if abs(walls.real - walls.imag) < _ON_AXIS else 0.0
 
 
 def bars_for(pieces: Sequence[float], bar: float) -> tuple[tuple[float, ...], ...]:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import TypeVar
 
+from ilmek.part.blanks import size_of
 from ilmek.part.folding import folded_sheet
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
@@ -39,7 +40,7 @@ def _piece(part: Part, number: int, whole: Tree) -> WorkPiece:
     return WorkPiece(
         plate_name(part),
         part.title,
-        part.size,
+        size_of(part),
         part.material.designation,
         number,
         part.shape,

@@ -10,6 +10,7 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.errors import ParameterError
+from ilmek.part.blanks import size_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import CHORD
@@ -136,7 +137,8 @@ def parts_of(
 def _title(part: Part, body: RigidBody, *, several: bool) -> str:
     """Title and size of a part; of one that is in several bodies, that of its body too."""
     named = f"{part.title} ({body.id.rpartition('/')[2]})" if several else part.title
-    return f"{named}, {part.size}" if part.size else named
+    size = part.size if part.purchase else size_of(part)
+    return f"{named}, {size}" if size else named
 
 
 def _bodies_with(tree: Tree, part: Part) -> list[str]:

@@ -135,8 +135,9 @@ def meets(moving: MovedSolids, standing: MovedSolids, move: Vector, start: Vecto
     begin = np.zeros(3) if start is None else start
     for (own, here), (other, there) in _pairs(moving, standing, move, begin):
         shifted = Placement(here.origin + begin, here.rotation)
-        swept = own.bands(here.rotation.T @ move), other.bands(-there.rotation.T @ move)
-        if _cut(swept[0], shifted, other.still, there) or _cut(own.still, shifted, swept[1], there):
+        if _cut(own.bands(here.rotation.T @ move), shifted, other.still, there):
+            return True
+        if _cut(own.still, shifted, other.bands(-there.rotation.T @ move), there):
             return True
     return False
 

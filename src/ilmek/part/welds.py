@@ -15,7 +15,8 @@ import numpy as np
 from ilmek.arrays import Float
 from ilmek.elements.fillet_welds import throat_for
 from ilmek.part.contacts import Touch, joined_by, touches
-from ilmek.part.making import form_of, seams
+from ilmek.part.forms import form_of
+from ilmek.part.making import seams
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import Prism, Sum, Turned, shape_box

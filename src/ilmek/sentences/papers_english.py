@@ -261,7 +261,7 @@ PAPERS = {
     # Lift
     "lift.how": "The loom is moved without guards and creel, its heads and comb locked, on a lifting frame with four "
     "vertical slings: eye bolts in the tops of the columns, round slings under the front feet.",
-    "lift.masses": "The whole loom weighs {whole}, what is lifted {lifted}, with {parts} parts that are not weighed.",
+    "lift.masses": "The whole loom weighs {whole}, what is lifted {lifted}.",
     "lift.centre": "The mass centre of what is lifted: {x} to the right of the middle, {y} over the floor, {z} "
     "behind the fell.",
     "lift.point": "lifting point",

@@ -260,7 +260,7 @@ PAPERS = {
     # Lift
     "lift.how": "Tezgâh, koruyucular ve cağlık olmadan, başlıkları ve tarağı kilitli olarak, dört düşey sapanlı bir "
     "kaldırma çerçevesiyle taşınır: kolonların tepesinde mapalar, ön ayakların altında yuvarlak sapanlar.",
-    "lift.masses": "Bütün tezgâh {whole}, kaldırılan {lifted} gelir; {parts} parça tartılmamıştır.",
+    "lift.masses": "Bütün tezgâh {whole}, kaldırılan {lifted} gelir.",
     "lift.centre": "Kaldırılanın kütle merkezi: ortanın {x} sağında, zeminin {y} üstünde, dokuma çizgisinin {z} "
     "arkasında.",
     "lift.point": "kaldırma noktası",

@@ -173,20 +173,3 @@ def sign(relation: str) -> str:
     '≤'
     """
     return _SIGNS.get(relation, relation)
-
-
-def duration(seconds: float) -> str:
-    """A time in seconds, minutes or hours.
-
-    >>> duration(42.0), duration(5400.0), duration(270000.0)
-    ('42 s', '1 h 30 min', '75 h')
-    """
-    minutes = round(seconds / 60.0)
-    if seconds < 120:
-        return f"{format_number(seconds, 3)} s"
-    if minutes < 60:
-        return f"{minutes} min"
-    hours, left = divmod(minutes, 60)
-    if hours >= 48 or not left:
-        return f"{count(round(seconds / 3600.0))} h"
-    return f"{hours} h {left} min"

@@ -7,6 +7,7 @@ requests and answers are dataclasses; the schema of the API and the types of the
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 from ilmek.jobs.studio.answers import PACKED
 
@@ -60,57 +61,50 @@ class Endpoint:
         return self.method not in ("GET", "DELETE")
 
 
+_get, _post = partial(Endpoint, "GET"), partial(Endpoint, "POST")
+
 ENDPOINTS: tuple[Endpoint, ...] = (
-    Endpoint("GET", "/machines", "studio.machine.tasks:list_of_machines", "The machines of the catalogue."),
-    Endpoint("GET", "/machines/{name}", "studio.machine.tasks:form", "The declared parameters of a machine."),
-    Endpoint(
-        "POST",
+    _get("/machines", "studio.machine.tasks:list_of_machines", "The machines of the catalogue."),
+    _get("/machines/{name}", "studio.machine.tasks:form", "The declared parameters of a machine."),
+    _post(
         "/machines/{name}/design",
         "studio.machine.tasks:design",
         "Design a machine: the JSON of `ilmek design NAME --json -`.",
         affinity="machine",
         answer="application/json",
     ),
-    Endpoint(
-        "POST", "/machines/{name}/reading", "studio.machine.tasks:reading", "Read one typed value of a parameter."
-    ),
-    Endpoint(
-        "POST",
+    _post("/machines/{name}/reading", "studio.machine.tasks:reading", "Read one typed value of a parameter."),
+    _post(
         "/machines/{name}/view",
         "studio.machine.view:view",
         "Design a machine: verdict, checks and results with their texts, without tables and figures.",
         affinity="machine",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/space",
         "studio.machine.view:in_space",
         "The same with the parts of the machine against each other in space.",
         affinity="nearest",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/nearest",
         "studio.machine.view:nearest",
         "The nearest carpets that a loom could weave, where it cannot weave what is required.",
         affinity="nearest",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/figures",
         "studio.machine.figures:figures",
         "Figures of a design by name, as data; and the names of all that there are.",
         affinity="machine",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/tables",
         "studio.machine.figures:tables",
         "The tables of a design.",
         affinity="machine",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/sensitivities",
         "studio.machine.sensitivities:sensitivities",
         "What each parameter does to each check, by small steps; each is sent as soon as it is known.",
@@ -118,83 +112,72 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         affinity="sensitivities",
         work=True,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/machines/{name}/comparison",
         "studio.machine.comparison:comparison",
         "What differs between two settings of a machine: parameters, results, checks.",
         affinity="machine",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/synthesis/candidates",
         "studio.synthesis.tasks:candidates",
         "The four-bars for a task, ranked, with reasons for those left out; `quick` while a point is dragged.",
         affinity="synthesis",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/synthesis/search",
         "studio.synthesis.tasks:candidates",
         "The same as work, with progress: the full search.",
         limit=HOUR,
         work=True,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/synthesis/mechanism",
         "studio.synthesis.tasks:mechanism",
         "A four-bar of a synthesis as a mechanism file.",
         affinity="synthesis",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/scene",
         "studio.loom.scene:scene",
         "A loom of the project in space: parts, motions, warps, yarns, carpet (packed).",
         affinity="loom",
         answer=PACKED,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/space",
         "studio.loom.scene:in_space",
         "What a scene leaves open: the parts of the loom against each other in space (packed).",
         affinity="loom",
         answer=PACKED,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/plate",
         "studio.loom.scene:plate",
         "The drawing of a plate of a loom of the project.",
         affinity="loom",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/glb",
         "studio.loom.scene:glb",
         "A loom of the project as GLB, in motion.",
         affinity="loom",
         answer="model/gltf-binary",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/run",
         "studio.loom.run:run",
         "Weave the carpet of a recipe on the twin; news of the run ten times a second.",
         limit=24 * HOUR,
         work=True,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/loom/command",
         "studio.loom.run:command",
         "A command to the run: hold, resume, stop, acknowledge, yes, no.",
     ),
-    Endpoint("GET", "/project", "studio.project.tasks:project", "The files of the project, each with its first error."),
-    Endpoint(
-        "GET",
+    _get("/project", "studio.project.tasks:project", "The files of the project, each with its first error."),
+    _get(
         "/project/files/{path:path}",
         "studio.project.tasks:read_file",
         "A text file of the project.",
@@ -206,46 +189,36 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         "studio.project.tasks:save_file",
         "Save a text file, where nobody changed it since; what is not changed is kept, also comments.",
     ),
-    Endpoint(
-        "POST", "/project/undo", "studio.project.tasks:undo", "Bring back the state of a file before the current one."
-    ),
-    Endpoint(
-        "POST", "/project/redo", "studio.project.tasks:redo", "Bring back the state of a file that was undone last."
-    ),
-    Endpoint("POST", "/project/new", "studio.project.tasks:new_file", "A new text file, or a copy of one."),
-    Endpoint("POST", "/project/rename", "studio.project.tasks:rename_file", "Rename a text file, with its history."),
-    Endpoint("POST", "/project/delete", "studio.project.tasks:delete_file", "Delete a text file; undo brings it back."),
-    Endpoint(
-        "POST",
+    _post("/project/undo", "studio.project.tasks:undo", "Bring back the state of a file before the current one."),
+    _post("/project/redo", "studio.project.tasks:redo", "Bring back the state of a file that was undone last."),
+    _post("/project/new", "studio.project.tasks:new_file", "A new text file, or a copy of one."),
+    _post("/project/rename", "studio.project.tasks:rename_file", "Rename a text file, with its history."),
+    _post("/project/delete", "studio.project.tasks:delete_file", "Delete a text file; undo brings it back."),
+    _post(
         "/project/pictures",
         "studio.project.pictures:upload_picture",
         "Put a picture, or a knot chart in a format that is read, into the project.",
         upload=PICTURE_TYPES,
     ),
-    Endpoint("POST", "/project/pictures/delete", "studio.project.pictures:delete_picture", "Delete a picture."),
-    Endpoint(
-        "POST", "/project/products", "studio.project.products:products", "What can be written of a file, with commands."
-    ),
-    Endpoint(
-        "POST",
+    _post("/project/pictures/delete", "studio.project.pictures:delete_picture", "Delete a picture."),
+    _post("/project/products", "studio.project.products:products", "What can be written of a file, with commands."),
+    _post(
         "/project/write",
         "studio.outputs:write_product",
         "Write a product of a file into out/, as the command line does.",
         limit=HOUR,
         work=True,
     ),
-    Endpoint("GET", "/project/out", "studio.project.out:written", "What was written into out/, the newest first."),
-    Endpoint(
-        "GET",
+    _get("/project/out", "studio.project.out:written", "What was written into out/, the newest first."),
+    _get(
         "/project/archive/{path:path}",
         "studio.project.out:archive",
         "A folder in out/ as ZIP.",
         answer="application/zip",
     ),
-    Endpoint("POST", "/project/out/delete", "studio.project.out:delete_written", "Delete a file or folder of out/."),
-    Endpoint("POST", "/commands", "studio.commands:shown_command", "A state as its command line and as Python."),
-    Endpoint(
-        "POST",
+    _post("/project/out/delete", "studio.project.out:delete_written", "Delete a file or folder of out/."),
+    _post("/commands", "studio.commands:shown_command", "A state as its command line and as Python."),
+    _post(
         "/cyclogram/view",
         "studio.cyclogram.tasks:view",
         "A cyclogram: curves of its tracks, relations and exclusions with their margins, checks (packed).",
@@ -253,37 +226,32 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         records=("CyclogramView",),
         answer=PACKED,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/cyclogram/solve",
         "studio.cyclogram.tasks:solved",
         "Least acceleration or shortest turn of a cyclogram, and what binds.",
         limit=HOUR,
         work=True,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/cyclogram/machine",
         "studio.cyclogram.tasks:of_machine",
         "The cyclograms of a machine of the catalogue, as files' data.",
         affinity="machine",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/mechanism",
         "studio.linkage.tasks:mechanism",
         "A mechanism from its file's data: structure, what is missing, motion; also while a joint is dragged.",
         affinity="linkage",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/mechanism/quality",
         "studio.linkage.quality:quality",
         "Circuits, mobility, coupler curves, least transmission angles and the checks of `ilmek mechanism`.",
         affinity="linkage-quality",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/chart",
         "studio.carpet.tasks:chart",
         "The chart of a recipe, saved or not: yarns, checks, cost; then one byte a knot (packed).",
@@ -292,16 +260,14 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         records=("ChartAnswer",),
         answer=PACKED,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/row",
         "studio.carpet.tasks:row",
         "A row of the chart of a recipe to weave by, in both directions.",
         limit=10 * 60 * SECOND,
         affinity="carpet",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/specks",
         "studio.carpet.tasks:specks",
         "The small patches of a chart outside of patterns, their knots and the yarns around them (packed).",
@@ -310,23 +276,20 @@ ENDPOINTS: tuple[Endpoint, ...] = (
         records=("Specks",),
         answer=PACKED,
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/proposal",
         "studio.carpet.tasks:proposal",
         "The shades that suit the picture of a recipe best.",
         limit=10 * 60 * SECOND,
         affinity="carpet",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/corners",
         "studio.carpet.tasks:corners",
         "The corners of a carpet photographed at an angle.",
         affinity="carpet picture",
     ),
-    Endpoint(
-        "POST",
+    _post(
         "/carpet/picture",
         "studio.carpet.tasks:picture",
         "A picture of the project as it is read, made small (packed).",

@@ -172,8 +172,17 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
         raise _closes_elsewhere(plan, motion, driven)
-    forces, left_out = forces_or_reason(machine, motion, driven)
-    made = MechanismRun(
+    made = run_of(machine, plan, motion, driven, over=request.over)
+    _check_ranges(made)
+    return made
+
+
+def run_of(
+    machine: OwnMachine, plan: Plan, motion: Motion, driven: DrivenInputs, *, over: object, forced: bool = True
+) -> MechanismRun:
+    """A motion with its forces; over: the range that the call gives, if any; forced: whether forces are wanted."""
+    forces, left_out = _forces_or_reason(machine, motion, driven) if forced else (None, "")
+    return MechanismRun(
         machine,
         plan,
         motion,
@@ -184,13 +193,11 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
         forces,
         left_out,
         driven.assumed,
-        required=bool(request.over) or not driven.assumed,
+        required=bool(over) or not driven.assumed,
     )
-    _check_ranges(made)
-    return made
 
 
-def forces_or_reason(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[InverseRun | None, str]:
+def _forces_or_reason(machine: OwnMachine, motion: Motion, driven: DrivenInputs) -> tuple[InverseRun | None, str]:
     """The forces of a motion; or None and why there are none, "" for a machine without masses, loads and friction."""
     if not machine.has_forces:
         return None, ""

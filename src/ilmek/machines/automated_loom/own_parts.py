@@ -28,6 +28,7 @@ from ilmek.part.shapes import box, shape_box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import peak_acceleration, peak_speed
+from ilmek.units import in_mm
 
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
@@ -69,7 +70,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         "axis of the rail's retreat",
         "linear axis",
         box(RAIL_AXIS, RAIL_AXIS, low + room),
-        Bought("belt drive", length=heads.stroke),
+        Bought("belt drive", length=heads.stroke, data=f"linear axis {in_mm(RAIL_AXIS)} wide, belt drive"),
         size="belt drive, one at each support of the rail",
     )
     slope, upper = -cmath.phase(RETREAT), placement(z=-room)

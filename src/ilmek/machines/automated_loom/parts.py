@@ -48,9 +48,7 @@ class PartsList:
     def axes(self) -> int:
         return sum(part.number // part.drives for part in self.parts if part.drives)
 
-    mass = computed(
-        "kg", "mass of all parts but reducers, rails and control", lambda it: sum(part.mass_all for part in it.parts)
-    )
+    mass = computed("kg", "mass of all parts", lambda it: sum(part.mass_all for part in it.parts))
 
     @computed("", "price of all parts by the table of prices, in euros unless the prices are others")
     def price(self) -> float:

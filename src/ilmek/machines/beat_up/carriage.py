@@ -7,13 +7,14 @@ the crank is flanged to its other side.
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.elements.belts import BELTS, belt_length
 from ilmek.elements.columns import STEEL
 from ilmek.elements.pin_joints import PIN_DIAMETERS
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
@@ -22,12 +23,13 @@ from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.parts import pin_part
 from ilmek.machines.link_tree import PIN_STEEL
+from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import placement
-from ilmek.part.profile import drilled
+from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Prism, bar, box, stepped
 from ilmek.part.tree import Occurrence, in_line
-from ilmek.plane.contours import polygon, rounded_hull
+from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.report import Check, Hole, at_least, at_most
 from ilmek.units import in_mm, mm, round_size
 
@@ -46,8 +48,9 @@ SHAFTS = (*PIN_DIAMETERS[4:], 125 * mm, 160 * mm)
 SHARED_SHAFT = "beat-up/shared-shaft"
 """Id of the shaft that drives the cranks of a comb."""
 
-BELT_WIDTH = 30 * mm
-"""Room for the belt from it to a crank, along the pins [m]: assumed by this project."""
+BELT, BELT_BODY, BELT_WIDTH = BELTS["HTD 8M"], 2.5 * mm, 30 * mm
+"""The belt from it to a crank, its thickness without teeth, and room for its pulleys along the pins [m]: assumed by
+this project."""
 
 NECK = 20 * mm
 """Length of the journal of that shaft before its drive [m]: assumed by this project."""
@@ -147,7 +150,7 @@ def _shoulder_checks(end: Shoulder) -> tuple[Check, ...]:
     )
 
 
-def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> tuple[Occurrence, ...]:
+def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> Iterator[Occurrence]:
     """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
     end, thickness = shared_end(linkage, torque, len(stations)), linkage.params.thickness
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
@@ -155,14 +158,24 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> t
     length = max(stations) + belt_begin + BELT_WIDTH - begin
     size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
     shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
-    pulley = max(linkage.params.width / 2, end.shaft / 2 + _AROUND)
-    ring = rounded_hull(np.array([0, axis]), pulley)
-    title = "belt and pulleys of a crank"
-    band = Prism(drilled(ring, [Hole(axis, end.shaft / 2)]), BELT_WIDTH)
-    bought = Bought("belt HTD 8M, ratio 1", length=2 * abs(axis) + 2 * math.pi * pulley)
-    belt = bought_part("beat-up/shared-belt", title, "belt and pulleys", band, bought)
-    places = tuple(placement(z=station + belt_begin) for station in stations)
-    return Occurrence(shared, (placement(axis.real, axis.imag, begin),)), Occurrence(belt, places)
+    pulleys = max(linkage.params.width / 2, end.shaft / 2 + _AROUND)
+    teeth = min(math.ceil(2 * math.pi * pulleys / BELT.pitch), math.floor(math.pi * abs(axis) / BELT.pitch))
+    tips = BELT.tip_radius(teeth) + 0.05 * mm
+    outer, inner = (rounded_hull(np.array([0, axis]), radius) for radius in (tips + BELT_BODY, tips))
+    length = belt_length(BELT, teeth, teeth, abs(axis))
+    size = f"belt {BELT.name}, {in_mm(BELT.widths[0])} wide, {round(length / BELT.pitch)} teeth"
+    bought = Bought(size, BELT.mass * BELT.widths[0] * length, length=length)
+    band = Prism(Profile(outer, (inner,)), BELT.widths[0])
+    belt = bought_part("beat-up/shared-belt", "belt of a crank", "belt", band, bought)
+    yield Occurrence(shared, (placement(axis.real, axis.imag, begin),))
+    low = belt_begin + catalogue.RIM
+    yield Occurrence(belt, tuple(placement(z=z + low + catalogue.BESIDE) for z in stations))
+    for name, at, bore in (("shaft", axis, end.shaft), ("crank", 0j, linkage.pin)):
+        title, edge = f"pulley of the {name}'s belt", circle(0j, bore / 2)
+        part = catalogue.toothed_pulley(
+            f"beat-up/{name}-pulley", title, BELT, teeth, BELT.widths[0], edge, clamped=True
+        )
+        yield Occurrence(part, tuple(placement(at.real, at.imag, z + low) for z in stations))
 
 
 def plate_begin(linkage: BeatUp) -> float:
@@ -183,13 +196,21 @@ def _pivot_pin(diameter: float, thickness: float) -> Part:
     return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", size, shape, PIN_STEEL)
 
 
-def carried(linkage: BeatUp, plate: Part, station: float = 0.0) -> tuple[Occurrence, ...]:
-    """The plate of a crank-rocker at a station along z [m], and both pins in it."""
+@lru_cache(maxsize=16)
+def _belted_pin(diameter: float, length: float) -> Part:
+    """The crank's pin where a belt drives it: it reaches through the plate and the pulley."""
+    title, shape = "pin of the crank, with its pulley", bar(diameter, length)
+    return Part("beat-up/crank-pin", title, "pin or bush", round_size(diameter), shape, PIN_STEEL)
+
+
+def carried(linkage: BeatUp, plate: Part, station: float = 0.0, *, belted: bool = False) -> tuple[Occurrence, ...]:
+    """The plate of a crank-rocker at a station along z [m], and both pins in it, that of the crank through a pulley."""
     thickness, begin = linkage.params.thickness, plate_begin(linkage)
     crank = layer("crank", thickness) - thickness / 2
+    beyond = begin + thickness + BELT_WIDTH - crank
     return (
         Occurrence(plate, (placement(z=station + begin),)),
-        Occurrence(pin_part(linkage), (placement(z=station + crank),)),
+        Occurrence(_belted_pin(linkage.pin, beyond) if belted else pin_part(linkage), (placement(z=station + crank),)),
         Occurrence(pivot_pin(linkage), (placement(linkage.lengths["ground"], z=station - thickness / 2),)),
     )
 

@@ -236,7 +236,7 @@ def _rim(inertia: float) -> Turned:
 def _geared(start: CrankStart) -> Iterator[Part]:
     row, reducer = start.pair or (None, DIRECT)
     if reducer.ratio != 1:
-        yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer.ratio, row)
+        yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer, row)
     speed = start.duty.linkage.params.speed
     yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed)
 

@@ -33,7 +33,7 @@ from ilmek.part.shapes import box
 from ilmek.records import computed, record, result
 from ilmek.report import Check, at_least, at_most, must
 from ilmek.timing.s_curve import AxisLimits, SCurve, move_time, s_curve
-from ilmek.units import mm, turn
+from ilmek.units import in_mm, mm, turn
 from ilmek.weaving.cloth import Cloth
 
 SLIDE_END = 20 * mm
@@ -179,13 +179,13 @@ def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     length = slide_length(found)
     speed = found.step.speed / PULLEY
     reducers = (
-        (catalogue.reducer(REDUCER, "reducer of the slide", found.slide.reducer.ratio, row),)
+        (catalogue.reducer(REDUCER, "reducer of the slide", found.slide.reducer, row),)
         if found.slide and found.slide.reducer.ratio != 1
         else ()
     )
     size = "belt drive along the carpet"
     shape = box(AXIS_SIDE, AXIS_SIDE, length)
-    bought = Bought("belt axis", length=length)
+    bought = Bought("belt axis", length=length, data=f"belt axis {in_mm(AXIS_SIDE)} wide, pulley {in_mm(2 * PULLEY)}")
     return (
         bought_part(AXIS, "slide of the beater", "linear axis", shape, bought, size=size),
         *reducers,

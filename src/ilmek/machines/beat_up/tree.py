@@ -170,7 +170,7 @@ def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Seq
     shared = shared_end(design, start.start_torque, len(stations)).shaft
     plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
     parts: dict[str, Occurrence] = {}
-    for one in (part for z in stations for part in carried(design, plate, z)):
+    for one in (part for z in stations for part in carried(design, plate, z, belted=True)):
         before = parts[one.part.id].positions if one.part.id in parts else ()
         parts[one.part.id] = replace(one, positions=(*before, *one.positions))
     end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH + NECK

@@ -32,7 +32,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
@@ -191,16 +191,26 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     row = drive.motor if drive else None
     motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
-    if drive is None:
+    if drive is None or drive.reducer.ratio == 1:
         return (motor,)
-    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer.ratio, row), motor
+    return catalogue.reducer("hammer/reducer", "reducer of a vertical axis", drive.reducer, row), motor
+
+
+def _axis_data(params: HammerParams) -> str:
+    """What the order of a vertical axis states."""
+    drive = f"pulley {in_mm(2 * params.pulley_radius)}"
+    if params.axis == "screw":
+        drive = f"lead {in_mm(params.screw_lead)}"
+        drive = f"screw {in_mm(params.screw_diameter)}, {drive}" if params.screw_diameter else drive
+    return f"linear axis {in_mm(AXIS_SIDE)} wide, {params.axis} drive, {drive}"
 
 
 @lru_cache(maxsize=4)
 def _on_axes(hammer: Hammer) -> Tree:
     params, (*geared, motor) = hammer.params, _driving(hammer)
     number, low, before = params.axis_count, _low(params), params.reach + params.comb_thickness
-    shape, bought = box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT), Bought(params.axis, length=params.stroke)
+    shape = box(AXIS_SIDE, AXIS_SIDE, params.stroke + BLOCK_HEIGHT)
+    bought = Bought(params.axis, length=params.stroke, data=_axis_data(params))
     axis = bought_part("hammer/axis", "vertical axis", "linear axis", shape, bought, size=params.axis)
     edge = params.cloth.width / 2 - params.inset
     stations = np.linspace(-edge, edge, number) if number > 1 else np.zeros(1)

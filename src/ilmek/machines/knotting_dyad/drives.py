@@ -56,12 +56,13 @@ class JointDrive:
     torque_rms: float = result("mN*m", "root mean square of it over the cycle")
     speed_max: float = result("rad/s", "greatest speed of the joint")
     power_max: float = result("W", "greatest power at the joint")
-    gear_ratio: float = result("1", "ratio of its gears")
+    reducer: Reducer
     servo_torque_max: float = result("mN*m", "greatest torque of the servo, with its own rotor")
     servo_torque_rms: float = result("mN*m", "root mean square of it over the cycle")
     servo_speed: float = result("rad/s", "greatest speed of the servo")
     motor: Motor | None
 
+    gear_ratio = computed("1", "ratio of its gears", lambda it: it.reducer.ratio)
     servo = computed("", "class of the servo", lambda it: it.motor and it.motor.name, absent="none is enough")
 
 
@@ -202,7 +203,7 @@ def _behind(params: KnottingDyadParams, joint: str, load: _Load, reducer: Reduce
         torque_rms=_rms(load.time, load.torque),
         speed_max=speed,
         power_max=_most([torque * rate for torque, rate in zip(load.torque, load.speed, strict=True)]),
-        gear_ratio=reducer.ratio,
+        reducer=reducer,
         servo_torque_max=most,
         servo_torque_rms=lasting,
         servo_speed=reducer.ratio * speed,

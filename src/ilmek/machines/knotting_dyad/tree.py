@@ -291,7 +291,7 @@ def _hanging(line: tuple[Occurrence, ...], axis: complex) -> tuple[Occurrence, .
 def _drive_parts(name: str, drive: JointDrive) -> Iterator[Part]:
     if drive.gear_ratio != 1:
         title = f"reducer of the {drive.joint}"
-        yield catalogue.reducer(f"{name}-reducer", title, drive.gear_ratio, drive.motor)
+        yield catalogue.reducer(f"{name}-reducer", title, drive.reducer, drive.motor)
     yield catalogue.motor(name, f"servo of the {drive.joint}", drive.motor, drive.servo_torque_max, drive.servo_speed)
 
 

@@ -60,5 +60,5 @@ def _drive(design: KnottingFourBar) -> Iterator[Part]:
     """The servo of the first crank behind its gears, from the crank on."""
     drive = design.drive
     if drive.reducer.ratio != 1:
-        yield catalogue.reducer(f"{MACHINE_NAME}/reducer", "reducer of the crank", drive.reducer.ratio, drive.servo)
+        yield catalogue.reducer(f"{MACHINE_NAME}/reducer", "reducer of the crank", drive.reducer, drive.servo)
     yield catalogue.motor(f"{MACHINE_NAME}/motor", "servo of the crank", drive.servo, drive.torque, drive.speed)

@@ -270,7 +270,7 @@ def reducer(design: SheddingDesign, index: int) -> Part:
     """The reducer on the driven end of a shaft, outside of its bracket."""
     drive, title = design.shafts[index].drive, _numbered(design, index, "reducer of the cam shaft")
     end = design.shafts[index].driven_end
-    return catalogue.reducer(part_id("reducer", index), title, drive.reducer.ratio, drive.motor, end)
+    return catalogue.reducer(part_id("reducer", index), title, drive.reducer, drive.motor, end)
 
 
 def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:

@@ -18,6 +18,7 @@ from ilmek.errors import ParameterError
 from ilmek.machines.tension_compensator.members import BUSH_WALL, SADDLE, Members, part_id
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import PLAY, SprungLever
+from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import Profile, drilled
@@ -173,15 +174,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         bush=_made("bush", "bush of a lever", turned, _bush(pin), round_size(pin + 2 * BUSH_WALL), BRONZE),
         pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), round_size(pin)),
         saddle=_made("saddle", "saddle of a bar", "laser-cut part", _saddle(supports), plate),
-        roller=Part(
-            part_id("roller"),
-            "roller of bars and rods",
-            "bearing",
-            roller.name,
-            tube(roller.outer, (roller.outer - roller.bore) / 2, roller.width),
-            purchase=Bought(roller.name, roller.mass),
-            envelope=True,
-        ),
+        roller=catalogue.bearing(part_id("roller"), "roller of bars and rods", roller),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, round_size(roller.bore)),
         spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), round_size(pin)),
         spring=_spring(supports),
@@ -378,9 +371,12 @@ def _spring(at: BarSupports) -> Part:
     if wound is None:
         return Part(part_id("spring"), title, "spring", purchase=Bought("none of the table is enough"))
     size = f"{wound.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
+    shape = (wound.diameter / mm, wound.free_length / mm, wound.coils + 2)
+    data = f"{size}, mean coil {shape[0]:.3g} mm, free length {shape[1]:.3g} mm, {shape[2]:.3g} coils, ends ground"
     seat = _spring_seat(at)
     dips = PLAY + max(_eye_wide(sprung), 2 * at.members.pin) / 2 * math.sin(abs(sprung.angle))
     length = max(float(sprung.lever.spring_length(sprung.angle)) - 2 * seat - dips, wound.wire_diameter)
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
     room = Sum((Placed(coil, (placement(z=seat),)),))
-    return Part(part_id("spring"), title, "spring", size, room, purchase=Bought(size, wound.mass), envelope=True)
+    bought = Bought(size, wound.mass, data=data)
+    return Part(part_id("spring"), title, "spring", size, room, purchase=bought, envelope=True)

@@ -12,7 +12,6 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.elements.hubs import hub_for
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.link_tree import GAP, Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
 from ilmek.machines.linkage_strength import largest_bar
@@ -26,6 +25,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.report import Contour
+from ilmek.sentences import Sentence
 from ilmek.units import in_mm, round_size
 
 NAME = "tufting"
@@ -147,12 +147,13 @@ def ring(crank: float, shaft: float) -> Contour:
 
 
 def eccentric(name: str, crank: float, shaft: float, thickness: float, material: Material) -> Part:
-    """A crank on a shaft of a diameter [m]: a disc about A with the bore of the shaft at O, keyed."""
+    """A crank on a shaft of a diameter [m]: a disc about A with the bore of the shaft at O, too thin for a key."""
     radius = eccentric_radius(crank, shaft)
     size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
-    shape = Prism(Profile(circle(complex(crank), radius), (hub_for(shaft).contour,)), thickness)
+    shape = Prism(Profile(circle(complex(crank), radius), (circle(0j, shaft / 2),)), thickness)
     seats = {"O": Seat(placement(), shaft), "A": Seat(placement(crank), 2 * radius)}
-    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats)
+    notes = (Sentence("sheet.bonded"),)
+    return Part(name, "eccentric of the crank", "machined link", size, shape, material, seats=seats, notes=notes)
 
 
 def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:

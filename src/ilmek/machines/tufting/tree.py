@@ -103,7 +103,7 @@ def _at(part: Part, x: float, plates: Sequence[Placement]) -> Occurrence:
 
 
 def keyed(body: RigidBody, shaft: RigidBody | None) -> RigidBody:
-    """A crank, keyed on its shaft; or the arm, which is keyed on the driven shaft as the rocker is, its parent."""
+    """A crank, fixed on its shaft; or the arm, which is fixed on the driven shaft as the rocker is, its parent."""
     joint = replace(body.joint, kind=JointKind.FIXED, motion=None)
     if shaft is None:
         return replace(body, joint=joint)
@@ -168,6 +168,6 @@ def _drive(design: Tufting) -> Iterator[Part]:
     strength = needle_strength(design)
     row, reducer = strength.motor or (None, DIRECT)
     if reducer.ratio != 1:
-        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer.ratio, row)
+        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer, row)
     torque, speed = reducer.motor_torque(strength.motor_torque), design.params.speed * reducer.ratio
     yield catalogue.motor(f"{NAME}/motor", "servo of the main shaft", row, torque, speed)

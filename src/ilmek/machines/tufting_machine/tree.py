@@ -220,7 +220,7 @@ def _driving(
     )
     if reducer.ratio == 1:
         return (motor,)
-    return catalogue.reducer(f"{NAME}/{name}-reducer", f"reducer of the {title}", reducer.ratio, row), motor
+    return catalogue.reducer(f"{NAME}/{name}-reducer", f"reducer of the {title}", reducer, row), motor
 
 
 def _flywheel(machine: TuftingMachine) -> Part:

@@ -11,7 +11,7 @@ import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.warp_tension.attachment import on_cylinder
-from ilmek.machines.warp_tension.cylinders import SPACER, STUB, Cylinder, cylinders, part_id
+from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.spigot import FLANGE
@@ -35,12 +35,14 @@ def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = Non
     positions  of each cylinder's axes by its name; default: all in one, as the machine has no side view of its own
     """
     where, shells = positions or {}, _shells(design)
-    drive = _drive_parts(design)
+    drives = _drives(design)
     return Tree(
         tuple(
             body
             for cylinder, shell in zip(cylinders(design), shells, strict=True)
-            for body in _bodies(design.params, cylinder, shell, drive, where.get(cylinder.name, IDENTITY))
+            for body in _bodies(
+                design.params, cylinder, shell, drives[cylinder.name], where.get(cylinder.name, IDENTITY)
+            )
         )
     )
 
@@ -153,18 +155,34 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
 
 
 def winding_reducer(design: WarpTensionDesign) -> Part:
-    """The reducer of a cylinder."""
-    return _drive_parts(design)[0]
+    """The reducer of the upper cylinder."""
+    return _drives(design)[UPPER][0]
 
 
-def _drive_parts(design: WarpTensionDesign) -> tuple[Part, ...]:
-    """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle."""
-    end = max((cylinder.driven_end for cylinder in cylinders(design)), key=lambda one: (one.diameter, one.length))
-    geared = catalogue.reducer(part_id("reducer"), "reducer of a cylinder", design.reducer.ratio, design.motor, end)
+def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
+    """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle.
+
+    The reducers are alike but for the bores of their hollow shafts.
+    """
+    ends = {one.name: one.driven_end for one in cylinders(design)}
+    longest = {end.diameter: end for end in sorted(ends.values(), key=lambda end: end.length)}
+    thickest = ends[UPPER].diameter
+    geared = {
+        bore: catalogue.reducer(
+            part_id("reducer" if bore == thickest else f"reducer-{bore / mm:g}"),
+            "reducer of a cylinder",
+            design.reducer,
+            design.motor,
+            end,
+        )
+        for bore, end in longest.items()
+    }
     if design.params.by_hand:
-        return (geared, *_crank(design.params, catalogue.face_of(geared)))
-    torque, speed = design.motor_torque, design.motor_speed
-    return geared, catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed)
+        last: tuple[Part, ...] = _crank(design.params, catalogue.face_of(geared[thickest]))
+    else:
+        torque, speed = design.motor_torque, design.motor_speed
+        last = (catalogue.motor(part_id("motor"), "motor of a cylinder", design.motor, torque, speed),)
+    return {name: (geared[end.diameter], *last) for name, end in ends.items()}
 
 
 def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:

@@ -6,6 +6,7 @@ output is across, with the belt's small pulley, so that motor and reducer are wi
 
 from collections.abc import Iterator
 
+from ilmek.elements.belts import belt_length
 from ilmek.elements.plates import round_bore
 from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.case import ALUMINIUM
@@ -22,7 +23,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, bar, box
+from ilmek.part.shapes import Placed, Prism, Sum, bar, box
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import keyed_bore
 from ilmek.units import in_mm, mm
@@ -86,9 +87,9 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     key = small_key(weaver)
     if servo is not None:
         across = placement(0.0, face / 2, long / 2).after(UPRIGHT)
-        output = tuple(Placed(member.shape, (across.after(member.positions[0]),)) for member in _output(weaver))
+        output = OUTPUT, Sum((Placed(_output(weaver), (across,)),))
         title = "angle reducer of a head"
-        geared = catalogue.reducer(part_id("reducer"), title, servo.reducer.ratio, motor, output=output)
+        geared = catalogue.reducer(part_id("reducer"), title, servo.reducer, motor, output=output)
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
     part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
@@ -105,15 +106,13 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(carrier, (placement((left + middle + face / 2) / 2, at.imag, (shape.body + shape.size).real),))
 
 
-def _output(weaver: Weaver) -> tuple[Placed, ...]:
+def _output(weaver: Weaver) -> Sum:
     """The reducer's output about z, from its face at z = 0 through the small pulley, with a groove for the key."""
     key = small_key(weaver)
     end = BEFORE_BELT + weaver.belt.width + catalogue.BESIDE + catalogue.RIM + SET_SCREW_HUB
-    return (
-        Placed(bar(OUTPUT, PLAY)),
-        Placed(catalogue.keyed_journal(key), (placement(z=PLAY),)),
-        Placed(bar(OUTPUT, end - PLAY - key.length), (placement(z=PLAY + key.length),)),
-    )
+    pieces = (bar(OUTPUT, PLAY), 0.0), (catalogue.keyed_journal(key), PLAY)
+    last = bar(OUTPUT, end - PLAY - key.length), PLAY + key.length
+    return Sum(tuple(Placed(piece, (placement(z=z),)) for piece, z in (*pieces, last)))
 
 
 def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
@@ -123,10 +122,11 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
     outer = hull_of_circles(large + BACK, small + BACK, at - axis)
     tips, small_tips = (PROFILE.tip_radius(teeth) + ON_PULLEY for teeth in (weaver.belt.large, SMALL))
     inner = hull_of_circles(tips, small_tips, at - axis)
-    length = float(abs(at - axis)) * 2 + 3.2 * (large + small)
+    length = belt_length(PROFILE, SMALL, weaver.belt.large, max(abs(at - axis), large + small))
     size = f"{PROFILE.name}, {in_mm(weaver.belt.width)} wide"
     shape = Prism(Profile(outer, (inner,)), weaver.belt.width)
-    bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length)
+    teeth = f"{round(length / PROFILE.pitch)} teeth"
+    bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length, data=f"{size}, {teeth}")
     part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", size, shape, purchase=bought)
     return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
 

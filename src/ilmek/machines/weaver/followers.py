@@ -114,20 +114,25 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
 
 
 def guide(weaver: Weaver) -> Occurrence:
-    """A plate between the side plates with a slot for each follower."""
+    """Two plates between the side plates that meet on the cams' line, with half of a slot for each follower: neither
+    its fork nor its rail goes through a whole one.
+    """
     params, half = weaver.params, follower_half(weaver)
     wide, shape = stack_width(params), weaver.shape
     middles = sorted(station(weaver, cam.name) for cam in weaver.cams)
     ends = [(middle - params.cam_thickness / 2, middle + params.cam_thickness / 2) for middle in middles]
     if params.cam_gap < WEB:  # no wall is left between two slots: one window
         ends = [(ends[0][0] + WEB, ends[-1][1] - WEB)]
-    slots = tuple(_box(complex(-half, -high), complex(half, -low)) for low, high in ends)
     deep = HALF_GUIDE * params.roller_radius
-    outline = _box(complex(-deep, -wide / 2), complex(deep, wide / 2))
+    corners = [complex(0.0, -wide / 2), complex(-deep, -wide / 2), complex(-deep, wide / 2), complex(0.0, wide / 2)]
+    for low, high in ends:
+        corners += [complex(0.0, -low), complex(-half, -low), complex(-half, -high), complex(0.0, -high)]
     size = f"{in_mm(GUIDE)} thick"
-    section = Profile(outline, slots)
-    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
-    return Occurrence(part, (placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING),))
+    section = Profile(polygon(np.array(corners)[::-1]))
+    title = "half of the guide of the followers"
+    part = Part(FOLLOWER_GUIDE, title, "machined link", size, Prism(section, GUIDE), ALUMINIUM)
+    front = placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING)
+    return Occurrence(part, (front, front.after(placement(z=GUIDE, about=(0.0, 1.0, 0.0), angle=turn / 2))))
 
 
 _LYING = Placement(np.zeros(3), np.array([[0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0]]))

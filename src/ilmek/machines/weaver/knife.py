@@ -53,9 +53,6 @@ KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
 BLADE_BODY, ECCENTRIC_BODY = part_id("sliding knife"), part_id("turning eccentric")
 """Ids of parts and bodies."""
 
-BONDED = Sentence("sheet.bonded")
-"""What holds the eccentric on the motor's shaft: its hub is too thin for a set screw."""
-
 EDGE, LAND = 3 * mm, 5 * mm
 """Width of the blade beside its slot, and from that to its edge [m]; assumed by this project, as all sizes here."""
 
@@ -153,7 +150,9 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 def _eccentric(weaver: Weaver) -> Part:
     params, size = weaver.params, f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=(BONDED,))
+    return Part(
+        ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=(Sentence("sheet.bonded"),)
+    )
 
 
 def _blade(weaver: Weaver) -> Part:

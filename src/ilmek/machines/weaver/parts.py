@@ -24,7 +24,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import CUTTER, PITCH, CamMaking, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
@@ -125,18 +125,20 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
         *((z, z + params.cam_thickness) for z in sorted(begins)),
         (end, end),
     ]
-    yield from _spacers(params.shaft, places)
+    yield from _spacers(params.shaft, places, half)
 
 
-def _spacers(shaft: float, places: list[tuple[float, float]]) -> Iterator[Occurrence]:
-    """Rings between neighbours along the shaft, with the key's way through them; a part for each length."""
-    gaps: dict[float, list[float]] = {}
+def _spacers(shaft: float, places: list[tuple[float, float]], half: float) -> Iterator[Occurrence]:
+    """Rings between neighbours along the shaft, the key through those within its groove; a part for each length."""
+    gaps: dict[tuple[float, bool], list[float]] = {}
     for (_, begin), (end, _) in pairwise(places):
         if end - begin > LEAST_SPACER:
-            gaps.setdefault(round(end - begin, 9), []).append(begin)
-    for number, (length, starts) in enumerate(sorted(gaps.items()), 1):
-        ring, title = keyed_ring(shaft, length), f"spacer of the cam shaft, {in_mm(length)}"
-        size = round_size(hub_diameter(shaft))
+            keyed = max(-begin, end) < half + LEAST_SPACER
+            gaps.setdefault((round(end - begin, 9), keyed), []).append(begin)
+    outer = hub_diameter(shaft)
+    for number, ((length, keyed), starts) in enumerate(sorted(gaps.items()), 1):
+        ring = keyed_ring(shaft, length) if keyed else tube(outer, (outer - shaft) / 2, length)
+        title, size = f"spacer of the cam shaft, {in_mm(length)}", round_size(outer)
         part = Part(part_id(f"spacer-{number}"), title, "turned part", size, ring, STEEL)
         yield Occurrence(part, tuple(placement(z=z) for z in starts))
 

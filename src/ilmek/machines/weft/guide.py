@@ -24,7 +24,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import polygon
 from ilmek.records import record
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 ALUMINIUM, STEEL = MATERIALS["aluminium alloy"], MATERIALS["structural steel"]
 
@@ -194,7 +194,7 @@ class ShuttleGuide:
         axis, (x, y), rear = self.axis, self.pulley, self.rear
         row = axis.drive.motor if axis.drive else None
         if axis.drive is not None and axis.drive.reducer.ratio != 1:
-            geared = catalogue.reducer(part_id("reducer"), "reducer of the shuttle", axis.drive.reducer.ratio, row)
+            geared = catalogue.reducer(part_id("reducer"), "reducer of the shuttle", axis.drive.reducer, row)
             rear -= catalogue.length_of(geared)
             yield Occurrence(geared, (placement(x, y, rear),))
         motor = catalogue.motor(MOTOR, "motor of the shuttle", row, axis.torque, axis.turning)
@@ -217,7 +217,8 @@ class ShuttleGuide:
         """The slides of the boxes on the bar, beside their outer ends, with their steppers above."""
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
-        shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch)
+        data = f"slide {in_mm(SLIDE)} wide, belt drive"
+        shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch, data=data)
         slide = bought_part(part_id("box-slide"), "slide of a box", "linear axis", shape, bought)
         x = self.box_end + SLIDE / 2
         yield Occurrence(slide, tuple(placement(side * x, (low + high) / 2, self.front) for side in (-1, 1)))

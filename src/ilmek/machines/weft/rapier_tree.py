@@ -30,7 +30,7 @@ from ilmek.part.placement import UPRIGHT, Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.records import record
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 RAPIER_BODY, EDGE_MOTOR = part_id("rapier with its carriage"), part_id("edge-motor")
 """Ids of the body that moves, and of the motor of a device at an edge."""
@@ -112,13 +112,14 @@ class RapierSide:
         """The belt axis, and its drive upright below its far end."""
         axis, carrier, (left, right) = self.axis, self.params.carrier, self.run
         wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
-        room, bought = box(SIDE, SIDE, right - left), Bought("belt axis", length=self.passage.stroke)
         size = f"belt {axis.belt.belt.name}, {wide}"
+        data = f"{in_mm(SIDE)} wide, {size}"
+        room, bought = box(SIDE, SIDE, right - left), Bought("belt axis", length=self.passage.stroke, data=data)
         belt = bought_part(AXIS, f"axis of the {carrier}", "linear axis", room, bought, size=size)
         yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
         row, low = axis.drive.motor if axis.drive else None, self.low
         if axis.drive is not None and axis.drive.reducer.ratio != 1:
-            geared = catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer.ratio, row)
+            geared = catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer, row)
             low -= catalogue.length_of(geared)
             yield Occurrence(geared, (_upright(left, low),))
         driving = catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)
@@ -146,7 +147,8 @@ class RapierSide:
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
         motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
-        room, bought = box(SIDE, SIDE, long), Bought("slide", length=2 * self.params.turn)
+        data = f"slide {in_mm(SIDE)} wide, rack drive"
+        room, bought = box(SIDE, SIDE, long), Bought("slide", length=2 * self.params.turn, data=data)
         name, title = part_id("needle-axis"), "axis of a tuck-in needle"
         slide = bought_part(name, title, "linear axis", room, bought, size="along the edge")
         yield Occurrence(slide, self._beside((-1, 2), (1, 2), high=SIDE / 2 - long))

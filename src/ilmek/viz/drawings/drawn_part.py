@@ -6,9 +6,9 @@ from dataclasses import field
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
+from ilmek.part.blanks import blanks_of, size_of
 from ilmek.part.folding import folded_sheet
 from ilmek.part.part import CamMaking, Part
-from ilmek.part.part_lists import section_of
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
@@ -127,7 +127,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     part = plate.part if isinstance(plate.part, Part) else None
     if part is None and material is not None:
         part = Part(f"{machine}/{name}", plate.title, FLAT[1], "", shape, material)
-    size = part.size if part is not None else ""
+    size = size_of(part) if part is not None else ""
     if isinstance(solid, RoundSolid):
         size = Sentence("sheet.development", size=f"⌀{format_quantity(2 * solid.outer, 'mm')}")
     bent = part.shape if part is not None and isinstance(part.shape, Prism) and folded_sheet(part.shape) else None
@@ -146,8 +146,14 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
         part.notes if part else (), features=_features(piece.features), stated=_stated(part),
-        welds=_welds(part, piece.tree), cut=section_of(part) if part and part.process == WELDED else None,
+        welds=_welds(part, piece.tree), cut=_cut(part),
     )  # fmt: skip
+
+
+def _cut(part: Part | None) -> tuple[str, float] | None:
+    """Section and length of stock that is welded to others."""
+    blanks = blanks_of(part) if part and part.process == WELDED else ()
+    return (blanks[0].name, blanks[0].length) if blanks else None
 
 
 def _features(features: tuple[object, ...]) -> tuple[ToleratedFeature, ...]:

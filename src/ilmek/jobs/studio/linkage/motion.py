@@ -13,7 +13,7 @@ from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.analysis import HINT
 from ilmek.jobs.mechanism.request import DrivenInputs, MotionRequest, driven_inputs
-from ilmek.jobs.mechanism.run import MechanismRun, check_groups, forces_or_reason
+from ilmek.jobs.mechanism.run import MechanismRun, check_groups, run_of
 from ilmek.jobs.studio.linkage.answer import (
     DeadCentreAnswer,
     ForceSeries,
@@ -95,20 +95,7 @@ def mechanism_run(machine: OwnMachine, plan: Plan, options: RunOptions, pose: Po
     check_groups(plan)
     driven = _driven(machine, plan, options, pose)
     motion = solve(plan, *driven.rates)
-    forces, why = forces_or_reason(machine, motion, driven) if options.forces else (None, "")
-    return MechanismRun(
-        machine,
-        plan,
-        motion,
-        driven.running,
-        driven.values,
-        driven.speed,
-        driven.time,
-        forces,
-        why,
-        driven.assumed,
-        required=bool(options.over) or not driven.assumed,
-    )
+    return run_of(machine, plan, motion, driven, over=options.over, forced=options.forces)
 
 
 def _driven(machine: OwnMachine, plan: Plan, options: RunOptions, pose: Pose) -> DrivenInputs:

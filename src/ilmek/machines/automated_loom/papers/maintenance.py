@@ -10,16 +10,18 @@ a guide or ball screw is greased each 100 km of travel                          
 import math
 from collections.abc import Iterator
 
-from ilmek.elements.bearings import find_bearing
+from ilmek.elements.bearing_table import RollingBearing
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.commissioning import belts
 from ilmek.machines.automated_loom.papers.values import YearOfWork, known, value_of, year_of_work
+from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.weaver.carriage_guide import life as guide_life
 from ilmek.machines.weaver.knife import KNIFE
 from ilmek.machines.weaver.parts import bearing_life
 from ilmek.machines.weaver.tree import carriage_guide, head_mass
 from ilmek.machines.weft.carriers import WEFT_CUTTER
+from ilmek.part.blanks import size_of
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
@@ -70,23 +72,19 @@ def wearing_parts(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterato
     """The parts of which a life is computed, each with its use in a year."""
     cams = loom.shedding
     shafts, seat = len(cams.shafts), cams.shaft.seat
-    title = Sentence("wear.shed-bearing")
-    yield Wear(title, seat.bearing.name, 2 * shafts, seat.life * cams.params.speed / turn, year.rows, "turns")
+    title, row = Sentence("wear.shed-bearing"), cams.shafts[0].seat.bearing
+    yield Wear(title, row.name, 2 * shafts, seat.life * cams.params.speed / turn, year.rows, "turns")
     lives, radius = value_of(report, "warp_tension.bearing_life"), value_of(report, "warp_tension.outer_radius")
-    for name, title in (
-        ("upper", Sentence("wear.upper-bearing")),
-        ("lower", Sentence("wear.lower-bearing")),
-        ("spacer", Sentence("wear.spacer-bearing")),
-    ):
+    for name, (title, row) in _cylinder_bearings(loom).items():
         around = turn * (value_of(report, "warp_tension.spacer_radius") if name == "spacer" else radius)
         use = year.rows * loom.task.cloth.row_distance / around
-        yield Wear(title, value_of(report, "warp_tension.bearing")[name], 2, lives[name], use, "turns")
+        yield Wear(title, row.name, 2, lives[name], use, "turns")
     nut = known(report, "hammer.screw_life")
     if nut is not None:
         strokes = nut / value_of(report, "cycle_time_row") * value_of(report, "beat_strokes") * 2
-        row = f"{format_quantity(value_of(report, 'hammer.screw_diameter'), 'mm')}"
+        thick = format_quantity(value_of(report, "hammer.screw_diameter"), "mm")
         use = 2 * year.rows * value_of(report, "beat_strokes")
-        yield Wear(Sentence("wear.screw-nut"), row, value_of(report, "hammer.axes"), strokes, use, "strokes")
+        yield Wear(Sentence("wear.screw-nut"), thick, value_of(report, "hammer.axes"), strokes, use, "strokes")
     if loom.heads:
         yield from _of_heads(loom, year)
 
@@ -104,13 +102,11 @@ def _of_heads(loom: LoomDesign, year: YearOfWork) -> Iterator[Wear]:
 
 def greasings(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[tuple[str, str, float]]:
     """What is greased, by which rule, and the time between two greasings [s], while the loom weaves all the year."""
-    cams, rule = loom.shedding, Sentence("grease.bearing-rule")
-    for title, name, speed in (
-        (Sentence("wear.shed-bearing"), cams.shaft.seat.bearing.name, cams.params.speed),
-        (Sentence("wear.upper-bearing"), value_of(report, "warp_tension.bearing")["upper"], _slow(loom, report)),
-        (Sentence("wear.spacer-bearing"), value_of(report, "warp_tension.bearing")["spacer"], _slow(loom, report)),
-    ):
-        yield title, rule, min(bearing_greasing(find_bearing(name).bore, speed), GREASE_AGES)
+    cams, rule, slow = loom.shedding, Sentence("grease.bearing-rule"), _slow(loom, report)
+    greased = [(Sentence("wear.shed-bearing"), cams.shafts[0].seat.bearing, cams.params.speed)]
+    greased += [(title, row, slow) for title, row in _cylinder_bearings(loom).values()]
+    for title, row, speed in greased:
+        yield title, rule, min(bearing_greasing(row.bore, speed), GREASE_AGES)
     by_travel, beats = Sentence("grease.travel-rule", travel=format_quantity(TRAVEL, "km")), 2 * year.rows
     travels = [(Sentence("grease.carrier"), 2 * (2 if loom.weft.passage.back else 1) * loom.weft.passage.stroke / 2)]
     if known(report, "hammer.screw_life") is not None:
@@ -121,6 +117,14 @@ def greasings(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[tu
     if loom.heads:
         along = 2 * loom.knot_pitch * year.knots
         yield Sentence("wear.head-guide"), by_travel, min(TRAVEL / along * YEAR, GREASE_AGES)
+
+
+def _cylinder_bearings(loom: LoomDesign) -> dict[str, tuple[Sentence, RollingBearing]]:
+    """Title and row of the bearings of each cylinder, as they are on its brackets."""
+    return {
+        cylinder.name: (Sentence(f"wear.{cylinder.name}-bearing"), cylinder.seat.bearing)
+        for cylinder in cylinders(loom.warp_tension)
+    }
 
 
 def bearing_greasing(bore: float, speed: float) -> float:
@@ -219,8 +223,12 @@ def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]
     """A set for one of some machines that are alike, of what wears and has no computed life."""
     for part, number in tree.occurrences():
         if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
-            row = part.purchase.row if part.purchase else part.size
-            yield part.title, row, max(1, number // alike), Sentence("maintenance.by-set")
+            yield (
+                part.title,
+                part.purchase.row if part.purchase else size_of(part),
+                max(1, number // alike),
+                Sentence("maintenance.by-set"),
+            )
 
 
 def spares_of(tree: Tree) -> Paper | None:

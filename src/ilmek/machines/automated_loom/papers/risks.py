@@ -263,14 +263,12 @@ def _others(loom: LoomDesign, report: Report) -> PaperSection:
 
 def _transport(loom: LoomDesign) -> PaperSection:
     """Mass and mass centre of the loom without guards and creel, its lifting points and their loads."""
-    tree, lifting = loom_tree(loom), lifting_of(loom)
+    lifting = lifting_of(loom)
     x, y, z = lifting.moments.centre.tolist()
-    not_weighed = sum(number for part, number in tree.occurrences() if math.isnan(part.mass))
     text = Sentence(
         "lift.masses",
-        whole=format_quantity(moments_at_rest(tree).zeroth, "kg"),
+        whole=format_quantity(moments_at_rest(loom_tree(loom)).zeroth, "kg"),
         lifted=format_quantity(lifting.moments.zeroth, "kg"),
-        parts=str(not_weighed),
     )
     centre = Sentence("lift.centre", x=in_mm(x), y=in_mm(y - loom.side.floor), z=in_mm(-z))
     heads = (

@@ -9,11 +9,9 @@ import numpy as np
 import scipy
 
 from ilmek.arrays import Complex, Float
+from ilmek.num.pencil3 import REAL
 
 Square: TypeAlias = Float[np.ndarray, "n n"]
-
-REAL = 1e-6
-"""Greatest imaginary part of a real root, relative to the root or 1: rounding splits a double root that far."""
 
 ZERO = 1e-12
 """Size, relative to the pencil's, of an eigenvalue's numerator or denominator that counts as zero."""

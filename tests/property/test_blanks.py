@@ -1,0 +1,116 @@
+"""What a part is cut from is sold in that size, and the part is in it: measured on its mesh, of every made part."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from default_machines import default_design
+
+from ilmek.elements.columns import SECTIONS
+from ilmek.elements.stock_sizes import PLATES, ROUNDS, SQUARES
+from ilmek.elements.tubes import TUBES
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.catalogue import MACHINES
+from ilmek.part.bill import line_of
+from ilmek.part.blanks import BAR, HOLLOW, PLATE, ROUND, SQUARE, TUBE, Blank, blanks_of, size_of
+from ilmek.part.part import Part
+from ilmek.units import mm
+
+LOOMS: dict[str, dict[str, str]] = {
+    "default": {},
+    "linkage": {"beat": "linkage"},
+    "arms": {"knotting": "arms"},
+    "shuttle": {"weft": "shuttle"},
+}
+ALONE = [name for name, machine in MACHINES.items() if machine.tree is not None]
+NEAR = 1e-6
+
+
+@cache
+def parts(name: str) -> tuple[Part, ...]:
+    """The parts of a loom, or of a machine alone."""
+    if name in LOOMS:
+        loom = MACHINES["automated-loom"]
+        tree: Any = loom_tree(loom.designed(loom.params.read(LOOMS[name])))
+    else:
+        tree_of = MACHINES[name].tree
+        assert tree_of is not None
+        tree = tree_of(default_design(name))
+    return tuple(part for part, _ in tree.occurrences())
+
+
+def made(name: str) -> tuple[Part, ...]:
+    """Those that are made."""
+    return tuple(part for part in parts(name) if part.material is not None)
+
+
+@pytest.mark.parametrize("name", [*LOOMS, *ALONE])
+def test_every_part_is_weighed(name: str) -> None:
+    assert [part.id for part in parts(name) if not part.mass > 0] == []
+
+
+def test_a_part_without_a_row_weighs_as_its_class() -> None:
+    reducer = next(part for part in parts("warp-tension") if part.process == "reducer")
+    assert reducer.purchase is not None
+    assert np.isnan(reducer.purchase.mass)
+    assert reducer.mass == pytest.approx(0.7 + 2.5e-3 * reducer.purchase.power)
+    assert reducer.moments is not None
+    assert reducer.moments.zeroth == pytest.approx(reducer.mass)
+
+
+def among(size: float, series: tuple[float, ...]) -> bool:
+    return any(abs(size - one) < NEAR for one in series)
+
+
+def sold(blank: Blank, part: Part) -> bool:
+    """Whether the section is one of the tables; beyond the largest bar it is forged, a carbon tube pultruded."""
+    section = blank.section
+    if blank.form == ROUND:
+        return among(section[0], ROUNDS) or section[0] > ROUNDS[-1]
+    if blank.form == SQUARE:
+        return among(section[0], SQUARES)
+    if blank.form in {PLATE, BAR}:
+        return among(section[0], PLATES)
+    if blank.form == TUBE:
+        stock = [(tube.outer, tube.wall) for tube in TUBES.values()]
+        return section[0] > ROUNDS[-1] or any(np.allclose(section, one, atol=NEAR) for one in stock)
+    assert blank.form == HOLLOW
+    listed = (*SECTIONS, (100 * mm, 6 * mm))
+    return part.process == "carbon tube" or any(np.allclose(section[1:], one, atol=NEAR) for one in listed)
+
+
+def sides_of(blank: Blank) -> list[float]:
+    """Sides of the box about a blank, the least first [m]."""
+    if blank.form == PLATE:
+        return sorted((blank.section[0], *blank.sides))
+    across = blank.section[:2] if blank.form in {BAR, HOLLOW} else blank.section[:1] * 2
+    return sorted((*across, *blank.sides))
+
+
+@pytest.mark.parametrize("name", [*LOOMS, *ALONE])
+def test_every_blank_is_sold_and_has_its_part_in_it(name: str) -> None:
+    faults = []
+    for part in made(name):
+        blanks = blanks_of(part)
+        assert part.shape is not None
+        if not all(sold(blank, part) for blank in blanks):
+            faults.append(f"{part.id}: {size_of(part)} is not sold")
+        if blanks and sum(blank.volume for blank in blanks) < part.shape.volume * (1 - NEAR):
+            faults.append(f"{part.id}: {size_of(part)} has less volume than the part")
+        sides = np.sort(np.ptp(part.shape.mesh().points, axis=0))
+        if len(blanks) == 1 and "folded" not in part.size and np.any(np.array(sides_of(blanks[0])) < sides - NEAR):
+            faults.append(f"{part.id}: {size_of(part)} for {np.round(sides / mm, 3)}")
+        assert line_of(part).description == size_of(part)
+    assert not faults
+    assert made(name)
+
+
+def test_a_blank_that_is_too_small_is_seen() -> None:
+    """A round of 25 under a flange of 80 mm, as the hand loom's crank shaft was listed."""
+    (flanged,) = (part for part in made("hand-loom") if part.id == "warp-tension/crank-shaft")
+    (blank,) = blanks_of(flanged)
+    assert blank.section[0] >= 80 * mm
+    thin = Blank(ROUND, (25 * mm,), blank.sides, 0.0)
+    assert sides_of(thin)[0] < np.ptp(flanged.shape.mesh().points, axis=0)[0]
+    assert not sold(Blank(ROUND, (13.54 * mm,), (1.0,), 0.0), flanged)
