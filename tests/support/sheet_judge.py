@@ -143,8 +143,9 @@ def faults_of(part: DrawnPart, source: Part, sheet: ReadSheet) -> list[str]:
 
 
 def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Iterator[str]:
-    """Coordinates of bores that no dimension and no table gives from one datum: an end of the part or one of them; of
-    a single one, unless it is the centre of what is round about it.
+    """Coordinates of bores that no dimension and no table gives from one datum: an end of the part, or one of them.
+
+    Bores that are all on one line across a direction are their own datum in it.
     """
     centres = every = [complex(*own.point[:2]) for own in holes if abs(own.axis[2]) > 1 - 1e-9]
     for text in sheet.texts:  # evenly on a circle: its centre instead
@@ -160,23 +161,12 @@ def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Itera
         given = [v for kind, up, v in sheet.dimensions if kind in {LINEAR, ORDINATE} and up is upright]
         values = np.abs(np.array([0.0, *given, *listed]))
         ends = corners[:, int(upright)].tolist()
-        even = bool(own) and abs(own[0] - sum(ends) / 2) < NEAR  # on the line of symmetry
         ends += [end + sign * radius for end, sign in zip(ends, (1, -1), strict=True) for radius in radii]
         others = [centre.imag if upright else centre.real for centre in every]
-        datums = (
-            [*ends, *others]
-            if len({round(at, 4) for at in (*own, *others)}) > 1 or even or _is_round(sheet, own, ends)
-            else ends
-        )
+        datums = [*ends, *others]
         placed = any(all(np.min(np.abs(values - abs(c - datum))) < NEAR for c in own) for datum in datums)
         if own and not placed:
             yield f"{name} of bores {own}"
-
-
-def _is_round(sheet: ReadSheet, own: list[float], ends: list[float]) -> bool:
-    """Whether an end of the part is an arc about a coordinate whose radius or diameter stands on the sheet."""
-    reaches = [abs(end - own[0]) for end in ends] if own else []
-    return any(sheet.has(reach, RADIUS) or sheet.has(2 * reach, DIAMETER) for reach in reaches)
 
 
 def _by_circle(centres: list[complex], number: int, radius: float) -> list[complex]:
