@@ -130,8 +130,10 @@ WARMER, THROUGH = 20.0, 5.5
 _AIR = 3.1
 """Flow of air [m³/h] that carries 1 W at 1 K."""
 
+_SNAPPED = "its clips snap into its cut-out in the door"
+
 FANS = tuple(
-    (flow, replace(_device(f"filter fan, {flow:g} m³/h", "fan", size, mass), power=power))
+    (flow, replace(_device(f"filter fan, {flow:g} m³/h", "fan", size, mass), power=power, fixing=_SNAPPED))
     for flow, size, mass, power in (
         (60.0, (150, 150, 60), 900 * g, 8.0),
         (180.0, (250, 250, 70), 1.8, 20.0),

@@ -19,6 +19,7 @@ class FieldDevice:
     b10d      operations after which a tenth of its contacts failed dangerously: of an emergency stop ISO 13849-1,
               table C.1; of a button with positive opening that of makers
     power     that it draws at 24 V [W]
+    fixing    by what it holds itself, as its maker delivers it; "": screws of the machine hold it
     tabled    its B10d is that of ISO 13849-1, table C.1; else an assumed class of makers' values
     """
 
@@ -32,6 +33,7 @@ class FieldDevice:
     b10d: float = 0.0
     power: float = 0.0
     tabled: bool = False
+    fixing: str = ""
 
 
 def _size(width: float, height: float, length: float) -> tuple[float, float, float]:
@@ -43,8 +45,14 @@ _CLASS = "class of catalogue parts; makers differ by some millimetres"
 _SAFE, _GRID, _LOCK, _STOP = "ISO 13849-1", "IEC 61496-2", "ISO 14119, type 4", "ISO 13850"
 
 ROWS = (
-    FieldDevice("absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3, power=1.5),
-    FieldDevice("magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3, power=0.2),
+    FieldDevice(
+        "absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3, power=1.5,
+        fixing="its hollow shaft clamps on the shaft end, its spring plate takes the torque",
+    ),
+    FieldDevice(
+        "magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3, power=0.2,
+        fixing="its set screw clamps it in a slot of the axis",
+    ),
     FieldDevice("inductive sensor M8, 1.5 mm, PNP", "sensor", _size(8, 8, 45), 0.03, "IEC 60947-5-2", 1e-3, power=0.3),
     FieldDevice("strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3),
     FieldDevice("photoelectric yarn sensor, PNP", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3, power=0.7),
@@ -55,7 +63,10 @@ ROWS = (
     FieldDevice(
         "RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9, power=1.2
     ),
-    FieldDevice("actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, _LOCK),
+    FieldDevice(
+        "actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, _LOCK,
+        fixing="two screws M4 through the mesh into its counter plate",
+    ),
     FieldDevice(
         "emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 0.25, _STOP,
         b10d=1e5, tabled=True,
@@ -79,7 +90,7 @@ ROWS = (
     ),
     FieldDevice(
         "enabling switch, 3 positions, 2 channels, with cable", "enabling device", _size(60, 200, 60), 0.4,
-        "IEC 60947-5-8", b10d=1e5, tabled=True,
+        "IEC 60947-5-8", b10d=1e5, tabled=True, fixing="hangs in its holder, which comes with two screws",
     ),
 )  # fmt: skip
 

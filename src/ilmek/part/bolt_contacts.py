@@ -21,7 +21,7 @@ BOLTED = frozenset(
     {
         "stepper", "servo", "reducer", "linear guide", "guide carriage", "linear axis", "sensor", "load cell",
         "light barrier", "yarn sensor", "yarn brake", "interlock", "actuator", "emergency stop", "button", "control",
-        "mounting rail", "tool", "duct",
+        "tool", "duct", "input module",
     }
 )  # fmt: skip
 """Kinds of bought parts that are held by screws."""
@@ -105,6 +105,8 @@ def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
 
 def _can(part: Part) -> bool:
     """Whether screws hold a part."""
+    if part.fixing:
+        return False
     if part.purchase is not None:
         return part.process in BOLTED
     return part.process not in _NEVER and part.drawing is None

@@ -90,7 +90,8 @@ def holding_brake(name: str, title: str, motor: Part, torque: float) -> Part:
     assert motor.shape is not None
     row, rear = brake_for(torque), float(shape_box(motor.shape)[0][2])
     room = Sum((Placed(bar(row.diameter, row.length), (placement(z=rear - row.length),)),))
-    return bought_part(name, title, HOLDING_BRAKE, room, Bought(row.name, row.mass, power=row.power))
+    bought = Bought(row.name, row.mass, power=row.power)
+    return bought_part(name, title, HOLDING_BRAKE, room, bought, fixing="built onto its motor by the maker")
 
 
 def brakes_of(body: RigidBody) -> dict[str, Part]:

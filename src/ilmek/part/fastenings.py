@@ -34,22 +34,17 @@ class Means(StrEnum):
 
 
 OWN = {
-    "terminal": "snaps onto its rail, EN 60715",
-    "power supply": "snaps onto its rail, EN 60715",
-    "motion controller": "snaps onto its rail, EN 60715",
-    "safety relay": "snaps onto its rail, EN 60715",
     "axis of the control": "in its row of the cabinet",
     "levelling foot": "its thread with a nut",
     "belt": "lies round its pulleys",
     "belt and pulleys": "lies round its pulleys",
     "spring": "stands in or hooks into its seats",
-    "energy chain": "its end pieces",
     "yarn package": "on its peg",
     "yarn tube": "in its bore",
     "conduit": "clips in its duct",
     "bearing": "between its shoulders",
 }
-"""How bought parts hold themselves, by their process."""
+"""How kinds of parts hold themselves, by their process; a single part says it in its `fixing`."""
 
 
 @record
@@ -123,7 +118,8 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
 def _by_itself(one: Part, other: Part) -> Means:
     if welded_together(one, other):
         return Means.WELD
-    return Means.OWN if {one.process, other.process} & OWN.keys() else Means.NONE
+    own = one.fixing or other.fixing or {one.process, other.process} & OWN.keys()
+    return Means.OWN if own else Means.NONE
 
 
 class _Joined:

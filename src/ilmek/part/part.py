@@ -100,6 +100,7 @@ class Part:
     machined  its seats are machined after it is cut, sawn or welded: bores, threads, faces of guides, journals
     throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
+    fixing    by what it holds itself where it stands, with no screw, weld or fit of this tree; ""
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
     Raises ParameterError for a part that is both or neither.
@@ -122,6 +123,7 @@ class Part:
     throat: float = 0.0
     machined: bool = False
     joins: tuple[str, ...] = ()
+    fixing: str = ""
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):
@@ -164,6 +166,8 @@ class Part:
         return class_mass(self.process, bought.length, bought.power) if math.isnan(bought.mass) else bought.mass
 
 
-def bought_part(name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "") -> Part:
+def bought_part(
+    name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "", fixing: str = ""
+) -> Part:
     """A bought part whose shape is the room that it takes: its form is the maker's, or not designed."""
-    return Part(name, title, process, size, shape, purchase=purchase, envelope=True)
+    return Part(name, title, process, size, shape, purchase=purchase, envelope=True, fixing=fixing)

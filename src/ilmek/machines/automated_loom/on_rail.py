@@ -28,7 +28,7 @@ from ilmek.part.folding import folded_section
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Corner, Prism, box
+from ilmek.part.shapes import Corner, Placed, Prism, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import in_mm, mm
 
@@ -44,6 +44,9 @@ WALL, PLAY = 2 * mm, 1 * mm
 
 FLANGE = 20 * mm
 """Width of the trough's flange, with which it is screwed to the rail [m]; assumed by this project."""
+
+FOOT = 40 * mm
+"""Length of the bracket of the fixed end of a chain [m]; assumed by this project."""
 
 BEHIND = 17 * mm
 """Room of the trough behind the ends of the heads' brackets, before their drives [m]; assumed by this project."""
@@ -125,13 +128,15 @@ def chain_part(loom: LoomDesign, side: float) -> Part:
     """The chain of a head with its cables, without its conduits, under a rail of a side [m]."""
     row = chain_under(loom, side)
     filled = sum(line.number * line.line_mass for line in chain_lines(loom) if line.name != CONDUITS)
-    long = row.length(share_of(loom))
+    long, long_room = row.length(share_of(loom)), chain_room(loom, side) - PLAY
+    under = placement(y=-(row.loop[0] + PLAY) / 2)  # the bracket of its fixed end, on the trough
     return bought_part(
         CHAIN,
         "energy chain of a head with its cables",
         "energy chain",
-        box(row.outer[0], row.loop[0], chain_room(loom, side) - PLAY),
+        Sum((Placed(box(row.outer[0], row.loop[0], long_room)), Placed(box(row.outer[0], PLAY, FOOT), (under,)))),
         Bought(row.name, (row.line_mass + filled) * long, length=long),
+        fixing="its end brackets, each with two screws M5, on trough and arm",
     )
 
 

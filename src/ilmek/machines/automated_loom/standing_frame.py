@@ -25,6 +25,7 @@ from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, 
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
+from ilmek.part.welds import WELDED
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
 
@@ -197,7 +198,7 @@ def _carried(loom: LoomDesign, made: Brackets) -> Iterator[Occurrence]:
     inner, wide, rest = made.upper.inner, loom.task.width, loom.side.back_rest.at
     section = back_rest_tube(loom)
     shape = tube(section.outer, section.wall, wide)
-    roller = Part(part_id("back-rest"), "back rest", "steel tube", f"tube {section.name} mm", shape, STEEL)
+    roller = Part(part_id("back-rest"), "back rest", WELDED, f"tube {section.name} mm", shape, STEEL)
     yield _placed(roller, (placement(-wide / 2, rest.imag, rest.real).after(ALONG_WIDTH),))
     beam = member("back-rest-beam", "beam of the back rest", made.beam, 2 * inner)
     yield _placed(beam, (placement(-inner, made.rest.imag, made.rest.real).after(ALONG_WIDTH),))

@@ -30,6 +30,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
+from ilmek.part.welds import WELDED
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, in_mm, mm
@@ -99,7 +100,7 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     number, wide, middle = params.cloth.warps - 1, params.cloth.width, (placement(z=-params.cloth.width / 2),)
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
-        Occurrence(replace(across(BAR_ID, "comb of the hammer", "steel bar", bar, wide, steel), machined=True), middle),
+        Occurrence(replace(across(BAR_ID, "comb of the hammer", WELDED, bar, wide, steel), machined=True), middle),
         Occurrence(leaves, _leaves(number, params.cloth.warp_pitch, params.leaf)),
     )
     return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))

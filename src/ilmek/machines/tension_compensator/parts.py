@@ -8,6 +8,7 @@ cross-pieces, that of a bar on the other side of its lever, so that they pass ea
 import cmath
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import chain
 
 import numpy as np
@@ -180,7 +181,10 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins, round_size(roller.bore)),
         spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), round_size(pin)),
         spring=_spring(supports),
-        eye=_made("eye", "eye of a spring", flat, _eye(supports), in_mm(_eye_wide(sprung))),
+        eye=replace(
+            _made("eye", "eye of a spring", flat, _eye(supports), in_mm(_eye_wide(sprung))),
+            fixing="its spring pulls it onto its pin",
+        ),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
         pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(supports, supports.clear), plate),
         anchor_lug=_made("anchor-lug", "lug of the springs", CUT, _lug(supports, supports.apart), plate),

@@ -38,7 +38,8 @@ BRIGHT = MATERIALS["heat-treatable steel"]
 def attachment_bar(thick: float, wide: float) -> Part:
     """A bar, by its diameter and length [m]."""
     title, size = "attachment bar of the warps", round_size(thick)
-    return Part(ATTACHMENT_BAR, title, "steel bar", size, bar(thick, wide), BRIGHT)
+    held = "lies half in its slot, where the first turn of the warps keeps it"
+    return Part(ATTACHMENT_BAR, title, "steel bar", size, bar(thick, wide), BRIGHT, fixing=held)
 
 
 def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tuple[Occurrence, ...]:

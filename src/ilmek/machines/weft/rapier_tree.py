@@ -94,9 +94,15 @@ class RapierSide:
         far = -made.gripper - made.length
         gripper = box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper)
         weighed = Bought("gripper", params.gripper_mass), Bought("carriage", params.carriage_mass)
-        jaws = bought_part(GRIPPER, "gripper of the rapier", "tool", gripper, weighed[0], size="two jaws")
+        jaws = bought_part(
+            GRIPPER, "gripper of the rapier", "tool", gripper, weighed[0], size="two jaws",
+            fixing="its stub is bonded in the end of the rapier",
+        )  # fmt: skip
         held = box(SIDE, SIDE, CLAMP)
-        clamp = bought_part(CARRIAGE, "carriage of the rapier", "tool", held, weighed[1], size="with clamp")
+        clamp = bought_part(
+            CARRIAGE, "carriage of the rapier", "tool", held, weighed[1], size="with clamp",
+            fixing="its clamp grips the end of the rapier with its own screws",
+        )  # fmt: skip
         parts = (
             Occurrence(rapier_tube(params, made.tube, made.length), (along(far),)),
             Occurrence(jaws, (along(-made.gripper),)),

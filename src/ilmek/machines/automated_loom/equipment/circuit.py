@@ -8,6 +8,7 @@ before them. A fan in the door where the walls do not pass the heat.
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.cabinet_devices import BRAKING, PROTECTOR, WARMER, fan_for, main_switch, passed
@@ -81,7 +82,7 @@ class CabinetCircuit:
 
 
 def _on_rail(name: str, title: str, row: FieldDevice, number: int, power: float = 0.0) -> RailDevice:
-    return RailDevice(device(name, title, row, power), row, number)
+    return RailDevice(replace(device(name, title, row, power), fixing="snaps onto its rail, EN 60715"), row, number)
 
 
 @lru_cache(maxsize=8)
@@ -172,7 +173,10 @@ def _rail(long: float) -> Part:
     bought = Bought("TH 35-7.5", RAIL_MASS * long, length=long)
     size = format_quantity(long, "mm")
     shape = box(*RAIL, long)
-    return bought_part(part_id("mounting-rail"), "mounting rail", "mounting rail", shape, bought, size=size)
+    fixing = "screws M6 through its slots into the nuts of the cabinet's wall, EN 60715"
+    return bought_part(
+        part_id("mounting-rail"), "mounting rail", "mounting rail", shape, bought, size=size, fixing=fixing
+    )
 
 
 def _rails(control: Extent, *, both: bool) -> Iterator[Placement]:

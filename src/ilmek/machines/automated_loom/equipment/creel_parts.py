@@ -37,6 +37,7 @@ from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, box, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.part.welds import WELDED
 from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
 
@@ -63,7 +64,7 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     """Frame, pegs with their packages, brakes with their sensors."""
     yield from _stand(loom, creel)
     long = creel.size
-    peg = Part(PEG, "peg of a package", "pin or bush", "", bar(CORE - PLAY, long), STEEL)
+    peg = Part(PEG, "peg of a package", WELDED, "", bar(CORE - PLAY, long), STEEL)
     winding = tube(creel.size, (creel.size - CORE) / 2, long)
     full = format_quantity(loom.params.package_mass, "kg", 3)
     package = bought_part(

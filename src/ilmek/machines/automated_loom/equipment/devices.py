@@ -10,7 +10,7 @@ from ilmek.units import turn
 def device(name: str, title: str, row: FieldDevice, power: float = 0.0) -> Part:
     """A device with the room that it takes: width along x, height along y, along z from 0; power of a supply [W]."""
     shape, bought = box(*row.size), Bought(row.name, row.mass, power=power)
-    return bought_part(name, title, row.kind, shape, bought)
+    return bought_part(name, title, row.kind, shape, bought, fixing=row.fixing)
 
 
 TO_THE_BACK = placement(about=(0.0, 1.0, 0.0), angle=turn / 2)

@@ -164,8 +164,9 @@ def mesh_panel(name: str, title: str, wide: float, tall: float) -> Part:
         )
     )
     size = f"{format_quantity(wide, 'mm', 4)} x {format_quantity(tall, 'mm', 4)}, mesh {format_quantity(MESH, 'mm')}"
-    bought = Bought(f"welded mesh {WIRE / mm:g} mm", shape.volume * STEEL.density)
-    return Part(name, title, "guard mesh", size, shape, purchase=bought)
+    bought = Bought(f"welded mesh {WIRE / mm:g} mm, with clamps and screws", shape.volume * STEEL.density)
+    fixing = "clamps of the mesh, each with a screw M8, on post and hinge"
+    return Part(name, title, "guard mesh", size, shape, purchase=bought, fixing=fixing)
 
 
 def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
