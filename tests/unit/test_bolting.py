@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,12 +11,14 @@ from made_parts import measured
 from ilmek.arrays import Float, FloatArray
 from ilmek.elements.columns import STEEL
 from ilmek.elements.machine_screws import SOCKET_SCREWS, screw_of
+from ilmek.elements.motors import MOTORS, Motor
 from ilmek.machines.automated_loom import MACHINE, loom_tree
 from ilmek.machines.catalogue import MACHINES
+from ilmek.part import catalogue
 from ilmek.part.bolting import bolted
 from ilmek.part.fastenings import Means, fastening_check, fastenings
 from ilmek.part.features import drillings
-from ilmek.part.part import Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.poses import chains, poses
 from ilmek.part.shapes import Drilling, Prism, Shape, box, square_tube
@@ -33,7 +36,9 @@ def plate(name: str, thickness: float, wide: float = 0.06, z: float = 0.0) -> Oc
 
 
 def on_each_other(first: float, second: float) -> Tree:
-    return Tree((RigidBody("test/body", (plate("lower", first), plate("upper", second, z=first))),))
+    upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)  # only the lower one stands on the floor
+    plates = plate("lower", first), plate("upper", second, z=first)
+    return Tree((RigidBody("test/body", plates, positions=(upright,)),))
 
 
 def test_two_plates_have_four_screws_and_what_is_too_thin_fails_the_check() -> None:
@@ -47,6 +52,32 @@ def test_two_plates_have_four_screws_and_what_is_too_thin_fails_the_check() -> N
     loose = fastening_check(bolted(on_each_other(1 * mm, 1 * mm)))
     assert not loose.ok
     assert set(loose.parts) & {"test/lower", "test/upper"}
+
+
+def test_a_part_that_holds_itself_needs_no_screw_and_gets_none() -> None:
+    (body,) = on_each_other(12 * mm, 10 * mm).bodies
+    lower, upper = body.occurrences
+    clipped = replace(upper, part=replace(upper.part, fixing="snaps onto the lower one"))
+    tree = bolted(Tree((replace(body, occurrences=(lower, clipped)),)))
+    assert not any(own.part.joins for own in tree.bodies[0].occurrences)
+    assert fastenings(tree).contacts == {Means.OWN: 1}
+    assert fastening_check(tree).ok
+
+
+@pytest.mark.parametrize("row", (MOTORS[3], MOTORS[-1]))
+def test_of_two_bought_parts_the_heads_are_in_the_flange_of_the_motor(row: Motor) -> None:
+    shorter = box(row.face, row.face, row.length / 2)
+    axis = bought_part("test/axis", "axis", "linear axis", shorter, Bought("axis"))
+    motor = catalogue.motor("test/motor", "motor", row, 1.0, 1.0)
+    tree = bolted(Tree((RigidBody("test/body", (Occurrence(axis), Occurrence(motor))),)))
+    (screw,) = (own for own in tree.bodies[0].occurrences if own.part.joins)
+    assert screw.part.joins == ("test/motor", "test/axis")
+    assert len(screw.positions) == 4
+
+
+def test_nothing_outside_the_heads_of_a_loom_is_without_a_fastening() -> None:
+    loose = fastenings(bolted(loom_tree(MACHINE.designed(MACHINE.params.read({}))))).loose
+    assert not [name for name in loose if not name.startswith("weaver/") and name != "automated-loom/chain-arm"]
 
 
 def test_a_tube_has_threads_in_its_wall_and_no_heads_in_it() -> None:

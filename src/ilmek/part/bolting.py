@@ -190,7 +190,8 @@ def _options(
     mouths = head.frame.points(np.array([[point.real, point.imag, -deep] for point in made.points]))
     free = not any(_covers(own, mouths) for own in group if own is not head.piece)
     several = len(made.points) > 1 or thread.face.turned
-    yield (several, free, head.part.purchase is None, -deep), made
+    flange = thread.part.purchase is not None and pattern_of(head.part) is not None  # of two bought parts, the motor's
+    yield (several, flange, free, head.part.purchase is None, -deep), made
 
 
 def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:

@@ -31,7 +31,8 @@ from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.feet import FEET, Foot
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part.part import Part
-from ilmek.part.shapes import square_tube
+from ilmek.part.shapes import box, square_tube
+from ilmek.part.welds import PLATE
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import mm, turn
@@ -58,6 +59,15 @@ def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
     """A piece of square hollow section, cut to length and welded."""
     shape = square_tube(section.side, section.wall, length)
     return Part(part_id(name), title, "welded frame", section.name, shape, STEEL)
+
+
+END_PLATE = 10 * mm
+"""Thickness of the plate that is welded before the end of a hollow section and has the threads there [m]; assumed."""
+
+
+def end_plate(name: str, title: str, section: HollowSquare) -> Part:
+    """The plate before the end of a section, as large as that, from z = 0."""
+    return Part(part_id(name), title, PLATE, shape=box(section.side, section.side, END_PLATE), material=STEEL)
 
 
 _COLUMN = (part_id("column"),)

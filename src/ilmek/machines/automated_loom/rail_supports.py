@@ -23,8 +23,10 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import (
+    END_PLATE,
     RAIL_POST,
     LoomFrame,
+    end_plate,
     member,
     part_id,
     rail_ahead,
@@ -225,10 +227,12 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
         places = (-aside, aside) if ends else [x + aside for x in own.stations]
         yield Occurrence(post, tuple(placement(x, bottom, own.depth).after(UPRIGHT) for x in places))
         if ends:
-            arm = member(own.arm_name, "arm of the rail's axes", own.arm, own.reach)
-            first = own.stations[0] + RAIL_AXIS / 2
-            at = (placement(x, own.axis.imag, own.axis.real).after(ALONG_WIDTH) for x in (first, -first - own.reach))
-            yield Occurrence(arm, tuple(at))
+            first, long = own.stations[0] + RAIL_AXIS / 2, own.reach - END_PLATE
+            at = placement(0.0, own.axis.imag, own.axis.real).after(ALONG_WIDTH)
+            arm = member(own.arm_name, "arm of the rail's axes", own.arm, long)
+            yield Occurrence(arm, tuple(placement(x).after(at) for x in (first + END_PLATE, -first - own.reach)))
+            plate = end_plate("rail-arm-plate", "plate of an arm for its axis", own.arm)
+            yield Occurrence(plate, tuple(placement(x).after(at) for x in (first, -first - END_PLATE)))
 
 
 def rail_brackets(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:

@@ -57,8 +57,8 @@ BLOCK, BEHIND = (10 * mm, 12 * mm), 22 * mm
 PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
 """Rear edge of the motor's plate before the end of the bracket [m]."""
 
-GRIP = 5 * mm
-"""Thickness of a clamp's plate [m]."""
+GRIP = 6 * mm
+"""Thickness of a clamp's plate [m]: two screws M2 of the guide bar have their threads in it."""
 
 ROUNDED, SLOWEST = 0.98, 0.1
 """Share of an acceleration with which a narrower motor would be enough, and least share of the given one; assumed."""

@@ -29,7 +29,7 @@ from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
-from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
 from ilmek.part.part import Bought, Part, bought_part
@@ -134,13 +134,21 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     left, mass = min(start, creel.duct_end), DUCT_MASS * side / LEAST_DUCT * long
     shape, size = Prism(_channel(side, side, WALL), long), format_quantity(side, "mm")
     duct = Part(
-        DUCT, "duct of yarns and cables", "duct", size, shape, purchase=Bought("slotted duct", mass, length=long)
+        DUCT,
+        "duct of yarns and cables",
+        "duct",
+        size,
+        shape,
+        purchase=Bought("slotted duct", mass, length=long),
+        fixing="two screws M6 with washers through the slots of its base into the plate of its stand",
     )
     yield Occurrence(duct, (placement(left, height, depth).after(ACROSS),))
     clear, middle = height - side / 2 - float(foot.high[1]), float(foot.low[0] + foot.high[0]) / 2
-    if clear > PLAY:
-        stand = member("duct-stand", "stand of the duct", _SECTION, clear)
-        yield Occurrence(stand, (placement(middle, float(foot.high[1]), depth).after(UPRIGHT),))
+    if clear > END_PLATE:
+        upright = placement(middle, float(foot.high[1]), depth).after(UPRIGHT)
+        yield Occurrence(member("duct-stand", "stand of the duct", _SECTION, clear - END_PLATE), (upright,))
+        plate = end_plate("duct-plate", "plate of the stand of the duct", _SECTION)
+        yield Occurrence(plate, (upright.after(placement(z=clear - END_PLATE)),))
     within = side - 2 * WALL
     each = yarn_path(loom).conduit
     bundle = bought_part(
