@@ -64,7 +64,7 @@ def test_a_part_that_holds_itself_needs_no_screw_and_gets_none() -> None:
     assert fastening_check(tree).ok
 
 
-@pytest.mark.parametrize("row", (MOTORS[3], MOTORS[-1]))
+@pytest.mark.parametrize("row", [MOTORS[3], MOTORS[-1]])
 def test_of_two_bought_parts_the_heads_are_in_the_flange_of_the_motor(row: Motor) -> None:
     shorter = box(row.face, row.face, row.length / 2)
     axis = bought_part("test/axis", "axis", "linear axis", shorter, Bought("axis"))
