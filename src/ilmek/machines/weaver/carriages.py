@@ -47,6 +47,7 @@ from ilmek.machines.weaver.tool_parts import (
     PLATES,
     RIGHT,
     SLEY_ARM,
+    SIDE_GRIPPER,
     SLEY_BODY,
     part_id,
 )
@@ -77,6 +78,9 @@ LUG_END = 4.3 * mm
 
 SCREW, NUT, IN_NUT = 4 * mm, 1 * mm, 0.2 * mm
 """Side of the twisted bars, thickness of their nut and room in it [m]."""
+
+ROD_WELD = 0.7 * mm
+"""Throat of the weld of a twisted bar on the rod of its gripper [m]."""
 
 SUPPORT = 6 * mm
 """Thickness of the support of the sley's rod [m]."""
@@ -213,6 +217,8 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
         f"square {in_mm(SCREW)}",
         TwistedBar(SCREW, stations, (0.0, 0.0, -hand * by.turn, -hand * by.turn)),
         STEEL,
+        joins=(SIDE_GRIPPER,),
+        throat=ROD_WELD,
     )
     return Occurrence(part, (placement(z=begin - weaver.tool_bodies.tip(name)),))
 

@@ -68,7 +68,7 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
     size = f"{in_mm(FLAG[1])} thick"
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL)
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL, joins=(TUBE_AXLE,))
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
 
