@@ -18,8 +18,10 @@ from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, placement
-from ilmek.part.shapes import bar, box, shape_box, tube
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, bar, box, rectangle, shape_box, tube
 from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle
 from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, round_size, turn
 
@@ -30,8 +32,11 @@ INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
 FLAG, SENSING = (4 * mm, 2 * mm), 1 * mm
 """Width and thickness of the flag, and from it to the sensor [m]; assumed by this project."""
 
-BESIDE_INDEX = 1 * mm
+BESIDE_INDEX = 2.5 * mm
 """Between the index sensor and a motor [m]; assumed by this project."""
+
+CLAMPED, ASIDE_INDEX, STAND_ROOM = 5 * mm, 10 * mm, 0.5 * mm
+"""Length of the index sensor in its stand, half the width of that, from it to the motor [m]; assumed by this project."""
 
 AXLE_WALL, OVER_MOTOR = 4.5 * mm, 0.5 * mm
 """Wall of the axle under the carrier about the motor's shaft, and from it to the motor [m]; assumed by this project."""
@@ -91,7 +96,11 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
     bought = Bought(INDUCTIVE.name, INDUCTIVE.mass)
     sensor = bought_part(INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, bar(side, long), bought)
     yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
-    stand = Part(INDEX_STAND, "stand of the tubes' index", "pin or bush", "", bar(side, begin - foot), STEEL)
+    beside = BESIDE_INDEX - STAND_ROOM + side / 2
+    block = Profile(rectangle(2 * beside, 2 * ASIDE_INDEX), (circle(0j, side / 2),))
+    high, size = begin + CLAMPED - foot, f"{in_mm(2 * ASIDE_INDEX)} x {in_mm(2 * beside)}"
+    title = "stand of the tubes' index"
+    stand = Part(INDEX_STAND, title, "machined link", size, Prism(block, high), ALUMINIUM)
     yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))
 
 
