@@ -49,6 +49,7 @@ from ilmek.machines.weaver.tool_parts import (
     SLEY_ARM,
     SIDE_GRIPPER,
     SLEY_BODY,
+    SLEY_HEEL,
     part_id,
 )
 from ilmek.machines.weaver.turning import pivot
@@ -56,7 +57,7 @@ from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import UPRIGHT, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, rectangle, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, box, rectangle, stepped, tube
 from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
@@ -78,6 +79,9 @@ LUG_END = 4.3 * mm
 
 SCREW, NUT, IN_NUT = 4 * mm, 1 * mm, 0.2 * mm
 """Side of the twisted bars, thickness of their nut and room in it [m]."""
+
+EAR = (7 * mm, 9 * mm, 4 * mm)
+"""Width, height and thickness of the ears by which the nut is screwed [m]."""
 
 ROD_WELD = 0.7 * mm
 """Throat of the weld of a twisted bar on the rod of its gripper [m]."""
@@ -232,9 +236,10 @@ def _nut(weaver: Weaver) -> Occurrence:
     holes = [complex(hand * by.axis, tied + hand * by.lift / 2) for hand in (-1, 1)]
     squares = apart([_around(hole, side / 2) for hole in holes])
     outline = rectangle(2 * by.axis + side + 4 * mm, by.lift + side + 3 * mm).points + 1j * tied
-    part = _made(
-        "nut", "nut of the twisted bars", Prism(Profile(polygon(outline), tuple(each.contour for each in squares)), NUT)
-    )
+    plate = Prism(Profile(polygon(outline), tuple(each.contour for each in squares)), NUT)
+    (wide, high, thick), half = EAR, float(outline.real.max())
+    ears = (Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2))
+    part = _made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears)))
     return _at(part, 0j, weaver.shape.partition + PARTITION)
 
 
@@ -281,7 +286,7 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
     tool, plane, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), weaver.params.cam_thickness / 2, station(weaver, SLEY)
     arm = -weaver.tool_bodies.sley_arm
     room = max(plane, 0.7 * ROD)
-    left, right = min(side - room, arm), max(side + room, arm + SLEY_ARM)
+    left, right = min(side - room, arm), max(side + room, arm + SLEY_ARM + SLEY_HEEL[0])
     end = (tool.corner + tool.size).real
     outline = rectangle(SLEY_BLOCK, right - left).points + complex(SLEY_BLOCK / 2, (left + right) / 2)
     section = Profile(polygon(outline), (circle(complex(SLEY_BLOCK / 2, side), ROD / 2),))

@@ -5,6 +5,7 @@ A flag under the carrier passes over a sensor, from which the motor's steps coun
 
 import cmath
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
@@ -64,13 +65,17 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(part, positions)
     kind = "drum" if magazine.kind == DRUM else "slide"
     plate, size = magazine.carrier, f"{in_mm(CARRIER)} thick"
+    flange = shape.magazine.imag - CARRIER - AXLE
+    into = CARRIER if magazine.kind == DRUM else 0.0
+    axle = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR + into)
+    begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
+    if into:  # it is pressed into the drum
+        section = plate.section
+        plate = replace(plate, section=Profile(section.outline, (*section.holes, circle(0j, begin))))
     carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", size, plate, ALUMINIUM)
     lying = UPRIGHT.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 4))
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
-    flange = shape.magazine.imag - CARRIER - AXLE
-    axle = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR)
     yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
-    begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
     size = f"{in_mm(FLAG[1])} thick"
     flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL, joins=(TUBE_AXLE,))
