@@ -133,7 +133,10 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     back = about.after(placement(z=-BEHIND))
     block = box(BLOCK[1], BLOCK[0], tall)
     yield _made(
-        part_id("drive-block"), "block under that plate", block, *_upright_pair(back, RAIL_AXIS / 2, half - BLOCK[0] / 2)
+        part_id("drive-block"),
+        "block under that plate",
+        block,
+        *_upright_pair(back, RAIL_AXIS / 2, half - BLOCK[0] / 2),
     )
     yield Occurrence(_pulley(drive), (_upright(about, drive.low - catalogue.BESIDE),))
     aside = _upright_pair(about, drive.low, ASIDE)

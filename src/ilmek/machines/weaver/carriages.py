@@ -46,8 +46,8 @@ from ilmek.machines.weaver.tool_parts import (
     LEFT,
     PLATES,
     RIGHT,
-    SLEY_ARM,
     SIDE_GRIPPER,
+    SLEY_ARM,
     SLEY_BODY,
     SLEY_HEEL,
     part_id,
@@ -238,7 +238,9 @@ def _nut(weaver: Weaver) -> Occurrence:
     outline = rectangle(2 * by.axis + side + 4 * mm, by.lift + side + 3 * mm).points + 1j * tied
     plate = Prism(Profile(polygon(outline), tuple(each.contour for each in squares)), NUT)
     (wide, high, thick), half = EAR, float(outline.real.max())
-    ears = (Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2))
+    ears = (
+        Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2)
+    )
     part = _made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears)))
     return _at(part, 0j, weaver.shape.partition + PARTITION)
 

@@ -37,7 +37,8 @@ BESIDE_INDEX = 2.5 * mm
 """Between the index sensor and a motor [m]; assumed by this project."""
 
 CLAMPED, ASIDE_INDEX, STAND_ROOM = 5 * mm, 10 * mm, 0.5 * mm
-"""Length of the index sensor in its stand, half the width of that, from it to the motor [m]; assumed by this project."""
+"""Length of the index sensor in its stand, half the width of that, and room to the motor [m]; assumed by this project.
+"""
 
 AXLE_WALL, OVER_MOTOR = 4.5 * mm, 0.5 * mm
 """Wall of the axle under the carrier about the motor's shaft, and from it to the motor [m]; assumed by this project."""

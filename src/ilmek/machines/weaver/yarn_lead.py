@@ -71,7 +71,10 @@ def yarn_guide(weaver: Weaver) -> Iterator[Occurrence]:
     if weaver.params.side_plate <= 0:
         return
     outer, wall, long = RING
-    stem = Placed(bar(STEM, INSIDE - outer / 2 + weaver.params.side_plate), (ALONG_WIDTH.after(placement(y=long / 2, z=outer / 2)),))
+    stem = Placed(
+        bar(STEM, INSIDE - outer / 2 + weaver.params.side_plate),
+        (ALONG_WIDTH.after(placement(y=long / 2, z=outer / 2)),),
+    )
     ring = Sum((Placed(tube(outer, wall, long)), stem))
     _, (x, y, z), _ = yarn_line(weaver)
     part = Part(YARN_GUIDE, "guide of the pile yarn", "pin or bush", "", ring, STEEL)
