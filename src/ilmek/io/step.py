@@ -113,7 +113,9 @@ def part_solid(part: Part) -> TopoDS_Shape:
     """The solid of a part with a shape, in its own axes [mm]."""
     drawn = None if part.drawing is None else part.drawing.solid
     # The kernel takes one solid for one part: those of a shape that several parts have are copies.
-    return _round_solid(drawn) if isinstance(drawn, RoundSolid) else BRepBuilderAPI_Copy(shape_solid(part.shape)).Shape()
+    return (
+        _round_solid(drawn) if isinstance(drawn, RoundSolid) else BRepBuilderAPI_Copy(shape_solid(part.shape)).Shape()
+    )
 
 
 @lru_cache(maxsize=1024)

@@ -106,10 +106,11 @@ class _Plan:
         self.carried = {own: [unit for unit in self.units if own.name in unit.carriers] for own in self.units}
         for first, other in _near(self.boxes):
             pair = self.units[first], self.units[other]
-            if through(pair[0].grown, pair[1].grown):
+            touch = through(pair[0].grown, pair[1].grown)
+            if touch:
                 self.beside[pair[0]].add(pair[1])
                 self.beside[pair[1]].add(pair[0])
-            if through(pair[0].solid, pair[1].solid):
+            if (touch and pair[0].yields != pair[1].yields) or through(pair[0].solid, pair[1].solid):
                 self.through.add(frozenset(pair))
 
     def steps(self) -> tuple[Insertion, ...]:
@@ -238,7 +239,8 @@ class _Plan:
         """Whether the units of a group touch, leave no part of their bodies behind but screws, and are not the most."""
         names = {unit.name for unit in group}
         rest = self.standing - group
-        left = any(unit.name in names and not unit.fastens for unit in rest)
+        whole = {unit.name for unit in self.units} == names  # the bench of one body
+        left = not whole and any(unit.name in names and not unit.fastens for unit in rest)
         least = bool(self.welded) or sum(len(unit.pieces) for unit in group) <= sum(len(unit.pieces) for unit in rest)
         return least and not left and _groups(group, self.beside) == 1
 
