@@ -361,20 +361,17 @@ class _TakenRoom:
         low_x, low_y, high_x, high_y = self.boxes.T
         over = (box[0] < high_x + _PAD) & (low_x < box[2] + _PAD) & (box[1] < high_y + _PAD) & (low_y < box[3] + _PAD)
         fault = 1000.0 * np.count_nonzero(over)
-        first, last = np.searchsorted(self.samples.real, [box[0] - 0.5, box[2] + 0.5])
+        across = self.samples.real
+        first, last = np.searchsorted(across, box[0] - 0.5, "right"), np.searchsorted(across, box[2] + 0.5)
         heights = self.samples.imag[first:last]
         fault += float(np.count_nonzero((heights > box[1] - 0.5) & (heights < box[3] + 0.5)))
         if tip != elbow and fault < least:
             shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
-            path = np.concatenate([tip + _LEADER * (elbow - tip), elbow + _SHELF * (shelf - elbow)])[:, None]
+            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])[:, None]
             beside = (path.real > low_x - 0.4) & (path.real < high_x + 0.4)
             inside = beside & (path.imag > low_y - 0.4) & (path.imag < high_y + 0.4)
             fault += 1000.0 * np.count_nonzero(inside.any(axis=0))
         return fault
-
-
-_LEADER, _SHELF = np.linspace(0.0, 1.0, 25), np.linspace(0.0, 1.0, 13)
-"""Samples of both pieces of a leader."""
 
 
 def coordinate(point: complex, across: bool) -> float:
