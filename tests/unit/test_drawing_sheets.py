@@ -14,6 +14,7 @@ import pytest
 from ezdxf.document import Drawing
 
 from ilmek.elements.materials import find_material
+from ilmek.io.drawings.dxf import write_sheet_dxf
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.workshop import write_workshop
 from ilmek.jobs.workshop_order import WorkshopOrder
@@ -26,7 +27,8 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, square_tube, 
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, keyed_bore, polygon, rounded_hull
 from ilmek.report import Check, Report
-from ilmek.report.sheet import Issue
+from ilmek.report.sheet import DrawingSheet, Issue, SheetText
+from ilmek.sentences import Sentence
 
 pdfium = pytest.importorskip("pypdfium2")
 pytest.importorskip("OCP")
@@ -311,3 +313,10 @@ def test_what_needs_no_kernel_is_drawn_without_it(tmp_path: Path, monkeypatch: p
     made = write_workshop(Report("probe", "Probe", {}, (), (), pieces=pieces_of(tree)), tmp_path / "out")
     assert [entry["of"] for entry in made.entries if entry["kind"] == "sheet"] == ["pin"]
     assert "1 sheet of a part of several shapes is left out: pip install 'ilmek[step]'" in made.notes
+
+
+def test_a_sheet_as_dxf_is_in_each_language(tmp_path: Path) -> None:
+    sheet = DrawingSheet("1", "t", "A4", 210.0, 297.0, 1.0, (), (SheetText(0j, Sentence("sheet.mass")),))
+    write_sheet_dxf(tmp_path / "en.dxf", sheet, {"tr": tmp_path / "tr.dxf"})
+    texts = [ezdxf.readfile(tmp_path / f"{name}.dxf").modelspace()[0].dxf.text for name in ("en", "tr")]
+    assert texts == ["Mass", "Kütle"]

@@ -6,12 +6,14 @@ all imports of it are here, and the extra is pinned below the next release.
 """
 
 import io
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 from OCP.BRep import BRep_Builder
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut, BRepAlgoAPI_Splitter
 from OCP.BRepBuilderAPI import (
+    BRepBuilderAPI_Copy,
     BRepBuilderAPI_MakeEdge,
     BRepBuilderAPI_MakeFace,
     BRepBuilderAPI_MakePolygon,
@@ -110,16 +112,24 @@ def _solid(plate: Plate, shape: PlateShape) -> TopoDS_Shape:
 def part_solid(part: Part) -> TopoDS_Shape:
     """The solid of a part with a shape, in its own axes [mm]."""
     drawn = None if part.drawing is None else part.drawing.solid
-    return _round_solid(drawn) if isinstance(drawn, RoundSolid) else shape_solid(part.shape)
+    # The kernel takes one solid for one part: those of a shape that several parts have are copies.
+    return (
+        _round_solid(drawn) if isinstance(drawn, RoundSolid) else BRepBuilderAPI_Copy(shape_solid(part.shape)).Shape()
+    )
 
 
+@lru_cache(maxsize=1024)
 def shape_solid(shape: object) -> TopoDS_Shape:
     """A shape of the package `part` [mm]: prisms, turned profiles; twisted bars and sums as one compound of solids."""
     if isinstance(shape, Prism):
         solid = BRepPrimAPI_MakePrism(_face(shape.section), gp_Vec(0, 0, shape.length / mm)).Shape()
-        for hole in shape.drilled:
-            solid = BRepAlgoAPI_Cut(solid, _placed(shape_solid(hole.shape), hole.position)).Shape()
-        return solid
+        if not shape.drilled:
+            return solid
+        cut = BRepAlgoAPI_Cut()
+        cut.SetArguments(_shapes(solid))
+        cut.SetTools(_shapes(*(_placed(shape_solid(hole.shape), hole.position) for hole in shape.drilled)))
+        cut.Build()
+        return cut.Shape()
     if isinstance(shape, Turned):
         around_x = BRepPrimAPI_MakeRevol(_face(shape.profile), gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0))).Shape()
         return _placed(around_x, ALONG_WIDTH.inverse)
@@ -247,9 +257,10 @@ def _prism(part: RoundSolid, bore: Contour) -> TopoDS_Shape:
     return BRepPrimAPI_MakePrism(face, gp_Vec(0.0, 0.0, (part.high - part.low) / mm)).Shape()
 
 
-def _shapes(shape: TopoDS_Shape) -> List_TopoDS_Shape:
+def _shapes(*shapes: TopoDS_Shape) -> List_TopoDS_Shape:
     found = List_TopoDS_Shape()
-    found.Append(shape)
+    for shape in shapes:
+        found.Append(shape)
     return found
 
 

@@ -103,12 +103,11 @@ def _assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> tuple[
 def _sheet(sheet: DrawingSheet, name: str, work: Path, kind: str) -> Iterator[JsonObject]:
     """Write a sheet in each language; an entry for each file, of other languages than the usual one a translation."""
     stem, common = f"{name}.sheet" if sheet.page == 1 else f"{name}.sheet-{sheet.page}", _facts(sheet, name)
-    for language in LANGUAGES:
-        usual = language == DEFAULT
-        file = f"{stem}.dxf" if usual else f"{stem}.{language}.dxf"
-        with in_language(language):
-            write_sheet_dxf(work / file, sheet)
-        yield {"file": file, "kind": kind if usual else TRANSLATION, **common, "language": language}
+    files = {language: f"{stem}.dxf" if language == DEFAULT else f"{stem}.{language}.dxf" for language in LANGUAGES}
+    others = {language: work / file for language, file in files.items() if language != DEFAULT}
+    write_sheet_dxf(work / files[DEFAULT], sheet, others)
+    for language, file in files.items():
+        yield {"file": file, "kind": TRANSLATION if language in others else kind, **common, "language": language}
 
 
 def _facts(sheet: DrawingSheet, name: str) -> JsonObject:

@@ -59,13 +59,19 @@ class AssemblyStep:
 
 
 def assembly_check(steps: Sequence[Insertion]) -> Check:
-    """Whether what comes can reach its seat past what stands; not what is put together on the bench."""
-    held = [step for step in steps if step.blocking]
+    """Whether all that comes can reach its seat past what stands, at the machine and on the bench."""
+    held = [step for step in _every(steps) if step.blocking]
     named = (f"{_names(step.units)} by {_names(step.blocking)}" for step in held[:3])
     parts = (piece.part.id for step in held for unit in step.units for piece in unit.pieces[:1])
     source = "; ".join(named) or "straight moves past all that stands"
     check = at_most("assembly: parts that cannot reach their seats", len(held), 0, "1", source)
     return check.with_cure("leave room for it, or bolt what blocks it", *dict.fromkeys(parts))
+
+
+def _every(steps: Sequence[Insertion]) -> Iterator[Insertion]:
+    for step in steps:
+        yield step
+        yield from _every(step.bench)
 
 
 def _names(units: Sequence[InsertedUnit]) -> str:

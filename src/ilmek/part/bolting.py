@@ -97,7 +97,9 @@ class _Screwed:
 
 @lru_cache(maxsize=16)
 def bolted(tree: Tree) -> Tree:
-    """The tree with the screws of its fixed joints, and the holes for them in its parts."""
+    """The tree with the screws of its fixed joints, and the holes for them in its parts; one that has them as it is."""
+    if any(part.joins for part, _ in tree.occurrences()):
+        return tree
     worked: dict[str, DrilledPart] = {}
     known: dict[tuple[object, ...], _Screwed | None] = {}
     placed: dict[tuple[str, str, float], dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))

@@ -90,7 +90,8 @@ def _lines(corners: Sequence[Points], directions: Sequence[Vector]) -> list[list
         joined, others = [number], list[list[int]]()
         for line in lines:
             parallel = abs(directions[line[0]] @ axis) > _PARALLEL
-            if parallel and any(_overlap(own, _flat_hull(corners[k], across)) for k in line):
+            near = (corners[k] for k in line if parallel and _may_overlap(points, corners[k], across))
+            if any(_overlap(own, _flat_hull(other, across)) for other in near):
                 joined += line
             else:
                 others.append(line)
@@ -158,7 +159,8 @@ def _least_shift(
     """
     across = _across(axis)
     own, height = _flat_hull(points, across), points @ axis
-    behind = [number for number, other in enumerate(standing) if _overlap(own, _flat_hull(other, across))]
+    beside = (number for number, other in enumerate(standing) if _may_overlap(points, other, across))
+    behind = [number for number in beside if _overlap(own, _flat_hull(standing[number], across))]
     low = np.array([(standing[k] @ axis).min() - gap - height.max() for k in behind])
     high = np.array([(standing[k] @ axis).max() + gap - height.min() for k in behind])
     shifts = np.concatenate([[0.0], low, high])
@@ -178,6 +180,12 @@ def _across(axis: Vector) -> Float[np.ndarray, "2 3"]:
 def _flat_hull(points: Points, across: Float[np.ndarray, "2 3"]) -> ComplexArray:
     flat = points @ across.T
     return hull(flat[:, 0] + 1j * flat[:, 1])
+
+
+def _may_overlap(points: Points, other: Points, across: Float[np.ndarray, "2 3"]) -> bool:
+    """Whether the boxes of points have something in common, across an axis: a quick look before their hulls."""
+    own, its = points @ across.T, other @ across.T
+    return bool(((own.min(0) < its.max(0)) & (its.min(0) < own.max(0))).all())
 
 
 def _overlap(polygon: ComplexArray, other: ComplexArray) -> bool:

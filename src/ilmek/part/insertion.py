@@ -59,7 +59,7 @@ def insertions(tree: Tree, up: Vector, welded: frozenset[str] = frozenset()) -> 
 
     up  direction from the floor, from below which nothing comes      welded  ids of bodies to which all others come
     """
-    return _Plan(units_of(tree), up, welded).steps()
+    return _with_benches(_Plan(units_of(tree), up, welded))
 
 
 @dataclass(frozen=True)
@@ -106,10 +106,11 @@ class _Plan:
         self.carried = {own: [unit for unit in self.units if own.name in unit.carriers] for own in self.units}
         for first, other in _near(self.boxes):
             pair = self.units[first], self.units[other]
-            if through(pair[0].grown, pair[1].grown):
+            touch = through(pair[0].grown, pair[1].grown)
+            if touch:
                 self.beside[pair[0]].add(pair[1])
                 self.beside[pair[1]].add(pair[0])
-            if through(pair[0].solid, pair[1].solid):
+            if (touch and pair[0].yields != pair[1].yields) or through(pair[0].solid, pair[1].solid):
                 self.through.add(frozenset(pair))
 
     def steps(self) -> tuple[Insertion, ...]:
@@ -127,8 +128,7 @@ class _Plan:
                     parts = _Plan(rest, self.up, self.welded, self.learned).steps()
                     return (*parts, *reversed(taken))
             taken += steps
-        bench = [Insertion((unit,), bench=_bench((unit,))) for unit in self.units if unit in self.standing]
-        return (*bench, *reversed(taken))
+        return (*(Insertion((unit,)) for unit in self.units if unit in self.standing), *reversed(taken))
 
     def _next(self) -> list[Insertion]:
         """The steps in which a body leaves, the last of the tree first; else a part of one, a group, by two moves."""
@@ -239,7 +239,8 @@ class _Plan:
         """Whether the units of a group touch, leave no part of their bodies behind but screws, and are not the most."""
         names = {unit.name for unit in group}
         rest = self.standing - group
-        left = any(unit.name in names and not unit.fastens for unit in rest)
+        whole = {unit.name for unit in self.units} == names  # the bench of one body
+        left = not whole and any(unit.name in names and not unit.fastens for unit in rest)
         least = bool(self.welded) or sum(len(unit.pieces) for unit in group) <= sum(len(unit.pieces) for unit in rest)
         return least and not left and _groups(group, self.beside) == 1
 
@@ -351,15 +352,22 @@ class _Plan:
         units = tuple(sorted(leaving, key=lambda unit: unit.number))
         touched = {other for unit in units for other in self.beside[unit]} & (self.standing - leaving)
         onto = tuple(sorted(touched, key=lambda unit: unit.number))
-        return Insertion(units, tuple(0.0 - move for move in reversed(moves)), onto, bench=_bench(units))
+        return Insertion(units, tuple(0.0 - move for move in reversed(moves)), onto)
 
 
-def _bench(units: tuple[InsertedUnit, ...]) -> tuple[Insertion, ...]:
+def _with_benches(plan: _Plan) -> tuple[Insertion, ...]:
+    """The steps of a plan with those on the bench, which has no floor: what is in whose way holds there too."""
+    steps = plan.steps()
+    learned = replace(plan.learned, stuck={})
+    return tuple(replace(step, bench=_bench(step.units, learned)) for step in steps)
+
+
+def _bench(units: tuple[InsertedUnit, ...], learned: _Known) -> tuple[Insertion, ...]:
     """The steps by which some units are put together before they come."""
     if len(units) > 1 and len({unit.name for unit in units}) > 1:
-        return _Plan(units).steps()
+        return _with_benches(_Plan(units, learned=learned))
     inner = tuple(own for unit in units for own in (not unit.fastens and unit.inner) or (unit,))
-    return _Plan(inner).steps() if 1 < len(inner) <= _MOST_INNER else ()
+    return _with_benches(_Plan(inner, learned=learned)) if 1 < len(inner) <= _MOST_INNER else ()
 
 
 def _near(boxes: Float[np.ndarray, "units 2 3"]) -> Iterator[tuple[int, int]]:

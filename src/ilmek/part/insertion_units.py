@@ -20,7 +20,7 @@ from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.retaining_rings import RetainingRing, ring_of
 from ilmek.part.colliders import MANY, collider
 from ilmek.part.part import Part
-from ilmek.part.part_lists import FASTENER
+from ilmek.part.part_lists import BELTS, FASTENER
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.seat_axes import meeting_axes, seat_axis
@@ -84,6 +84,11 @@ class InsertedUnit:
     def fastens(self) -> bool:
         """Whether it is screws, or a key."""
         return len(self.parts) == 1 and self.pieces[0].part.process == FASTENER
+
+    @property
+    def yields(self) -> bool:
+        """Whether it is a belt, which is put over the flanges of the pulleys on which it lies."""
+        return len(self.pieces) == 1 and self.pieces[0].part.process in BELTS
 
     @property
     def first_moves(self) -> tuple[float, ...]:

@@ -29,6 +29,9 @@ SAW = 3 * mm
 FASTENER = "fastener"
 """Process of screws and keys."""
 
+BELTS = frozenset(("belt", "belt and pulleys"))
+"""Processes of belts."""
+
 
 def part_lists(tree: Tree, prices: Mapping[str, PriceRates]) -> tuple[Table, ...]:
     """The lists of a tree: `parts`, `cut-list`, `purchase`, `fasteners`."""

@@ -220,5 +220,10 @@ def polylines(lines: Complex[np.ndarray, "lines 2"]) -> list[ComplexArray]:
 
 def extents(pieces: Sequence[PlacedShape], rotation: Rotation) -> tuple[Corner, Corner]:
     """Least and greatest coordinates of shapes in the axes of a view [m]."""
-    points = [piece.position.points(_surface_of(piece, 0.0).corners) @ rotation.T for piece in pieces]
+    points = [piece.position.points(_corners(piece.shape)) @ rotation.T for piece in pieces]
     return np.min([own.min(0) for own in points], axis=0), np.max([own.max(0) for own in points], axis=0)
+
+
+@lru_cache(maxsize=1024)
+def _corners(shape: Shape) -> Float[np.ndarray, "points 3"]:
+    return shape.mesh(CHORD).points

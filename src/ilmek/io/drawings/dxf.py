@@ -4,9 +4,12 @@ A dimension carries the picture that the sheet has of it as its block, and its t
 that opens the file shows what the PDF shows, and reads the value.
 """
 
+import io
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from ezdxf._options import options
@@ -28,11 +31,15 @@ from ilmek.report.sheet import (
     SheetText,
     arrowhead,
 )
+from ilmek.sentences import DEFAULT, in_language, translated
 from ilmek.units import mm
 
 options.write_fixed_meta_data_for_testing = True  # no time, no random number: the same sheet gives the same bytes
 
 TEXTS, STAMP, STYLE, FONT = "TEXT", "STAMP", "ILMEK", "DejaVu"
+
+_MARK = "\ue000"
+"""Before and after the number of a text: a character that no text has."""
 
 _COLOURS = {LineKind.VISIBLE: 7, LineKind.HIDDEN: 5, LineKind.CENTRE: 1, LineKind.PATH: 3, LineKind.FRAME: 7}
 _ALIGNMENT = {
@@ -46,13 +53,32 @@ _OWN_BLOCK, _USER_TEXT, _ALONG_X = 32, 128, 64
 """Flags of the type of a DIMENSION: its block is its own, its text has its own position, an ordinate is along x."""
 
 
-def write_sheet_dxf(path: Path, sheet: DrawingSheet) -> None:
-    """Write a sheet to a file. Raises OSError."""
-    document = sheet_document(sheet)
+def write_sheet_dxf(path: Path, sheet: DrawingSheet, translations: Mapping[str, Path] = MappingProxyType({})) -> None:
+    """Write a sheet to a file, and to others with its sentences in other languages. Raises OSError.
+
+    The library makes the file once, with a mark for each text.
+    """
+    words = list[str]()
+
+    def mark(text: SheetText) -> SheetText:
+        words.append(text.words)
+        return replace(text, words=f"{_MARK}{len(words) - 1}{_MARK}")
+
+    texts = tuple(mark(text) for text in sheet.texts)
+    dimensions = tuple(replace(dimension, text=mark(dimension.text)) for dimension in sheet.dimensions)
+    stamp = mark(SheetText(0j, sheet.stamp)).words if sheet.stamp else ""
+    document = sheet_document(replace(sheet, texts=texts, dimensions=dimensions, stamp=stamp))
     for name in sorted(document.entitydb.dxf_types_in_use()):  # the library adds them in the order of a set
         document.classes.add_class(name)
-    with path.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
-        document.write(stream)
+    content = io.StringIO()
+    document.write(content)
+    pieces = content.getvalue().split(_MARK)  # every second one is the number of a text
+    numbers = [int(number) for number in pieces[1::2]]
+    for language, file in {DEFAULT: path, **translations}.items():
+        with in_language(language):
+            pieces[1::2] = [translated(words[number]) for number in numbers]
+        with file.open("w", encoding=document.output_encoding, errors="dxfreplace", newline="\n") as stream:
+            stream.write("".join(pieces))
 
 
 def sheet_document(sheet: DrawingSheet) -> Drawing:

@@ -4,7 +4,7 @@ First-angle projection (ISO 5456-2): the view from the left stands right of the 
 """
 
 from collections.abc import Sequence
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import cast
 
 from ilmek.part.folding import folded_sheet
@@ -161,9 +161,10 @@ def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
 def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> DrawingSheet | None:
     """The sheet of a part; None: the kernel is needed for it, and missing."""
     project = None if project is None else lru_cache(maxsize=8)(project)  # the same at every scale
+    drawn = cache(lambda scale: arranged(part, 1e3 / scale, project))  # the same on every paper
     for paper in PAPERS:
         for scale in SCALES:
-            arrangement = arranged(part, 1e3 / scale, project) if _may_fit(part, paper, scale) else None
+            arrangement = drawn(scale) if _may_fit(part, paper, scale) else None
             if arrangement is None:
                 continue
             laid = _laid(arrangement, part, paper)

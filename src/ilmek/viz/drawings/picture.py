@@ -1,14 +1,13 @@
 """Pictures on paper that move as a whole, and the room of lines and texts; positions in mm of the paper."""
 
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import lru_cache
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.plane.contours import along
-from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import SheetDimension, SheetLine, SheetText
 from ilmek.sentences import spoken
@@ -35,6 +34,9 @@ def text_box(text: SheetText) -> Box:
     """The room of a text [mm]."""
     width = words_width(text.words, text.height, bold=text.bold)
     start = {"left": 0.0, "center": -width / 2, "right": -width}[text.anchor]
+    if not text.angle:
+        x, y = text.position.real, text.position.imag
+        return start + x, y - 0.33 * text.height, start + width + x, y + 1.05 * text.height
     corners = np.array([start - 0.33j * text.height, start + width + 1.05j * text.height]) * np.exp(1j * text.angle)
     corners = corners + text.position
     return (
@@ -69,7 +71,7 @@ def line_points(line: SheetLine, error: float = 0.02) -> ComplexArray:
     return np.append(points, points[:1])
 
 
-@record
+@dataclass(frozen=True, eq=False)
 class SheetPicture:
     """What a view draws, movable as a whole."""
 
@@ -77,12 +79,13 @@ class SheetPicture:
     texts: tuple[SheetText, ...]
     dimensions: tuple[SheetDimension, ...]
 
-    @property
+    @cached_property
     def box(self) -> Box:
         """The room that it takes."""
         every = (*self.lines, *(line for one in self.dimensions for line in one.lines))
         points = [line_points(line) for line in every]
-        return joined_box([*(box_around(line) for line in points), *(text_box(text) for text in self.all_texts)])
+        boxes = [box_around(np.concatenate(points))] if points else []
+        return joined_box([*boxes, *(text_box(text) for text in self.all_texts)])
 
     @property
     def all_texts(self) -> tuple[SheetText, ...]:

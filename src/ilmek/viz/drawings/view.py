@@ -7,10 +7,11 @@ running dimensions from the datum. Leaders search a free spot around what they p
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray
+from ilmek.arrays import ComplexArray, Float
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText, arrowhead
@@ -134,10 +135,11 @@ class DrawnView:
                 while len(taken) <= row:
                     taken.append([])
                 free = all(interval[1] <= one[0] + 1e-6 or interval[0] >= one[1] - 1e-6 for one in taken[row])
-                if free and not any(overlap(text_box(text), box, _PAD) for box in self._boxes):
+                room = text_box(text)
+                if free and not any(overlap(room, box, _PAD) for box in self._boxes):
                     break
             taken[row].append(interval)
-            self._boxes.append(text_box(text))
+            self._boxes.append(room)
             laid.append((span, line, text, (low, high)))
         for span, line, text, ends in laid:
             self._row_dimension(span, line, text, ends, across)
@@ -191,9 +193,10 @@ class DrawnView:
                 )
                 for point, position in zip(ordered, positions.tolist(), strict=True)
             ]
-            if not any(overlap(text_box(text), box, _PAD) for text in texts for box in self._boxes):
+            rooms = [text_box(text) for text in texts]
+            if not any(overlap(room, box, _PAD) for room in rooms for box in self._boxes):
                 break
-        self._boxes += [text_box(text) for text in texts]
+        self._boxes += rooms
         for point, position, text in zip(ordered, positions.tolist(), texts, strict=True):
             elbow = unit * coordinate(point, across) + out * (line - 5)
             end = unit * position + out * line
@@ -260,7 +263,7 @@ class DrawnView:
         self, words: str, centre: complex, radius: float, sector: tuple[complex, complex] | None, hung: Box | None
     ) -> tuple[complex, complex, SheetText]:
         """Tip and elbow of a leader, and its text, at the nearest free spot; hung  room of what hangs below it."""
-        samples = np.concatenate([np.zeros(0, complex), *self._samples])
+        taken = self._taken()
         best: tuple[float, complex, complex, SheetText] | None = None
         for distance in (6.0, 10.0, 15.0, 21.0, 28.0, 36.0, 46.0, 58.0, 72.0, 90.0):
             for turn in turns_from(centre, sector):
@@ -272,7 +275,7 @@ class DrawnView:
                 text = SheetText(at, words, LETTER, "left" if right else "right")
                 box = text_box(text)
                 box = box if hung is None else joined_box([box, box_below(box, hung, text.anchor)])
-                fault = self._fault(box, samples, tip, elbow)
+                fault = taken.fault(box, tip, elbow, np.inf if best is None else best[0])
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
             if best is not None and best[0] < 3:
@@ -296,28 +299,19 @@ class DrawnView:
 
     def tag(self, words: str, centre: complex, radius: float) -> None:
         """A short name beside a hole."""
-        samples = np.concatenate(self._samples)
-        candidates = []
+        taken, candidates = self._taken(), []
         for distance in (0.8, 2.0, 4.0):
             for turn in TURNS[:16]:
                 direction = complex(math.cos(turn), math.sin(turn))
                 at = centre + (radius + distance) * direction - 0.5j * LETTER
                 text = SheetText(at, words, LETTER, "left" if direction.real > 0 else "right")
-                candidates.append((self._fault(text_box(text), samples, at, at), text))
+                candidates.append((taken.fault(text_box(text), at, at), text))
         _, text = min(candidates, key=lambda one: one[0])
         self.text(text)
 
-    def _fault(self, box: Box, samples: ComplexArray, tip: complex, elbow: complex) -> float:
-        """How bad a spot for a text is: 0 where it is free, 1000 for each text that it or its line covers."""
-        fault = 1000.0 * sum(overlap(box, other, _PAD) for other in self._boxes)
-        inside = (samples.real > box[0] - 0.5) & (samples.real < box[2] + 0.5)
-        inside &= (samples.imag > box[1] - 0.5) & (samples.imag < box[3] + 0.5)
-        fault += float(np.count_nonzero(inside))
-        if tip != elbow:
-            shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
-            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])
-            fault += 1000.0 * sum(bool(np.any(_within(path, other))) for other in self._boxes)
-        return fault
+    def _taken(self) -> "_TakenRoom":
+        samples = np.concatenate([np.zeros(0, complex), *self._samples])
+        return _TakenRoom(np.array(self._boxes, dtype=float).reshape(-1, 4), samples[np.argsort(samples.real)])
 
     def _clear_pieces(self, start: complex, end: complex) -> list[ComplexArray]:
         """A straight line, interrupted where texts lie."""
@@ -350,6 +344,34 @@ class DrawnView:
             length = np.concatenate([[0.0], np.cumsum(steps)])
             marks = np.linspace(0.0, total, max(2, int(total / _STEP) + 1))
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
+
+
+@dataclass(frozen=True, eq=False)
+class _TakenRoom:
+    """What a text must keep off: boxes of others, and points of lines in the order of their x."""
+
+    boxes: Float[np.ndarray, "boxes 4"]
+    samples: ComplexArray
+
+    def fault(self, box: Box, tip: complex, elbow: complex, least: float = np.inf) -> float:
+        """How bad a spot for a text is: 0 where it is free, 1000 for each text that it or its line covers.
+
+        least  from which on it need not be exact
+        """
+        low_x, low_y, high_x, high_y = self.boxes.T
+        over = (box[0] < high_x + _PAD) & (low_x < box[2] + _PAD) & (box[1] < high_y + _PAD) & (low_y < box[3] + _PAD)
+        fault = 1000.0 * np.count_nonzero(over)
+        across = self.samples.real
+        first, last = np.searchsorted(across, box[0] - 0.5, "right"), np.searchsorted(across, box[2] + 0.5)
+        heights = self.samples.imag[first:last]
+        fault += float(np.count_nonzero((heights > box[1] - 0.5) & (heights < box[3] + 0.5)))
+        if tip != elbow and fault < least:
+            shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
+            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])[:, None]
+            beside = (path.real > low_x - 0.4) & (path.real < high_x + 0.4)
+            inside = beside & (path.imag > low_y - 0.4) & (path.imag < high_y + 0.4)
+            fault += 1000.0 * np.count_nonzero(inside.any(axis=0))
+        return fault
 
 
 def coordinate(point: complex, across: bool) -> float:

@@ -29,6 +29,7 @@ from ilmek.machines.weft.carriers import AXIS as WEFT_AXIS
 from ilmek.machines.weft.carriers import WEFT_CUTTER
 from ilmek.part.blanks import size_of
 from ilmek.part.part import Part
+from ilmek.part.part_lists import BELTS
 from ilmek.part.tree import Tree
 from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
@@ -51,9 +52,6 @@ TRAVEL = 100e3
 
 SLACK = 0.8
 """Share of its tension at which a belt is tightened again; assumed by this project."""
-
-BELTS = frozenset(("belt", "belt and pulleys"))
-"""Processes of belts."""
 
 WEARING = BELTS | {"spring", "yarn brake"}
 """Processes of parts that wear, and of which no life is computed: a set is kept."""
