@@ -103,7 +103,7 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
     """By the ids of two parts what joins them."""
     found: dict[Pair, Means] = {}
     for meeting in meetings(tree):
-        if meeting.joint is JointKind.FIXED or meeting.turning:
+        if meeting.joint is JointKind.FIXED:
             found[frozenset((meeting.bore.part.id, meeting.inner.part.id))] = Means.FIT
     fasteners = {name for name, part in parts.items() if part.process == "fastener"}
     for name, joined in joined_by(tree, frozenset(fasteners)).items():

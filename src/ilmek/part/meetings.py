@@ -42,7 +42,6 @@ class Meeting:
     joint   how one moves in the other: fixed, pin, slide          body   id of the body that moves, or that has both
     ends    the inner one ends in the bore: the tip of a screw
     along   where the bore begins and ends along the axis of the inner one, from where that begins [m]
-    turning  one turns on the other, which no joint of bodies lets it: a roller on its pin
     """
 
     bore: SeatFeature
@@ -51,7 +50,6 @@ class Meeting:
     body: str
     ends: bool
     along: tuple[float, float]
-    turning: bool = False
 
 
 @record
@@ -72,7 +70,7 @@ def meetings(tree: Tree) -> tuple[Meeting, ...]:
     kept: dict[tuple[object, ...], Meeting] = {}
     for bore, inner, ends, along in _pairs(placed, lines):
         joint, body = _joint(bore, inner)
-        meeting = Meeting(bore.seat, inner.seat, joint, body, ends, along, bore.turning or inner.turning)
+        meeting = Meeting(bore.seat, inner.seat, joint, body, ends, along)
         names = (seat.part.id for seat in (bore.seat, inner.seat))
         kept.setdefault((*names, bore.seat.number, inner.seat.number, joint, body, ends), meeting)
     return tuple(kept.values())

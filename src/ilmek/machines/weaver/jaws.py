@@ -27,7 +27,7 @@ from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, p
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Turned, bar, box, stepped, tube
+from ilmek.part.shapes import Prism, Turned, bar, box, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
@@ -124,15 +124,16 @@ def rail_of(weaver: Weaver, track: str) -> Rail:
     return Rail(roller - forward - ROLLER / 2, roller + back + ROLLER / 2, top)
 
 
-def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Placed:
-    """Lugs of a carriage on its front that hold its rocker's axle, in the head's axes, by the x of their right faces
-    [m].
-    """
+def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Occurrence:
+    """Plates on a carriage's front that hold its rocker's axle, by the x of their right faces [m]."""
     axle = rocker(weaver, track).axle
     deep = front - axle.real
     corners = np.array([-EYE - 1j * EYE, deep - 1j * EYE, deep + 1j * EYE, -EYE + 1j * EYE])
     section = Profile(polygon(corners), (circle(0j, AXLE / 2),))
-    return Placed(Prism(section, LUG), tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
+    name = "side" if track == SIDE_GRASP else "centre"
+    title = f"lug of the {name} jaws' rocker"
+    part = Part(part_id(f"{name}-lug"), title, "machined link", in_mm(LUG), Prism(section, LUG), STEEL)
+    return Occurrence(part, tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
 
 
 def rocker_id(track: str) -> str:

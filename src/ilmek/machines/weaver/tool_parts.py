@@ -51,11 +51,6 @@ SLEY_FOOT, SLEY_ARM, BESIDE_SLEY = 6 * mm, 3 * mm, 3 * mm
 """Depth of the sley's foot over the pair, at most, width of its arm, and from the opener to it [m]; assumed by this
 project."""
 
-SLEY_HEEL, OPENER_FOOT = (7 * mm, 3 * mm), (6 * mm, 7 * mm)
-"""Width and depth of the heel by which the sley is screwed to its block; depth, and width and height of the feet of an
-opener's plate on its carriage [m]; assumed by this project.
-"""
-
 CARRIED = 0.1
 """Mass of carriage, lever and follower beside a tool for which a cam is designed [kg]; a check compares it."""
 
@@ -165,20 +160,17 @@ class ToolBodies:
         return CENTRE_MOTION, _sliding(CENTRE, (Occurrence(part),), parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
-        """Both plates, alike: each has a foot at each side on its carriage, towards the other plate."""
+        """Both plates, alike."""
         low, high = self.tools.tool(LOWER_PLATE), self.tools.tool(UPPER_PLATE)
-        thick, (deep, wide) = low.size.imag, OPENER_FOOT
-        aside, back = self.opener_half - wide / 2, low.size.real - deep / 2
-        feet = (Placed(box(deep, wide, wide), (placement(back, y, thick),)) for y in (-aside, aside))
+        thick = low.size.imag
         part = _made(
             OPENER_PLATE,
             "plate of the warp opener",
             "machined link",
-            Sum((Placed(Prism(self._comb(low), thick)), *feet)),
+            Prism(self._comb(low), thick),
             f"{in_mm(thick)} thick",
         )
-        over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
-        return (Occurrence(part, (_upright(low), over)),)
+        return (Occurrence(part, tuple(_upright(tool) for tool in (low, high))),)
 
     def _comb(self, tool: HeadTool) -> Profile:
         """A plate in plan, its x to the front from the points, its y along the row; of grippers open at its end."""
@@ -218,9 +210,7 @@ class ToolBodies:
             rest = min(rest, self.params.arms.rest - self.params.arms.grip)
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
         inner = outer - SLEY_ARM
-        wide, thick = SLEY_HEEL
-        heel = [deep - thick - 1j * inner, deep - thick - 1j * (inner - wide), deep - 1j * (inner - wide)]
-        corners = [1j * half, foot + 1j * half, foot - 1j * inner, *heel, deep - 1j * outer, -1j * outer]
+        corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
         size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
         part = _made(SLEY_BAR, "sley", "machined link", shape, size)
