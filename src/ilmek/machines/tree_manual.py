@@ -129,7 +129,7 @@ def _with_screws(steps: Iterable[AssemblyStep], tree: Tree) -> tuple[AssemblySte
             come.setdefault(part.id, number)
     screws: dict[int, dict[Part, int]] = defaultdict(dict)
     for part, pieces in tree.occurrences():
-        if part.joins:
+        if part.joins and part.purchase:
             screws[max(come.get(name, 0) for name in part.joins)][part] = pieces
     return tuple(replace(step, parts={**step.parts, **screws[number]}) for number, step in enumerate(rows))
 

@@ -98,7 +98,7 @@ class _Screwed:
 @lru_cache(maxsize=16)
 def bolted(tree: Tree) -> Tree:
     """The tree with the screws of its fixed joints, and the holes for them in its parts; one that has them as it is."""
-    if any(part.joins for part, _ in tree.occurrences()):
+    if any(part.joins and part.purchase for part, _ in tree.occurrences()):
         return tree
     worked: dict[str, DrilledPart] = {}
     known: dict[tuple[object, ...], _Screwed | None] = {}
