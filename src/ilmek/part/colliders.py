@@ -28,9 +28,9 @@ DEVIATION = 0.1 * mm
 """Deviation of the meshes from the parts, which lie outside of them [m]."""
 
 COARSE = 1 * mm
-"""Deviation where a part is in its body `MANY` times or more, or its profile has `FINE` corners [m]."""
+"""Deviation where a part is in its body `MANY` times or more [m]."""
 
-MANY, FINE = 40, 500
+MANY = 40
 
 DEPTH, VOLUME = 0.1 * mm, 50 * mm**3
 """Mean depth and volume in common below which parts touch: facets of a pin in those of its bore."""
@@ -153,8 +153,7 @@ def collider(shape: Shape) -> Collider:
 @lru_cache(maxsize=1024)
 def _collider(hashed: Hashable) -> Collider:
     shape = cast(Shape, hashed)
-    detailed = isinstance(shape, Turned) and len(shape.profile.outline.points) >= FINE
-    return Collider(lambda: shape.mesh(COARSE if detailed else DEVIATION), isinstance(shape, Turned))
+    return Collider(lambda: shape.mesh(DEVIATION), isinstance(shape, Turned))
 
 
 @lru_cache(maxsize=64)
