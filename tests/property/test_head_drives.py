@@ -84,7 +84,7 @@ def test_the_springs_at_the_tools_press_the_followers_as_the_cams_ask() -> None:
 
 @given(st.floats(1.0, 25.0), st.sampled_from((0.010, 0.016)))
 def test_the_belt_bears_its_torque_where_the_cams_leave_room(torque: float, width: float) -> None:
-    belt = cam_belt(torque, 0.09, width)
+    belt = cam_belt(torque, 0.09, width, 15e-3)
     assert 1.25 * belt.pull <= 42.0e3 * width * (1 + 1e-9)
     assert belt.radii[0] <= 0.09
     assert belt.ratio >= 1

@@ -14,6 +14,7 @@ import numpy as np
 from ilmek.elements.machine_screws import screw_of
 from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
+from ilmek.part.fastenings import fastenings
 from ilmek.part.insertion import Insertion
 from ilmek.part.insertion_units import Direction, InsertedUnit
 from ilmek.part.part import Part
@@ -153,6 +154,10 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
         sections.append(_section(machine, rows, joins, _picture(seen, standing, coming, _CAPTIONS[view])))
         sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
         standing |= coming
+    loose = tuple(titles[name] for name in fastenings(screwed).loose)
+    if loose:
+        how = Sentence("manual.loose-how", number=str(len(loose)))
+        sections.append(PaperSection(Sentence("manual.loose"), (how, "; ".join(dict.fromkeys(loose)))))
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
 
 

@@ -4,7 +4,6 @@ from ilmek.elements.prices import PRICES
 from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.tree_manual import UP, assembly_check, tree_manual
 from ilmek.part.bolting import bolted
-from ilmek.part.fastenings import fastening_check
 from ilmek.part.insertion import insertions
 from ilmek.part.part_lists import part_lists
 from ilmek.part.projection import widest_view
@@ -17,5 +16,4 @@ def tree_papers(tree: Tree, *, in_space: bool) -> Papers:
     steps, whole = insertions(tree, UP), bolted(tree)
     pages = tree_manual(tree, steps, widest_view(tree), whole), spares_of(whole)
     shown = tuple(page for page in pages if page is not None)
-    checks = fastening_check(whole), assembly_check(steps)
-    return Papers(shown, part_lists(whole, PRICES), checks, whole, in_space)
+    return Papers(shown, part_lists(whole, PRICES), (assembly_check(steps),), whole, in_space)

@@ -12,7 +12,7 @@ import math
 from ilmek.elements.belts import BELTS, MESHING
 from ilmek.elements.duty import MARGIN
 from ilmek.records import record
-from ilmek.units import turn
+from ilmek.units import mm, turn
 
 PROFILE, SMALL = BELTS["AT5"], 30
 """The belt, and the teeth of its small pulley, of which as many mesh as may share the pull."""
@@ -50,8 +50,17 @@ class CamBelt:
         return PULL * self.width
 
 
-def cam_belt(torque: float, room: float, width: float) -> CamBelt:
-    """The belt of a width [m] for a torque on the cam shaft [N m], its large pulley no larger than a room's radius."""
+HUB = 6 * mm
+"""Metal and keyway between a pulley's bore and its teeth [m]; assumed by this project."""
+
+
+def cam_belt(torque: float, room: float, width: float, shaft: float) -> CamBelt:
+    """The belt of a width [m] for a torque on the cam shaft [N m], of a diameter [m].
+
+    Its large pulley is no larger than a room's radius [m], but that its hub has room about the shaft.
+    """
+    groove = PROFILE.groove.offset + PROFILE.groove.depth
+    least = math.ceil(turn * (shaft / 2 + HUB + groove) / PROFILE.pitch)
     needed = math.ceil(turn * MARGIN * torque / (PROFILE.pitch * PULL * width) - 1e-9)
     most = math.floor(turn * room / PROFILE.pitch)
-    return CamBelt(max(SMALL, min(needed, most)), width, torque)
+    return CamBelt(max(SMALL, least, min(needed, most)), width, torque)

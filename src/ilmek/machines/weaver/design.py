@@ -151,7 +151,7 @@ def design(params: WeaverParams) -> Weaver:
     window, cams = carriage_window(cycle), cams_for(HeadForces(params, cycle, opener, radius), tools)
 
     most = float(np.abs(torque_at(cams, cams[0].angle)).max())
-    belt = cam_belt(most, max(cam.radius for cam in cams), params.cam_belt)
+    belt = cam_belt(most, max(cam.radius for cam in cams), params.cam_belt, params.shaft)
     rest = {"cams": case_width(params), "warps pushed aside": min(opener.crowd, params.opener.crowd_limit)}
     if params.with_arms:
         rest["arms"] = params.arms.width

@@ -87,7 +87,7 @@ def _plate(row: EyeBolt, name: str, title: str, seats: tuple[tuple[Extent, Corne
     side = float(seats[0][0].high[0] - seats[0][0].low[0])
     section = Profile(rectangle(side, side), (circle(0j, row.thread / 2),))
     size = f"plate {format_quantity(row.length, 'mm')}"
-    plate = Part(part_id(name), title, "laser-cut part", size, Prism(section, row.length), STEEL)
+    plate = Part(part_id(name), title, "laser-cut part", size, Prism(section, row.length), STEEL, machined=True)
     return Occurrence(plate, tuple(placement(x, y, z).after(UPRIGHT) for _, (x, y, z) in seats))
 
 

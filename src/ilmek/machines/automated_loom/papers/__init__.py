@@ -9,7 +9,6 @@ from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
 from ilmek.part.bolting import bolted
-from ilmek.part.fastenings import fastening_check
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
 
@@ -25,5 +24,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         risks(loom, report),
     )
     tree = bolted(loom_tree(loom))
-    checks = (*safety_checks(loom, report), fastening_check(tree), reached)
+    checks = (*safety_checks(loom, report), reached)
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)
