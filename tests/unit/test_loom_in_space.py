@@ -70,9 +70,9 @@ def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
         one.name for one in members
     }
     mass = sum(volume(part.solids[0]) * part.number for part in members) * STEEL.density
-    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-4)  # round ends of brackets are chords
+    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=2e-3)  # less the holes of screws
     weighed = sum(part.mass * part.number for part in members)
-    assert weighed == pytest.approx(parts_of_loom(loom).frame.mass, rel=1e-9)
+    assert weighed == pytest.approx(mass, rel=1e-4)  # round ends of brackets are chords
     shaft = _part(found, "shedding/cam-shaft")
     assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=1e-4)
 
@@ -199,7 +199,9 @@ def test_what_beats_is_in_space_where_its_clearances_have_it(settings: tuple[tup
             side = points[:, 2] + 1j * points[:, 1]
             expected = path.carried(polygon, tip)[0]
             assert np.abs(side[:, None] - expected).min(axis=0) == pytest.approx(0.0, abs=2e-4)
-            assert np.abs(side[:, None] - expected).min(axis=1) == pytest.approx(0.0, abs=2e-4)
+            for axis in (1.0, 1j):  # within it, holes of screws among others
+                assert np.max((side / axis).real) == pytest.approx(np.max((expected / axis).real), abs=2e-4)
+                assert np.min((side / axis).real) == pytest.approx(np.min((expected / axis).real), abs=2e-4)
 
 
 @pytest.mark.parametrize("settings", BEATS[:2])

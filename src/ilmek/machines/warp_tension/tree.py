@@ -5,13 +5,11 @@ Each cylinder has its own axes: z along it, 0 in the middle of its width, the dr
 
 import cmath
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
-from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.warp_tension.attachment import on_cylinder
 from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
@@ -23,7 +21,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.plane.contours import circle, rounded_hull
+from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, round_size, turn
 
@@ -37,8 +35,7 @@ WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
     """The bodies of the three cylinders.
 
-    positions  of each cylinder's axes by its name; default: one above the other between plates, as the machine has no
-    side view of its own
+    positions  of each cylinder's axes by its name; default: one above the other, as it has no side view of its own
     """
     shells, drives = _shells(design), _drives(design)
     where = positions or {own.name: placement(y=y) for own, y in zip(cylinders(design), _heights(design), strict=True)}
@@ -47,8 +44,7 @@ def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = Non
         for cylinder, shell in zip(cylinders(design), shells, strict=True)
         for body in _bodies(design.params, cylinder, shell, drives[cylinder.name], where[cylinder.name])
     )
-    stand = () if positions else (RigidBody(part_id("stand"), tuple(_plates(design))),)
-    return Tree((*stand, *bodies))
+    return Tree(tuple(bodies))
 
 
 def _heights(design: WarpTensionDesign) -> tuple[float, ...]:
@@ -59,26 +55,6 @@ def _heights(design: WarpTensionDesign) -> tuple[float, ...]:
         for own in cylinders(design)
     )
     return 0.0, -(upper + lower) / 2, -(upper + 2 * lower + spacer) / 2
-
-
-def _plates(design: WarpTensionDesign) -> Iterator[Occurrence]:
-    """The plates on which the bearings of the cylinders stand alone, one for each width of a bearing on both sides."""
-    seats = [(own.seat, 1j * y) for own, y in zip(cylinders(design), _heights(design), strict=True)]
-    far = design.params.span / 2 + design.params.stub
-    for number, wide in enumerate(sorted({seat.bearing.width for seat, _ in seats}), 1):
-        own = [(seat, axis) for seat, axis in seats if seat.bearing.width == wide]
-        axes, radius = np.array([axis for _, axis in own]), max(seat.radius for seat, _ in own)
-        outline = rounded_hull(axes, radius) if len(own) > 1 else circle(complex(axes[0]), radius)
-        bores = [circle(axis, seat.bore / 2) for seat, axis in own]
-        screws = [
-            circle(complex(axis + corner), seat.screws.screw.diameter / 2)
-            for seat, axis in own
-            for corner in seat.corners()
-        ]
-        shape = Prism(Profile(outline, (*bores, *screws)), BRACKET)
-        steel, title = MATERIALS["structural steel"], "plate of the cylinders' bearings"
-        plate = Part(part_id(f"plate-{number}"), title, "laser-cut part", "", shape, steel, machined=True)
-        yield Occurrence(plate, (placement(z=far + wide), placement(z=-far - wide - BRACKET)))
 
 
 def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:
