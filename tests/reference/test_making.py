@@ -128,7 +128,6 @@ def cam(part: Measured) -> float:
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
         ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3)),
         ("tension-compensator/pin", lambda part: turned(part, 1.3, 12e-3, math.pi / 2 * 12e-3**2)),
-        ("automated-loom/peg", lambda part: turned(part, 1.3, 42e-3)),
         ("automated-loom/column", welded),
         ("automated-loom/creel-rail", welded),
         ("weaver/pile-handler-cam", cam),
