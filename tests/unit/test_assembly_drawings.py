@@ -83,8 +83,9 @@ def assert_sheet_is_clear(drawn: AssemblySheet) -> None:
 def test_lists_balloons_and_tree_are_one_to_one_and_clear(name: str, number: int, tmp_path: Path) -> None:
     tree, assembly, sheets = sheets_of_assembly(name, number)
     names = sorted(item.name for item in items_of(tree, assembly))
-    assert len(sheets) == 2
-    for drawn in sheets:
+    assert len([drawn for drawn in sheets if drawn.balloons]) == 2
+    assert all(drawn.balloons for drawn in sheets[:2])  # a third one has the positions of welded pieces
+    for drawn in sheets[:2]:
         assert sorted(own.name for own in drawn.balloons) == names
         assert_sheet_is_clear(drawn)
         write_sheet_dxf(tmp_path / "a.dxf", drawn.sheet)

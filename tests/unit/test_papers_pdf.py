@@ -55,7 +55,7 @@ def same_words(paper: PrintedPaper, file: Path) -> int:
 
 def paper_of(rows: int) -> Paper:
     heads = (Column(Sentence("electric.motor")), Column(Sentence("electric.power"), "W", 3))
-    table = Table("motors", "", heads, tuple((Sentence("wear.shed-bearing"), 1234567.0 / (n + 1)) for n in range(rows)))
+    table = Table("motors", "", heads, tuple((Sentence("list.purchase"), 1234567.0 / (n + 1)) for n in range(rows)))
     square = Stroke(np.array([0j, 1, 1 + 1j, 1j]) * 0.1, "outline", closed=True)
     figure = Drawing("square", Sentence("manual.picture"), (square,))
     sections = (

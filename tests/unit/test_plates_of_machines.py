@@ -45,9 +45,8 @@ def test_the_eccentric_is_bored_as_far_from_its_middle_as_the_crank_is_long() ->
     assert isinstance(crank.outline, Contour)
     low, high = bounds(crank.outline)
     assert (low + high) / 2 == pytest.approx(0.015)
-    (bore,) = crank.cutouts
-    assert isinstance(bore, Contour)
-    assert abs(bore.points[0]) == pytest.approx(0.01, rel=0.2)  # about the origin, on the main shaft
+    (bore,) = crank.holes
+    assert (bore.at, bore.radius) == (0.0, pytest.approx(0.01))  # on the main shaft
 
 
 def test_pins_without_room_are_not_bored() -> None:
