@@ -22,6 +22,7 @@ from ilmek.sentences.english import ENGLISH
 
 SOURCES = Path(ilmek.__file__).parent
 FAMILIES = ("place.", "check.paper-", "yarn.count-allowed", "sheet.kind-", "sheet.duty-", "sheet.process-")
+FAMILIES += ("setting.", "instrument.", "sheet.bend", "sheet.twist-")
 """Begins of keys that are put together."""
 
 

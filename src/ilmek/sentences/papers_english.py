@@ -214,7 +214,6 @@ PAPERS = {
     "{heat} at their rated power, which walls and fan carry at {rise} over the room.",
     "electric.enabling-how": "The enabling switch {sign} lets one axis jog at a reduced speed while the guards are "
     "open (IEC 60204-1, 9.2.4): both of its channels bridge the guards in the relay.",
-    "electric.control": "{supply}: controller, safety relay, sensors",
     "electric.sign": "sign",
     "electric.amplifier": "amplifier [A]",
     "electric.relay": "safety relay",

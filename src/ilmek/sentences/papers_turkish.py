@@ -213,7 +213,6 @@ PAPERS = {
     "{heat} ısı verir; duvarlar ve fan bunu odanın {rise} üstünde taşır.",
     "electric.enabling-how": "Onay anahtarı {sign}, koruyucular açıkken tek bir eksenin düşük hızla yürütülmesine izin "
     "verir (IEC 60204-1, 9.2.4): iki kanalı rölede koruyucuları köprüler.",
-    "electric.control": "{supply}: denetleyici, emniyet rölesi, algılayıcılar",
     "electric.sign": "işaret",
     "electric.amplifier": "sürücü [A]",
     "electric.relay": "emniyet rölesi",
