@@ -128,6 +128,9 @@ def faults_of(part: DrawnPart, source: Part, sheet: ReadSheet) -> list[str]:
         f"size {size:.3f}"
         for size in envelope(solid).tolist()
         if not sheet.has(size, LINEAR, ALIGNED, DIAMETER, ORDINATE)
+        and not any(
+            size <= value < 1.03 * size for kind, _, value in sheet.dimensions if kind == DIAMETER
+        )  # over teeth
     ]
     inner = [own for own in bores(solid) if own.sweep > 2 * math.pi - 1e-6]
     curve = part.smooth or part.cam is not None
