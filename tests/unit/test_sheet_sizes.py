@@ -31,11 +31,11 @@ DESIGNS: dict[str, tuple[str, dict[str, str]]] = {
 }
 
 
-@pytest.mark.matrix(light=2)
 OPEN = ("knotting-dyad/finger", "knotting-dyad/finger-of-the-centre")
 """Sheets on which the bore of a joined part has neither axis nor fit yet."""
 
 
+@pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_sheets_have_the_sizes_and_bores_of_their_solids(name: str, tmp_path: Path) -> None:
     """Sizes over all, bores, and a toolmaker's points, of which one may be missing."""
