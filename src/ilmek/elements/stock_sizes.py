@@ -36,7 +36,7 @@ SQUARES = (*(size * mm for size in (2, 3, 4, 5, 6, 8, 10, 12, 14, 15, 16, 18)), 
 def offered(size: float, series: tuple[float, ...]) -> float:
     """The least size of a series that is no less than a size [m]; beyond the series the size in whole millimetres.
 
-    >>> offered(13e-3, ROUNDS), offered(13e-3, PLATES)
+    >>> round(offered(13e-3, ROUNDS), 9), offered(13e-3, PLATES)
     (0.013, 0.015)
     """
     number = bisect.bisect_left(series, size - _ROUNDING)
