@@ -13,7 +13,7 @@ from ilmek.errors import IlmekError
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
-from ilmek.machines.automated_loom.parts import motors, parts_of_loom
+from ilmek.machines.automated_loom.parts import needs_of, parts_of_loom
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE as SHEDDING
 from ilmek.machines.shedding.tree import NUT, bearing_inner, cut_square
@@ -43,7 +43,7 @@ def _trees(loom: Any) -> dict[str, Tree]:
         "warp-tension": cylinder_tree(loom.warp_tension),
         "tension-compensator": compensator_tree(machines["tension-compensator"].design),
         "carried": carried_tree(loom, parts_of_loom(loom).frame),
-        "frame": frame_tree(loom, parts_of_loom(loom).frame, motors(parts_of_loom(loom).parts)),
+        "frame": frame_tree(loom, parts_of_loom(loom).frame, needs_of(loom, parts_of_loom(loom).parts)),
     }
 
 

@@ -14,7 +14,8 @@ enabling switch for setting up = ayar için onay anahtar+ı | eye bolt = mapa | 
 fan in the door of the cabinet = pano kapağı fan+ı | inputs = girişler | main switch = ana şalter | outputs = çıkışlar
 inputs for the yarns of a head = kafa ipliklerinin girişleri+ | steppers = adım motorları | strain = gerinim
 plate of an eye bolt on a column = kolondaki mapa levha+sı | lifting eyes = kaldırma mapaları+ | eye-bolt = mapa
-plate of an eye bolt on a foot = ayaktaki mapa levha+sı | half of the guide of the followers = izleyici kızağı yarı+sı
+plate of an eye bolt on a foot = ayaktaki mapa levha+sı | plate of an arm for its axis = kolun eksen levha+sı
+half of the guide of the followers = izleyici kızağı yarı+sı
 actuator = karşılık | angle reducer = açılı redüktör | arm = kol | arm 1 = 1. kol | arm 2 = 2. kol | axes = eksenler
 attachment bar = bağlama çubuğ+u | axis = eksen | axle = dingil | back = geri | back rest = arka köprü | bar = çubuk
 bar under the heads' guide = kafa kızağı alt lama+sı | bars and rods = çubuk ve miller | beam = kiriş | beat = tefe
