@@ -53,6 +53,8 @@ def test_central_difference_is_that_of_two_designs() -> None:
 def test_parameter_that_cannot_move_is_stated_with_the_reason() -> None:
     assert "the design chooses it" in moved("beat-up", "rocker").unmoved
     assert "text" in moved("path-four-bar", "points").unmoved
+    by_hand = {"knotting": "hand", "shed": "hand", "beat": "travelling"}
+    assert "variant" in moved("automated-loom", "knotting", by_hand).unmoved
     assert moved("weft", "carrier").step.count(" instead of ") == 1
 
 

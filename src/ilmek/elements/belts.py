@@ -90,10 +90,10 @@ def _belt(  # noqa: PLR0917
     pull: float | None = None,
     *,
     mass: float = math.nan,
+    curved: bool = False,
 ) -> BeltType:
-    """Pitch, widths and groove (u, width, depth) in mm, pull of a tooth in N/cm, mass in kg/m², as in catalogues."""
+    """Pitch, widths and groove (u, width, depth) in mm, pull of a tooth in N/cm, mass in kg/m²; curved: HTD."""
     offset, width, depth = (size * mm for size in groove)
-    curved = name.startswith("HTD")
     own = PulleyGroove(offset, width, depth, 0.0 if curved else _FLANK, round=curved)
     per_tooth = None if pull is None else pull * 100
     return BeltType(name, pitch * mm, tuple(w * mm for w in widths), least, own, per_tooth, mass)
@@ -111,10 +111,10 @@ BELTS: dict[str, BeltType] = {
         _belt("T10", 10, (16, 25, 32, 50), 12, (0.93, 6.02, 2.6), 50.0),
         _belt("AT5", 5, (10, 16, 25, 32), 15, (0.615, 2.6, 1.25), 35.0, mass=3.4),
         _belt("AT10", 10, (16, 25, 32, 50), 15, (0.93, 5.2, 2.6), 73.0, mass=5.8),
-        _belt("HTD 3M", 3, (6, 9, 15), 10, (0.381, 1.9, 1.28), mass=2.0),
-        _belt("HTD 5M", 5, (9, 15, 25), 14, (0.5715, 3.1, 2.16), mass=4.2),
-        _belt("HTD 8M", 8, (20, 30, 50, 85), 22, (0.686, 5.2, 3.54), mass=6.3),
-        _belt("HTD 14M", 14, (40, 55, 85, 115), 28, (1.397, 9.3, 6.2), mass=11.0),
+        _belt("HTD 3M", 3, (6, 9, 15), 10, (0.381, 1.9, 1.28), mass=2.0, curved=True),
+        _belt("HTD 5M", 5, (9, 15, 25), 14, (0.5715, 3.1, 2.16), mass=4.2, curved=True),
+        _belt("HTD 8M", 8, (20, 30, 50, 85), 22, (0.686, 5.2, 3.54), mass=6.3, curved=True),
+        _belt("HTD 14M", 14, (40, 55, 85, 115), 28, (1.397, 9.3, 6.2), mass=11.0, curved=True),
     )
 }
 """By name: pitches and widths of DIN 7721 (T), makers' AT and ISO 13050 (H profiles, HTD); pulls of polyurethane belts

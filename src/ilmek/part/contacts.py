@@ -290,12 +290,17 @@ def _alike(
 
 
 def _groups(pieces: Sequence[_Piece], links: Int[np.ndarray, "links 2"]) -> tuple[TouchingParts, ...]:
-    graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(len(pieces), len(pieces)))
-    _, labels = connected_components(graph, directed=False)
-    members: dict[int, Counter[str]] = {}
-    for piece, label in zip(pieces, labels.tolist(), strict=True):
-        members.setdefault(label, Counter())[piece.part] += 1
-    return tuple(sorted((TouchingParts(parts) for parts in members.values()), key=lambda group: -group.pieces))
+    counted = (Counter(pieces[number].part for number in own) for own in connected(len(pieces), links))
+    return tuple(sorted(map(TouchingParts, counted), key=lambda group: -group.pieces))
+
+
+def connected(number: int, links: Int[np.ndarray, "links 2"]) -> list[list[int]]:
+    """Groups of the numbers below a number that links join to each other, directly or by others."""
+    graph = coo_array((np.ones(len(links)), (links[:, 0], links[:, 1])), shape=(number, number))
+    groups: dict[int, list[int]] = {}
+    for own, label in enumerate(connected_components(graph, directed=False)[1].tolist()):
+        groups.setdefault(label, []).append(own)
+    return list(groups.values())
 
 
 def _through(

@@ -5,18 +5,20 @@ hooks. Of the parts that move together all are held that are joined to each othe
 not joined to most of them are in the air, though they touch.
 """
 
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from enum import StrEnum
 from functools import lru_cache
 
-from ilmek.part.contacts import StandingTouches, joined_by, standing_touches
+import numpy as np
+
+from ilmek.elements.machine_screws import screw_of
+from ilmek.part.contacts import StandingTouches, connected, joined_by, standing_touches
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
 from ilmek.part.tree import JointKind, Tree
 from ilmek.part.welds import welded_together
 from ilmek.records import record
-from ilmek.report import Check, at_most
 from ilmek.units import mm
 
 Pair = frozenset[str]
@@ -62,22 +64,19 @@ def fastenings(tree: Tree) -> Fastenings:
     means = _means(tree, parts)
     counted, loose = Counter[Means](), dict[str, None]()
     for group in standing_touches(tree):
-        joined, free = _Joined(len(group.parts)), []
+        joined, free = list[tuple[int, int]](), list[tuple[int, int]]()
         for pair in group.pairs:
-            one, other = (group.parts[number] for number in pair)
-            held = means.get(frozenset((one, other))) or _by_itself(parts[one], parts[other])
+            first, second = (group.parts[number] for number in pair)
+            held = means.get(frozenset((first, second))) or _by_itself(parts[first], parts[second])
             counted[held] += 1
-            if held is Means.NONE:
-                free.append(pair)
-            else:
-                joined.join(*pair)
+            (free if held is Means.NONE else joined).append(pair)
         loose |= dict.fromkeys(group.parts[number] for number in _loose(group, joined, free))
     return Fastenings(dict(counted), tuple(loose))
 
 
-def _loose(group: StandingTouches, joined: "_Joined", free: Sequence[tuple[int, int]]) -> Iterator[int]:
+def _loose(group: StandingTouches, joined: Sequence[tuple[int, int]], free: Sequence[tuple[int, int]]) -> Iterator[int]:
     """Of pieces that nothing holds to the largest group, nor stand on the floor, those that touch what is held."""
-    groups = joined.groups()
+    groups = sorted(connected(len(group.parts), np.array(joined, int).reshape(-1, 2)), key=len, reverse=True)
     standing = [own for own in groups if group.ground and any(group.lowest[number] < _ON_FLOOR for number in own)]
     held = {number for own in standing or groups[:1] for number in own}
     for own in groups:
@@ -90,15 +89,6 @@ _ON_FLOOR = 1 * mm
 """Height over the lowest part up to which parts stand on the floor [m]."""
 
 
-def fastening_check(tree: Tree) -> Check:
-    """Whether something holds each part to the others that it stands to."""
-    loose = fastenings(tree).loose
-    source = "welds, screws, keys, fits of all parts that touch and stand to each other"
-    return at_most("parts without a fastening", len(loose), 0, "1", source).with_cure(
-        "give the parts named faces that screws have room on", *loose
-    )
-
-
 def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
     """By the ids of two parts what joins them."""
     found: dict[Pair, Means] = {}
@@ -108,7 +98,7 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
     fasteners = {name for name, part in parts.items() if part.process == "fastener"}
     for name, joined in joined_by(tree, frozenset(fasteners)).items():
         purchase = parts[name].purchase
-        means = Means.KEY if purchase is not None and purchase.row.startswith("DIN 6885") else Means.SCREW
+        means = Means.KEY if purchase is None or screw_of(purchase.row) is None else Means.SCREW
         for other in joined:
             found |= {frozenset((name, other)): means}
             found |= {frozenset((other, third)): means for third in joined if third != other}
@@ -120,27 +110,3 @@ def _by_itself(one: Part, other: Part) -> Means:
         return Means.WELD
     own = one.fixing or other.fixing or {one.process, other.process} & OWN.keys()
     return Means.OWN if own else Means.NONE
-
-
-class _Joined:
-    """Pieces that are joined to each other, by number."""
-
-    def __init__(self, number: int) -> None:
-        self._before = list(range(number))
-
-    def join(self, one: int, other: int) -> None:
-        """Two pieces are joined."""
-        self._before[self._first(one)] = self._first(other)
-
-    def groups(self) -> list[list[int]]:
-        """The pieces that are joined to each other, the largest group first."""
-        groups: dict[int, list[int]] = defaultdict(list)
-        for number in range(len(self._before)):
-            groups[self._first(number)].append(number)
-        return sorted(groups.values(), key=len, reverse=True)
-
-    def _first(self, number: int) -> int:
-        while self._before[number] != number:
-            self._before[number] = self._before[self._before[number]]
-            number = self._before[number]
-        return number

@@ -117,6 +117,8 @@ _FOUND: dict[tuple[str, Params, str], Sensitivity] = {}
 
 
 def _moved(name: str, params: Params, report: Report, parameter: Parameter) -> Sensitivity:
+    if type(params) is not find_machine(name).params:
+        return Sensitivity(parameter.name, "", "a variant of the machine: its parameters are others")
     value = report.parameters.get(parameter.name, parameter.default)
     if value is None:
         return Sensitivity(parameter.name, "", "the design chooses it and reports no value: set one to move it")
