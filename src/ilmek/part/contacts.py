@@ -4,16 +4,17 @@ Pieces of like parts that lie alike to each other are measured once.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from manifold3d import Manifold
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ilmek.arrays import BoolArray, Float, Int
 from ilmek.part.clearances import Approach
-from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
+from ilmek.part.colliders import DEPTH, MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.tree import STANDING, Tree
@@ -22,6 +23,9 @@ from ilmek.units import mm
 
 TOUCHING = 0.1 * mm
 """Distance within which parts touch [m]."""
+
+PLAY, LEAST = 1 * mm, 1e-3 * mm**3
+"""Move that shows what stops a piece [m], and volume in common that counts as rounding [m³]."""
 
 AROUND = 1 * mm
 """Greatest gap between a key and the room about it [m]; assumed by this project."""
@@ -145,17 +149,58 @@ def _touch(own: _Piece, its: _Piece) -> Touch:
     return Touch(own.part, its.part, lies, np.sort(ends, axis=0))
 
 
-@record
+@dataclass(frozen=True, eq=False)
 class StandingTouches:
-    """Pieces that stand to each other: the ids of their parts, and the pairs of their numbers that touch.
+    """Pieces that stand to each other, by their numbers, and the pairs of them that touch.
 
     lowest  of each, over the lowest of all [m]      ground  they stand
     """
 
-    parts: tuple[str, ...]
+    pieces: tuple[_Piece, ...]
     pairs: tuple[tuple[int, int], ...]
     lowest: tuple[float, ...]
     ground: bool
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Ids of their parts."""
+        return tuple(piece.part for piece in self.pieces)
+
+    def captive(self, own: Sequence[int], others: Collection[int]) -> bool:
+        """Whether some pieces, moved together, run into others in each direction of the first one's axes.
+
+        A move of `PLAY` has to give them more in common, which is on the average thicker than `DEPTH`: as a shoulder
+        has, not the facets of a pin that slides in its bore.
+        """
+        boxes = _boxes([*(self.pieces[number] for number in own), *(self.pieces[number] for number in others)])
+        mine, theirs = boxes[: len(own)], boxes[len(own) :]
+        near = (mine[:, None, 0] <= theirs[:, 1] + PLAY).all(2) & (theirs[:, 0] <= mine[:, None, 1] + PLAY).all(2)
+        known, numbers = dict[Collider, Manifold](), list(others)
+        pairs = [(self.pieces[own[k]], self.pieces[numbers[j]]) for k, j in np.argwhere(near).tolist()]
+        rests = [_in_common(one, other, np.zeros(3), known) for one, other in pairs]
+
+        def stops(move: Float[np.ndarray, " 3"]) -> bool:
+            for pair, (volume, surface) in zip(pairs, rests, strict=True):
+                more, around = _in_common(*pair, move, known)
+                if more - volume > LEAST and 2 * (more - volume) > DEPTH * (around - surface):
+                    return True
+            return False
+
+        axes = self.pieces[own[0]].position.rotation.T
+        return all(stops(sense * PLAY * axis) for axis in axes for sense in (1.0, -1.0))
+
+
+def _in_common(
+    own: _Piece, its: _Piece, move: Float[np.ndarray, " 3"], known: dict[Collider, Manifold]
+) -> tuple[float, float]:
+    """Volume [m³] and surface [m²] of what two pieces have in common when the first is moved [m]."""
+    for piece in (own, its):
+        if piece.collider not in known:
+            known[piece.collider] = piece.collider.manifold()
+    back = own.position.rotation.T
+    lies = np.column_stack([back @ its.position.rotation, back @ (its.position.origin - own.position.origin - move)])
+    common = known[own.collider] ^ known[its.collider].transform(lies)
+    return common.volume(), common.surface_area()
 
 
 def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
@@ -174,7 +219,7 @@ def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
         between = ((one, two) for one, two in pairs[touch].tolist() if pieces[one].held == held)
         height = boxes[list(own), 0, 1]
         yield StandingTouches(
-            tuple(pieces[number].part for number in own),
+            tuple(pieces[number] for number in own),
             tuple((own[one], own[two]) for one, two in between),
             tuple((height - height.min()).tolist()),
             ground=not held,

@@ -76,8 +76,14 @@ class Weld:
 
 def welded_together(one: Part, other: Part) -> bool:
     """Whether two parts are welded where they touch."""
+    if _is_joined(one, other) or _is_joined(other, one):
+        return True
     processes = {one.process, other.process}
     return WELDED in processes and processes <= _WITH
+
+
+def _is_joined(part: Part, other: Part) -> bool:
+    return part.material is not None and other.id in part.joins
 
 
 @lru_cache(maxsize=8)
@@ -94,9 +100,12 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
         if part.process == PLATE and isinstance(part.shape, Sum):
             welds[part.id].update(enumerate(_of_plates(part, part.shape)))
     plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
-    for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset())):
-        ids = {touch.part for touch in pair}
-        if not ids & stock or (ids & spigots and not ids & tubes) or any(ids <= joined for joined in screwed):
+    stated = {frozenset((name, other)) for name, part in parts.items() if part.material for other in part.joins}
+    named = frozenset(name for ids in stated for name in ids)
+    for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset()) | named):
+        ids = frozenset(touch.part for touch in pair)
+        stocked = ids & stock and ids <= plates | tubes | spigots and not (ids & spigots and not ids & tubes)
+        if ids not in stated and (not stocked or any(ids <= joined for joined in screwed)):
             continue
         name, weld = _weld(pair, parts)
         if np.sort(np.ptp(weld.box, axis=0))[1] < weld.throat:
