@@ -11,16 +11,17 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
-from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
+from ilmek.machines.bearing_seats import BRACKET, CLEAR, BearingSeat, least_height
+from ilmek.part.catalogue import face_of
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, square_tube
+from ilmek.part.shapes import Prism, rectangle, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.part.welds import PLATE, WELDED
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.units import mm, turn
+from ilmek.units import in_mm, mm, turn
 
 GAP, EDGE, SAFETY = 20 * mm, 5 * mm, 1.5
 """Room beside the shafts, from a bearing to the edges of its bracket [m], yield over stress of a bracket; assumed."""
@@ -102,3 +103,14 @@ def _bracket(shaft: CarriedShaft, behind: float) -> Prism:
     corners = np.array([-behind - 1j * high, front - 1j * high, front + 1j * high, -behind + 1j * high])
     screws = [circle(complex(corner), seat.screws.screw.diameter / 2) for corner in seat.corners()]
     return Prism(Profile(polygon(corners), (circle(0j, seat.bore / 2), *screws)), BRACKET)
+
+
+def lantern(name: str, of: str, drive: Part, shaft: float, length: float) -> Part:
+    """The block between a plate with the bearing of a shaft and the drive in line with it, from z = 0; of  the shaft.
+
+    drive  with the face that it is screwed to      shaft  its diameter [m]      length  from the plate to the drive [m]
+    """
+    bore = shaft + 2 * CLEAR
+    face = max(face_of(drive), 1.5 * bore)
+    shape = Prism(Profile(rectangle(face, face), (circle(0j, bore / 2),)), length)
+    return Part(name, f"lantern of the {of}", "steel bar", f"square {in_mm(face)}", shape, STEEL, machined=True)

@@ -25,7 +25,7 @@ from ilmek.units import format_quantity
 
 MACHINE_NAME = "knotting-four-bar"
 
-LEVELS = ((GROUND,), ("crank", "rocker"), ("coupler",))
+LEVELS = ((GROUND,), ("crank",), ("coupler",), ("rocker",))
 
 
 def coupler_ends(params: KnottingFourBarParams) -> tuple[float, float]:
