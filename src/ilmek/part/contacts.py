@@ -17,7 +17,7 @@ from ilmek.part.clearances import Approach
 from ilmek.part.colliders import DEPTH, MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.tree import STANDING, Tree
+from ilmek.part.tree import STANDING, JointKind, Tree
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -58,6 +58,7 @@ class _Piece:
     """A piece of a part where it stands.
 
     rigid  names all that moves with it        held  names all that no joint lets move against it
+    turned  names all that no joint but pins lets move against it
     along  direction in which `MANY` of it follow each other
     """
 
@@ -67,6 +68,7 @@ class _Piece:
     collider: Collider
     rigid: tuple[tuple[str, int], ...]
     held: tuple[tuple[str, int], ...]
+    turned: tuple[tuple[str, int], ...]
     along: Float[np.ndarray, " 3"] | None = None
 
 
@@ -153,11 +155,12 @@ def _touch(own: _Piece, its: _Piece) -> Touch:
 class StandingTouches:
     """Pieces that stand to each other, by their numbers, and the pairs of them that touch.
 
-    lowest  of each, over the lowest of all [m]      ground  they stand
+    beside  pieces that turn against them      lowest  of each, over the lowest of all [m]      ground  they stand
     """
 
     pieces: tuple[_Piece, ...]
     pairs: tuple[tuple[int, int], ...]
+    beside: tuple[_Piece, ...]
     lowest: tuple[float, ...]
     ground: bool
 
@@ -167,16 +170,16 @@ class StandingTouches:
         return tuple(piece.part for piece in self.pieces)
 
     def captive(self, own: Sequence[int], others: Collection[int]) -> bool:
-        """Whether some pieces, moved together, run into others in each direction of the first one's axes.
+        """Whether some pieces, moved together, run into others, or what turns beside, along all axes of the first one.
 
         A move of `PLAY` has to give them more in common, which is on the average thicker than `DEPTH`: as a shoulder
         has, not the facets of a pin that slides in its bore.
         """
-        boxes = _boxes([*(self.pieces[number] for number in own), *(self.pieces[number] for number in others)])
-        mine, theirs = boxes[: len(own)], boxes[len(own) :]
-        near = (mine[:, None, 0] <= theirs[:, 1] + PLAY).all(2) & (theirs[:, 0] <= mine[:, None, 1] + PLAY).all(2)
-        known, numbers = dict[Collider, Manifold](), list(others)
-        pairs = [(self.pieces[own[k]], self.pieces[numbers[j]]) for k, j in np.argwhere(near).tolist()]
+        mine, theirs = [self.pieces[k] for k in own], [*(self.pieces[k] for k in others), *self.beside]
+        low, high = (edge[:, None] for edge in _boxes(mine).swapaxes(0, 1))
+        begin, end = _boxes(theirs).swapaxes(0, 1)
+        near = np.argwhere((low <= end + PLAY).all(2) & (begin <= high + PLAY).all(2)).tolist()
+        known, pairs = dict[Collider, Manifold](), [(mine[k], theirs[j]) for k, j in near]
         rests = [_in_common(one, other, np.zeros(3), known) for one, other in pairs]
 
         def stops(move: Float[np.ndarray, " 3"]) -> bool:
@@ -186,7 +189,7 @@ class StandingTouches:
                     return True
             return False
 
-        axes = self.pieces[own[0]].position.rotation.T
+        axes = mine[0].position.rotation.T
         return all(stops(sense * PLAY * axis) for axis in axes for sense in (1.0, -1.0))
 
 
@@ -221,6 +224,7 @@ def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
         yield StandingTouches(
             tuple(pieces[number] for number in own),
             tuple((own[one], own[two]) for one, two in between),
+            tuple(piece for piece in pieces if piece.turned == pieces[next(iter(own))].turned and piece.held != held),
             tuple((height - height.min()).tolist()),
             ground=not held,
         )
@@ -235,7 +239,8 @@ def open_parts(tree: Tree) -> tuple[str, ...]:
 def _pieces(tree: Tree) -> Iterator[_Piece]:
     for chain in chains(tree):
         here = poses(chain, "", np.zeros(1))
-        body, rigid, held = Placement(here.origin[0], here.rotation[0]), _rigid(chain), _held(chain)
+        body, rigid = Placement(here.origin[0], here.rotation[0]), _rigid(chain)
+        held, turned = _held(chain, STANDING), _held(chain, STANDING | {JointKind.PIN})
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 own, positions = collider(occurrence.part.shape), occurrence.positions
@@ -245,7 +250,9 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
                     else None
                 )
                 for position in positions:
-                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, held, along)
+                    yield _Piece(
+                        occurrence.part.id, chain[-1].name, body.after(position), own, rigid, held, turned, along
+                    )
 
 
 def _boxes(pieces: Sequence[_Piece]) -> Float[np.ndarray, "pieces 2 3"]:
@@ -267,9 +274,9 @@ def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
     return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
 
 
-def _held(chain: Chain) -> tuple[tuple[str, int], ...]:
-    """The chain up to its last link that a joint lets move."""
-    jointed = [k for k, link in enumerate(chain) if link.body.joint.kind not in STANDING]
+def _held(chain: Chain, kinds: frozenset[JointKind]) -> tuple[tuple[str, int], ...]:
+    """The chain up to its last link whose joint is of none of some kinds."""
+    jointed = [k for k, link in enumerate(chain) if link.body.joint.kind not in kinds]
     return tuple((link.name, link.index) for link in chain[: jointed[-1] + 1 if jointed else 0])
 
 

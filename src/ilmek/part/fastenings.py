@@ -2,8 +2,8 @@
 
 Parts that touch are joined by a weld, a screw or key, a fit, or by what a bought part brings with it: snaps, threads,
 hooks. Of the parts that move together all are held that are joined to each other, directly or by others, and what these
-let move in no direction: a roller on its pin between two cheeks, a spacer that is clamped. Those that are not joined to
-most of them are in the air, though they touch.
+and what turns beside them let move in no direction: a roller on its pin between two cheeks, a spacer. Those that are
+not joined to most of them are in the air, though they touch.
 """
 
 from collections import Counter
@@ -49,6 +49,9 @@ OWN = {
 }
 """How kinds of parts hold themselves, by their process; a single part says it in its `fixing`."""
 
+_ROUND_OTHERS = frozenset({"belt", "belt and pulleys"})
+"""Kinds that lie round parts of other bodies, beside which they touch nothing."""
+
 
 @record
 class Fastenings:
@@ -71,7 +74,8 @@ def fastenings(tree: Tree) -> Fastenings:
             held = means.get(frozenset((first, second))) or _by_itself(parts[first], parts[second])
             counted[held] += 1
             (free if held is Means.NONE else joined).append(pair)
-        loose |= dict.fromkeys(group.parts[number] for number in _loose(group, joined, free))
+        names = (group.parts[number] for number in _loose(group, joined, free))
+        loose |= dict.fromkeys(name for name in names if parts[name].process not in _ROUND_OTHERS)
     return Fastenings(dict(counted), tuple(loose))
 
 

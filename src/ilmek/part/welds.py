@@ -122,7 +122,11 @@ def _of_plates(part: Part, shape: Sum) -> Iterator[Weld]:
 
 def _weld(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> tuple[str, Weld]:
     """The weld of a contact with the id of its part: that whose end it is, or the thinner one."""
-    ends = [touch for touch in pair if _is_end(parts[touch.part], touch.box.mean(axis=0))]
+    ends = [
+        touch
+        for touch in pair
+        if touch.other in parts[touch.part].joins or _is_end(parts[touch.part], touch.box.mean(axis=0))
+    ]
     touch = (ends or sorted(pair, key=lambda own: wall_of(parts[own.part])))[0]
     own, other = parts[touch.part], parts[touch.other]
     if own.process == TUBE and own.shape is not None:  # on the flange of a spigot, round its end
