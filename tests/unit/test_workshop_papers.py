@@ -5,7 +5,7 @@ import io
 import math
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cache
 from html import escape
@@ -41,9 +41,11 @@ from ilmek.machines.automated_loom.papers.risks import MovingHazard, measures, s
 from ilmek.machines.automated_loom.papers.transport import lifting_of
 from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of
 from ilmek.machines.bearing_seats import BRACKET
-from ilmek.machines.tree_manual import UP
+from ilmek.machines.tree_manual import UP, assembly_steps, with_screws
 from ilmek.part.bolting import bolted
+from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion, insertions
+from ilmek.part.insertion_units import is_screw
 from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
 from ilmek.part.part_lists import SAW, bars_for
@@ -607,6 +609,31 @@ def test_each_piece_comes_once_and_what_is_built_is_of_the_pieces_that_come() ->
     feet = [step for step in steps if step.units[0].pieces[0].part.title == "levelling foot"]
     assert feet
     assert all(step.moves[-1][1] > 0 for step in feet)  # upwards
+    screws_come_with_the_second_of_their_parts(tree, steps)
+
+
+def screws_come_with_the_second_of_their_parts(tree: Tree, steps: Sequence[Insertion]) -> None:
+    whole = bolted(tree)
+    screws = {part.id: number for part, number in whole.occurrences() if is_screw(part)}
+    joins = joined_by(whole, frozenset(screws))
+    come, counted = set[str](), Counter[str]()
+    for row in with_screws(assembly_steps(steps), whole, joins):
+        coming = {part.id for part in row.parts}
+        come |= coming
+        for screw, number in row.screws.items():
+            counted[screw.id] += number
+            assert come.issuperset(joins[screw.id]), screw.id
+            assert not coming.isdisjoint(joins[screw.id]), screw.id
+    heads = tree_quantity(tree, "weaver/face")
+    assert heads > 1
+    assert {name: number / counted[name] for name, number in screws.items() if number != counted[name]} == {
+        name: heads for name, number in screws.items() if number != counted[name]
+    }
+    assert counted.keys() == screws.keys()
+
+
+def tree_quantity(tree: Tree, name: str) -> int:
+    return next(number for part, number in tree.occurrences() if part.id == name)
 
 
 def test_a_cylinder_in_closed_bores_fails_the_check_of_the_assembly() -> None:
