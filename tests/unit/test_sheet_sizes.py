@@ -31,10 +31,6 @@ DESIGNS: dict[str, tuple[str, dict[str, str]]] = {
 }
 
 
-OPEN = ("knotting-dyad/finger", "knotting-dyad/finger-of-the-centre")
-"""Sheets on which the bore of a joined part has neither axis nor fit yet."""
-
-
 @pytest.mark.matrix(light=2)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_sheets_have_the_sizes_and_bores_of_their_solids(name: str, tmp_path: Path) -> None:
@@ -52,7 +48,7 @@ def test_sheets_have_the_sizes_and_bores_of_their_solids(name: str, tmp_path: Pa
     for number, (sheet, file) in enumerate(zip(sheets, files, strict=True)):
         points = points_of(ezdxf.readfile(file), book[number].get_textpage().get_text_range().replace("\r", ""))
         missing = [point for point, there in points.items() if not there]
-        if len(missing) > 1 + (sheet.number in OPEN):
+        if len(missing) > 1:
             faults[sheet.number] = missing
     assert not faults
     assert len(sheets) > 25

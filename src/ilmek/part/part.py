@@ -77,13 +77,15 @@ class CamMaking:
     """How a disc cam is cut and checked.
 
     cutter, largest_cutter  radius that its path is for, and least hollow radius of the profile [m]; inf: convex
-    tolerance  of its radii at each degree, ± [m]      spare  acceleration of the follower that it adds at most [m/s²]
+    tolerance  of its radii at each degree, ± [m]      increment  of their errors from one degree to the next, ± [m]
+    spare      acceleration of the follower that these add at most [m/s²]
     speed      at which that is so [rad/s]; above 0 the cam turns counter-clockwise about z
     """
 
     cutter: float
     largest_cutter: float
     tolerance: float
+    increment: float
     spare: float
     speed: float
 

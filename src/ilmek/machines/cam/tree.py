@@ -13,7 +13,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.cams.limits import largest_cutter
-from ilmek.cams.profile_tolerance import radius_tolerance
+from ilmek.cams.profile_tolerance import BAND, increment_tolerance
 from ilmek.cams.programme import TURN
 from ilmek.cams.trace import CamRole
 from ilmek.elements.materials import MATERIALS
@@ -116,7 +116,8 @@ def _making(design: CamDesign, cam: CamRole, cutter: float) -> CamMaking:
     room = float(held.force(motion.s, motion.dds).min())
     sprung = held.mass > 0 and not params.led
     spare = max(0.0, room) / held.mass * params.per_unit if sprung else math.inf
-    return CamMaking(cutter, largest_cutter(cam), radius_tolerance(spare, params.speed, deg), spare, params.speed)
+    increment = increment_tolerance(spare, params.speed, deg)
+    return CamMaking(cutter, largest_cutter(cam), BAND, increment, spare, params.speed)
 
 
 def _cutter_note(radius: float) -> tuple[str, ...]:

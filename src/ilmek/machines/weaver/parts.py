@@ -10,7 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
-from ilmek.cams.profile_tolerance import radius_tolerance
+from ilmek.cams.profile_tolerance import BAND, increment_tolerance
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.elements.bearings import life
 from ilmek.elements.plates import round_bore, zero_mark
@@ -169,5 +169,5 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
 def _making(cam: LoadedPlateCam) -> CamMaking:
     """How a cam is cut: by a cutter as large as its roller, so that both take the same path."""
     radius, spare = cam.cam.roller_radius, cam.spare_acceleration
-    tolerance = radius_tolerance(spare, cam.speed, deg)
-    return CamMaking(radius, cam.concave_radius + radius, tolerance, spare, cam.speed)
+    increment = increment_tolerance(spare, cam.speed, deg)
+    return CamMaking(radius, cam.concave_radius + radius, BAND, increment, spare, cam.speed)

@@ -150,7 +150,8 @@ def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     listed = merged(radius_tables(part))
     wide = listed.box[2] + LEFT + EDGE + _PAD
     paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
-    within = f", ±{millimetres(part.cam.tolerance)}" if part.cam else ""
+    radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment)) if part.cam else ("", "")
+    within = Sentence("sheet.radii-within", tolerance=radius, increment=step) if part.cam else ""
     words = Sentence("sheet.radii", within=within)
     caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
     corner = complex(LEFT + _PAD, height - EDGE - 11.0)
