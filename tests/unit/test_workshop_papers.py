@@ -41,7 +41,7 @@ from ilmek.machines.automated_loom.papers.risks import MovingHazard, measures, s
 from ilmek.machines.automated_loom.papers.transport import lifting_of
 from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of
 from ilmek.machines.bearing_seats import BRACKET
-from ilmek.machines.tree_manual import UP, assembly_steps, with_screws
+from ilmek.machines.tree_manual import UP, assembly_steps, with_screws, with_welds
 from ilmek.part.bolting import bolted
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion, insertions
@@ -54,6 +54,7 @@ from ilmek.part.poses import moments_at_rest
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
+from ilmek.part.welds import welds_of
 from ilmek.plane.contours import circle, rounded_hull
 from ilmek.report import Papers, Report, must
 from ilmek.report.scene import SceneMotion
@@ -617,7 +618,14 @@ def screws_come_with_the_second_of_their_parts(tree: Tree, steps: Sequence[Inser
     screws = {part.id: number for part, number in whole.occurrences() if is_screw(part)}
     joins = joined_by(whole, frozenset(screws))
     come, counted = set[str](), Counter[str]()
-    for row in with_screws(assembly_steps(steps), whole, joins):
+    rows = list(with_welds(with_screws(assembly_steps(steps), whole, joins), whole))
+    welds = {(name, weld.other) for name, own in welds_of(whole).items() for weld in own if weld.other}
+    assert {weld[:2] for row in rows for weld in row.welds} == welds
+    control = next(
+        number for number, row in enumerate(rows) if "automated-loom/control" in {own.id for own in row.parts}
+    )
+    assert any("automated-loom/beat-post" in weld for row in rows[:control] for weld in row.welds)
+    for row in rows:
         coming = {part.id for part in row.parts}
         come |= coming
         for screw, number in row.screws.items():

@@ -7,6 +7,7 @@ import math
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
+from functools import reduce
 from itertools import groupby
 
 import numpy as np
@@ -24,10 +25,11 @@ from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.stacks import StackPiece, StackRun
 from ilmek.part.straight_moves import Vector
 from ilmek.part.tree import Tree
+from ilmek.part.welds import welds_of
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, in_mm
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -44,6 +46,7 @@ class AssemblyStep:
     pieces  the parts that come where they stand      moves  directions by which each comes, in turn; none: it stands
     onto    bodies that it touches     built  how many come whose parts came on the bench, in the steps before; 0: parts
     stack   the order of parts that alternate along an axis      screws  how many of each hold what comes in this step
+    welds   ids of the two parts that each weld joins which is made in this step, with its throat [m]
     """
 
     bodies: tuple[str, ...]
@@ -53,6 +56,7 @@ class AssemblyStep:
     built: int = 0
     stack: tuple[StackRun, ...] = ()
     screws: Mapping[Part, int] = field(default_factory=dict)
+    welds: tuple[tuple[str, str, float], ...] = ()
 
     @property
     def parts(self) -> Mapping[Part, int]:
@@ -158,6 +162,19 @@ def with_screws(
     return tuple(replace(step, screws=screws[number]) for number, step in enumerate(rows))
 
 
+def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblyStep]:
+    """The rows with the welds of a tree, each with the second of its parts."""
+    pairs = {(name, weld.other): weld.throat for name, own in welds_of(tree).items() for weld in own if weld.other}
+    bodies: dict[str, set[str]] = defaultdict(set)
+    for step in steps:
+        coming = {} if step.built else step.parts
+        for piece in step.pieces if coming else ():
+            bodies[piece.part.id].add(piece.body)
+        near, names = {*step.bodies, *step.onto}, {part.id for part in coming}
+        made = (pair for pair in pairs if not names.isdisjoint(pair) and all(bodies[name] & near for name in pair))
+        yield replace(step, welds=tuple((*pair, pairs[pair]) for pair in made))
+
+
 def _nearest(screw: StandingPart, pieces: Sequence[tuple[Box, list[int]]]) -> list[int]:
     """The rows of the piece that is nearest to a screw, by boxes."""
     low, high = screw.box
@@ -183,15 +200,21 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
     fasteners = frozenset(part.id for part, _ in screwed.occurrences() if part.process == FASTENER)
     titles = {part.id: part.title for part, _ in screwed.occurrences()}
     joined_parts = joined_by(screwed, fasteners)
-    joins = {name: [titles[other] for other in own] for name, own in joined_parts.items()}
     sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
     last = (links[-1] for links in chains(tree))
     machines = {link.name: machine_of(link.body) for link in last if link.body.occurrences}
-    numbered = enumerate(with_screws(assembly_steps(steps), screwed, joined_parts), 1)
+    rows_of = with_welds(with_screws(assembly_steps(steps), screwed, joined_parts), screwed)
+    numbered = enumerate(rows_of, 1)
     for machine, grouped in groupby(numbered, key=lambda row: machines[row[1].bodies[0]]):
         rows = tuple(grouped)
         coming = {body for _, step in rows for body in step.bodies}
-        sections.append(_section(machine, rows, joins, _picture(seen, standing, coming, _CAPTIONS[view])))
+        sections.append(
+            _section(
+                machine,
+                [_row(*row, joined_parts, titles) for row in rows],
+                _picture(seen, standing, coming, _CAPTIONS[view]),
+            )
+        )
         sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
         standing |= coming
     loose = tuple(titles[name] for name in fastenings(screwed).loose)
@@ -214,11 +237,8 @@ def _stacked(piece: StackPiece) -> str:
     return f"{part.title}, {format_quantity(angle, 'deg', 3)}" if angle else part.title
 
 
-def _section(
-    machine: str, steps: Sequence[tuple[int, AssemblyStep]], joins: Mapping[str, Sequence[str]], picture: Drawing
-) -> PaperSection:
-    first, last = str(steps[0][0]), str(steps[-1][0])
-    title = Sentence("manual.machine", machine=machine.replace("-", " "), first=first, last=last)
+def _section(machine: str, rows: Sequence[tuple[float | int | str, ...]], picture: Drawing) -> PaperSection:
+    title = Sentence("manual.machine", machine=machine.replace("-", " "), first=str(rows[0][0]), last=str(rows[-1][0]))
     heads = (
         Column(Sentence("manual.step")),
         Column(Sentence("manual.body")),
@@ -229,13 +249,17 @@ def _section(
         Column(Sentence("manual.tighten")),
         Column(Sentence("manual.joins")),
     )
-    table = Table("steps", title, heads, tuple(_row(number, step, joins) for number, step in steps))
+    table = Table("steps", title, heads, tuple(rows))
     return PaperSection(title, (picture.title,), table, boxes=True, figure=picture)
 
 
-def _row(number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]]) -> tuple[float | int | str, ...]:
+def _row(
+    number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]], titles: Mapping[str, str]
+) -> tuple[float | int | str, ...]:
     parts = {} if step.built else step.parts
     fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
+    fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
+    fastened += [(Sentence("manual.weld", throat=in_mm(throat)), pair) for *pair, throat in step.welds]
     named = [f"{parts[part]} × {part.title}" for part in parts if part.process != FASTENER]
     return (
         number,
@@ -244,18 +268,15 @@ def _row(number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]]) ->
         _from(step),
         Sentence("manual.built", count=str(step.built)) if step.built else "; ".join(named),
         step.mass,
-        "; ".join(_tightened(part, count) for part, count in fasteners.items()),
-        "; ".join(", ".join(joins[part.id]) for part in fasteners),
+        reduce(joined, (text for text, _ in fastened), ""),
+        "; ".join(", ".join(titles[name] for name in own) for _, own in fastened),
     )
 
 
 def _from(step: AssemblyStep) -> str:
     """From where it comes, in words."""
     words = [_in_turn([_FROM.get(move, Sentence("manual.slanting")) for move in moves]) for moves in step.moves]
-    text = ""
-    for word in dict.fromkeys(words):
-        text = joined(text, word)
-    return text
+    return reduce(joined, dict.fromkeys(words), "")
 
 
 def _in_turn(words: Sequence[str]) -> str:
