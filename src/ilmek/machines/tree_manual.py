@@ -80,6 +80,14 @@ def assembly_check(steps: Sequence[Insertion]) -> Check:
     return check.with_cure("leave room for it, or bolt what blocks it", *dict.fromkeys(parts))
 
 
+def fastening_check(screwed: Tree) -> Check:
+    """Whether a weld, screw, key or fit, its neighbours or its own means hold each part of a tree with its screws."""
+    loose, titles = fastenings(screwed).loose, {part.id: part.title for part, _ in screwed.occurrences()}
+    source = "; ".join(dict.fromkeys(titles[name] for name in loose)) or "welds, screws, keys, fits, neighbours"
+    check = at_most("assembly: parts without a fastening", len(loose), 0, "1", source)
+    return check.with_cure("screw, weld, key or press in the parts named", *loose)
+
+
 def _every(steps: Sequence[Insertion]) -> Iterator[Insertion]:
     for step in steps:
         yield step
@@ -217,10 +225,6 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
         )
         sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
         standing |= coming
-    loose = tuple(titles[name] for name in fastenings(screwed).loose)
-    if loose:
-        how = Sentence("manual.loose-how", number=str(len(loose)))
-        sections.append(PaperSection(Sentence("manual.loose"), (how, "; ".join(dict.fromkeys(loose)))))
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
 
 

@@ -109,6 +109,7 @@ SHEETS = {
     "sheet.on-circle": "{holes} on ⌀{circle}",
     "sheet.square-turned": "{size} at {angle}",
     "sheet.grooves": "{size}, {wide} wide, pitch {pitch}, first at {first} from the left, each ±{error}",
+    "sheet.row": "Row of {number}: pitch {pitch}, each ±{error} from the first",
     "sheet.base-circle": "base circle ⌀{size}",
     "sheet.prime-circle": "prime circle ⌀{size}",
     "sheet.zero-mark": "0°: zero mark, scribed on this side; stamp the number beside it",

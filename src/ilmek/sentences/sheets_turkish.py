@@ -109,6 +109,7 @@ SHEETS = {
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",
     "sheet.square-turned": "{size}, {angle}",
     "sheet.grooves": "{size}, genişlik {wide}, adım {pitch}, ilki soldan {first}, her biri ±{error}",
+    "sheet.row": "{number} parçalık sıra: adım {pitch}, her biri ilkinden ±{error}",
     "sheet.base-circle": "temel daire ⌀{size}",
     "sheet.prime-circle": "asal daire ⌀{size}",
     "sheet.zero-mark": "0°: sıfır işareti, bu yüze çizilir; yanına numara vurulur",

@@ -21,7 +21,7 @@ from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import PARALLEL, keyway
+from ilmek.viz.drawings.flat import PARALLEL, keyway, square
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Axis, Projector
@@ -62,6 +62,7 @@ def joined_views(
         if name == "front":
             _dimension(view, members, across, upwards, towards)
             _circles(view, members, (across, upwards, towards), fits)
+            _squares(view, (across, upwards), _seen(fits, towards))
         else:
             centres = _fitted(view, (across, upwards, towards), fits)
             _lengths(view, members, (across, upwards), centres, whole=name == "right")
@@ -207,9 +208,7 @@ def _holes_seen(member: Member, eye: FloatArray) -> Iterator[FloatArray]:
 def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fits: Fits) -> list[complex]:
     """Labels of the fitted diameters that are seen as circles in a view beside the front one; their centres [m]."""
     right, up, eye = axes
-    seen = replace(
-        fits, features=tuple(one for one in fits.features if abs(one.position.rotation[:, 2] @ eye) > 1 - 1e-9)
-    )
+    seen = _seen(fits, eye)
     sizes: dict[tuple[float, FeatureKind], list[complex]] = {}
     for one in seen.features:
         if one.kind in {FeatureKind.BORE, FeatureKind.JOURNAL}:
@@ -217,6 +216,7 @@ def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fi
             centres = sizes.setdefault((one.nominal, one.kind), [])
             if all(abs(centre - other) > SAME for other in centres):
                 centres.append(centre)
+    _squares(view, (right, up), seen)
     for (size, kind), centres in sizes.items():
         note, times = seen.note(size, kind), f"{len(centres)}× " if len(centres) > 1 else ""
         for each in centres:
@@ -231,6 +231,26 @@ def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fi
             note=note,
         )
     return [centre for centres in sizes.values() for centre in centres]
+
+
+def _seen(fits: Fits, eye: FloatArray) -> Fits:
+    """The features whose axis points to the eye."""
+    facing = (one for one in fits.features if abs(one.position.rotation[:, 2] @ eye) > 1 - 1e-9)
+    return replace(fits, features=tuple(facing))
+
+
+def _squares(view: DrawnView, axes: tuple[FloatArray, FloatArray], seen: Fits) -> None:
+    """Labels of the fitted square bores that a view shows as squares, those on one axis once; axes  right and up."""
+    labelled: dict[complex, complex] = {}
+    for one in seen.features:
+        if one.kind is FeatureKind.SQUARE_BORE:
+            centre, side = (
+                complex(*(round(float(own @ axis), 9) for axis in axes))
+                for own in (one.position.origin, one.nominal * one.position.rotation[:, 0])
+            )
+            labelled.setdefault(centre, side)
+    for centre, side in labelled.items():
+        square(view, centre, side, seen)
 
 
 def _lengths(
