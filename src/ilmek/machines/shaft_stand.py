@@ -13,12 +13,11 @@ import numpy as np
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.machines.bearing_seats import BRACKET, CLEAR, BearingSeat, least_height
 from ilmek.part.catalogue import face_of
-from ilmek.part.part import Part
+from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, rectangle, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
-from ilmek.part.welds import PLATE, WELDED
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.units import in_mm, mm, turn
@@ -73,7 +72,7 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
     low, high = heights[-1] - shafts[-1].beside - GAP, heights[0] + shafts[0].beside
     for shaft, height in zip(shafts, heights, strict=True):
         own, title = _bracket(shaft, behind), f"bracket of the {shaft.name}"
-        part = Part(name(f"{shaft.key}-bracket"), title, PLATE, "", own, STEEL, machined=True)
+        part = Part(name(f"{shaft.key}-bracket"), title, LASER_CUT, "", own, STEEL, machined=True)
         yield Occurrence(part, (placement(0.0, height, shaft.face), placement(0.0, height, -shaft.face - BRACKET)))
     upright = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4)
     column = _stock(name("side-column"), "column of the stand", section, high - low)

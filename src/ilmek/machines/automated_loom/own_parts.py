@@ -25,11 +25,10 @@ from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supp
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import LASER_CUT, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, placement
 from ilmek.part.shapes import box, shape_box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.part.welds import PLATE
 from ilmek.report.scene import SceneMotion
 from ilmek.timing.track import peak_acceleration, peak_speed
 from ilmek.units import in_mm
@@ -53,7 +52,13 @@ def _caps(loom: LoomDesign) -> Iterator[Occurrence]:
         if bracket.cap is not None:
             shape, middle = bracket.cap
             part = Part(
-                part_id(f"{bracket.name}-cap"), f"cap of the {bracket.title}", PLATE, "", shape, STEEL, machined=True
+                part_id(f"{bracket.name}-cap"),
+                f"cap of the {bracket.title}",
+                LASER_CUT,
+                "",
+                shape,
+                STEEL,
+                machined=True,
             )
             positions = (placement(x, middle.imag, middle.real) for x in (-bracket.inner, bracket.outer))
             yield Occurrence(part, tuple(own.after(IN_SIDE_VIEW) for own in positions))

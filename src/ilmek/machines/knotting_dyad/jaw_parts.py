@@ -155,7 +155,7 @@ def drive_of(jaws: Jaws, on: Placement) -> Iterator[Occurrence]:
 @lru_cache(maxsize=8)
 def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
     """Neck, the cap that is pressed into it when rod and spring are in it, solenoid, and the spring where one fits."""
-    bore, row, spring = jaws.rod + IN_BORE, jaws.solenoid, jaws.spring
+    bore, row, spring = jaws.rod, jaws.solenoid, jaws.spring
     inner, stem = jaws.around - 2 * CUP, bore + 2 * CUP
     end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR))
     about = Placed(tube(jaws.around, CUP, jaws.cup - COLLAR), (placement(z=COLLAR),))
@@ -199,7 +199,7 @@ def centre_parts(params: KnottingDyadParams, head: Head, jaws: Jaws, ends: tuple
     width, thick, back = params.link_width, params.link_thickness, bar_end(jaws, rear)
     slot = _rectangle(jaws.arm - LUG / 2, jaws.arm + LUG / 2, jaws.rod + IN_BORE)
     front = Prism(Profile(_rectangle(nose, clamp, width), (slot,)), thick)
-    section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), (jaws.rod + IN_BORE) / 2),))
+    section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), jaws.rod / 2),))
     members = (
         Placed(front, (placement(z=-thick / 2),)),
         Placed(Prism(section, nose - back), (placement(nose).after(ALONG),)),
