@@ -290,6 +290,8 @@ def _diameter(  # noqa: PLR0917
 def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] = ()) -> DrawnView:
     """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines; welds at its ends."""
     view = DrawnView(scale)
+    if flat.marked:
+        view.datum_mark(1j * flat.datum.imag, {"Z": 1.0, "Y": 1j})
     low, high = bounds(flat.outline)
     cut = shortening([0.0, length], (high - low).imag)
     gap = 1.2 / scale
