@@ -11,6 +11,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
 from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, keyed_bore
+from ilmek.plane.vectors import following
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
@@ -84,6 +85,14 @@ class FlatPart:
         yield from ((hole.at, 2 * hole.radius) for group in shown for hole in group.holes)
         for low, high in map(bounds, self.cutouts):
             yield (low + high) / 2, min((high - low).real, (high - low).imag)
+        for start, end in self.edges:
+            yield (start + end) / 2, abs(end - start)
+
+    @property
+    def edges(self) -> Iterator[tuple[complex, complex]]:
+        """Ends of the pieces of an outline that is dimensioned by its corners [m]."""
+        if self.dimensioned and self.round_outline is None and as_keyed(self.outline) is None:
+            yield from zip(self.outline.points.tolist(), following(self.outline.points).tolist(), strict=True)
 
     @property
     def dimensioned(self) -> bool:
@@ -212,6 +221,13 @@ def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits, named: Sequence[
     for centre, side in flat.squares:
         if detail.has(centre):
             _square(view, centre - detail.centre, side, fits)
+    ends = [end for edge in flat.edges if all(map(detail.has, edge)) for end in edge]
+    for across in (False, True) if ends else ():
+        low = min(ends, key=lambda point: coordinate(point, across))
+        values = distinct([coordinate(point - low, across) for point in ends])
+        feet = [(_foot(ends, coordinate(low, across) + value, across) - detail.centre) * view.scale for value in values]
+        spans = [MeasuredLength(feet[0], foot, value) for foot, value in zip(feet[1:], values[1:], strict=True)]
+        view.rows(spans, across=across)
     mark_holes(view, [own for own in named if detail.has(own.centre)], detail.centre)
     return view
 
