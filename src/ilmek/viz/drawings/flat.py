@@ -1,6 +1,5 @@
 """Views of a part cut from flat stock: its outline with all holes, and its edge."""
 
-import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -31,6 +30,7 @@ from ilmek.viz.drawings.features import (
 )
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.holes import NamedHole, draw_hole, mark_holes, thread_words
+from ilmek.viz.drawings.keyways import keyway
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength, coordinate
 
@@ -361,37 +361,6 @@ def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None
     if 1e-6 < angle < 90 - 1e-6:
         words = Sentence("sheet.square-turned", size=words, angle=f"{angle:.4g}°")
     view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends, note=note)
-
-
-_KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
-
-
-def keyway(
-    view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind, seat: tuple[float, float] | None = None
-) -> None:
-    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side.
-
-    seat  of a shaft: from its end on the left to the keyway, and the length of that [m]; None: all through
-    """
-    turn = bore.directions[0]
-    corners = [bore.centre + turn * complex(bore.floor, side * bore.width / 2) for side in (-1, 1)]
-    count = len(bore.directions)
-    times = f"{count}× " if count > 1 else ""
-    at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
-    ends = (corners[0] * view.scale, corners[1] * view.scale)
-    note = fits.note(bore.width, _KEYWAYS[kind])
-    width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
-    if seat is not None:
-        begin, length = map(millimetres, seat)
-        width = Sentence("sheet.keyway-seat", keyway=width, length=length, begin=begin)
-    view.leader(
-        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
-    )  # fmt: skip
-    across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.floor) * view.scale)
-    floor = Sentence("sheet.floor", size=f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)}")
-    view.leader(
-        floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
-    )  # fmt: skip
 
 
 def _diameter(  # noqa: PLR0917
