@@ -3,7 +3,7 @@
 First-angle projection (ISO 5456-2): the view from the left stands right of the front view, that from above below it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from typing import cast
 
@@ -48,8 +48,9 @@ MOST_CROWDED = 12.0
 _SMALL = ("A4", "A3")
 """Papers that are left where running dimensions crowd."""
 
-MOST_ENLARGED = 90.0
-"""Greatest extent of a section that is drawn larger than it is [mm of the paper]."""
+MOST_ENLARGED, _CLEARED = 90.0, 300.0
+"""Greatest extent of a section that is drawn larger than it is, and of one whose dimensions are crowded at full size
+[mm of the paper]."""
 
 
 @record
@@ -58,6 +59,11 @@ class Arrangement:
 
     views: dict[str, DrawnView]
     tables: tuple[SheetPicture, ...] = ()
+
+    @property
+    def crowded(self) -> bool:
+        """Whether running dimensions stand far from their points."""
+        return max(view.crowding for view in self.views.values()) > MOST_CROWDED
 
 
 def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrangement | None:
@@ -117,17 +123,16 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
     drawn = cache(lambda scale: arranged(part, 1e3 / scale, project))  # the same on every paper
     for paper in PAPERS:
         for scale in SCALES:
-            arrangement = drawn(scale) if _may_fit(part, paper, scale) else None
+            most = _CLEARED if paper not in _SMALL and _is_crowded(drawn) else MOST_ENLARGED
+            arrangement = drawn(scale) if _may_fit(part, paper, scale, most) else None
             if arrangement is None:
                 continue
             laid = _laid(arrangement, part, paper)
             if laid is None:
                 continue
             body = arrangement.views["front"].body
-            crowded = max(view.crowding for view in arrangement.views.values()) > MOST_CROWDED and paper != max(
-                LEAST_SIZE
-            )
-            if crowded or (scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)):
+            small = scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)
+            if small or (arrangement.crowded and paper in _SMALL):
                 break
             return _sheet(part, issue, paper, scale, laid)
     if project is None and arranged(part, 1.0, None) is None:
@@ -135,10 +140,16 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
     raise ValueError(f"{part.number} fits no sheet")
 
 
-def _may_fit(part: DrawnPart, paper: str, scale: float) -> bool:
-    """Whether a part's section could have room: a quick look, before anything is drawn."""
+def _is_crowded(drawn: Callable[[float], Arrangement | None]) -> bool:
+    """Whether running dimensions are crowded at full size."""
+    arrangement = drawn(1.0)
+    return arrangement is not None and arrangement.crowded
+
+
+def _may_fit(part: DrawnPart, paper: str, scale: float, most: float) -> bool:
+    """Whether a part's section could have room: a quick look, before anything is drawn; most  extent if enlarged."""
     extent = _extent(part.shape)
-    if scale < 1 and extent * 1e3 / scale > MOST_ENLARGED:
+    if scale < 1 and extent * 1e3 / scale > most:
         return False
     width, height = PAPERS[paper]
     return extent * 1e3 / scale < max(width, height)

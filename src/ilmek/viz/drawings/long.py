@@ -127,8 +127,8 @@ def turned_view(
     for corner in edges if features.fully else (low, complex(high.real, low.imag)):
         _edge_lines(view, cut, corner, drilled, bored)
     if bored:
-        for radius, ends in threads_of(fits):
-            view.line(LineKind.DIMENSION, cut.drawn(np.array(ends)) + 1j * radius)
+        for radius, span in threads_of(fits):
+            view.line(LineKind.DIMENSION, cut.drawn(np.array(span)) + 1j * radius)
         loops = (drilled, *profile.holes)
         view.hatch([_drawn_loop(cut, along(loop, 0.01 / scale)) for loop in loops])
         for hole in profile.holes:
