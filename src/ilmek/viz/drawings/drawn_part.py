@@ -6,7 +6,7 @@ from dataclasses import field
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
-from ilmek.part.blanks import blanks_of, size_of
+from ilmek.part.blanks import blanks_of, size_of, sold_as
 from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
 from ilmek.part.hole_kinds import HoleKinds, hole_kinds
@@ -178,7 +178,7 @@ def _density(part: Part | None) -> float:
 
 
 def _designation(part: Part | None) -> str:
-    return "" if part is None or part.material is None else part.material.designation
+    return "" if part is None else sold_as(part)
 
 
 def _stated(part: Part | None) -> PartSpecification | None:
