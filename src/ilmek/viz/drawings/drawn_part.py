@@ -155,13 +155,8 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
-<<<<<<< HEAD
         (*(part.notes if part else ()), *_row(part, piece.tree)), features=_features(piece.features),
-        stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part),
-=======
-        part.notes if part else (), features=_features(piece.features), stated=_stated(part),
-        welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
->>>>>>> drawings
+        stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
     )  # fmt: skip
 
 

@@ -220,10 +220,7 @@ def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits, named: Sequence[
             _hole_label(view, flat, group, fits, detail.centre)
     for centre, side in flat.squares:
         if detail.has(centre):
-<<<<<<< HEAD
             square(view, centre - detail.centre, side, fits)
-=======
-            _square(view, centre - detail.centre, side, fits)
     ends = [end for edge in flat.edges if all(map(detail.has, edge)) for end in edge]
     for across in (False, True) if ends else ():
         low = min(ends, key=lambda point: coordinate(point, across))
@@ -232,7 +229,6 @@ def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits, named: Sequence[
         spans = [MeasuredLength(feet[0], foot, value) for foot, value in zip(feet[1:], values[1:], strict=True)]
         view.rows(spans, across=across)
     mark_holes(view, [own for own in named if detail.has(own.centre)], detail.centre)
->>>>>>> drawings
     return view
 
 
