@@ -38,13 +38,13 @@ from ilmek.viz.drawings.paper import (
     table,
     title_block,
 )
-from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
+from ilmek.viz.drawings.picture import Box, SheetPicture, joined_box, millimetres
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
 from ilmek.viz.drawings.weld_symbols import Foot, cut_list, weld_symbols, weld_table
 
-_BETWEEN, _PAD = 14.0, 6.0
-"""Least distance of two views, and of anything from the frame [mm]."""
+_BETWEEN, _PAD, _SPARE = 14.0, 6.0, 1.0
+"""Least distance of two views, and of anything from the frame; what the quick look allows for chords of arcs [mm]."""
 
 LEAST_SIZE = {"A4": 70.0, "A3": 80.0}
 """Least greatest extent of a part on a paper [mm]: below it, the next paper is taken."""
@@ -115,7 +115,7 @@ def _prism_views(
     if sheet is not None and part.bent is not None:
         tables = (*tables, *bent_pictures(part.bent, sheet))
     low, high = bounds(flat.outline)
-    below = (high - low).real > (high - low).imag * 1.2
+    below = _edge_below(high - low)
     edge = edge_view(flat, shape.length, scale, below=below)
     face_notes(front, fits, *FRONT)
     face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
@@ -181,28 +181,40 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
 
 
 def _may_fit(part: DrawnPart, paper: str, scale: float) -> bool:
-    """Whether a part's section could have room: a quick look, before anything is drawn."""
-    extent = _extent(part.shape)
-    if scale < 1 and extent * 1e3 / scale > MOST_ENLARGED:
+    """Whether a part's section, and the edge of a plate, could have room: a quick look, before anything is drawn."""
+    size, edge = _extent(part.shape)
+    if scale < 1 and max(size.real, size.imag) * 1e3 / scale > MOST_ENLARGED:
         return False
-    width, height = PAPERS[paper]
-    return extent * 1e3 / scale < max(width, height)
+    low_x, low_y, high_x, high_y = _area(paper)
+    needed = size * 1e3 / scale
+    if edge:
+        beside = edge * 1e3 / scale + _BETWEEN
+        needed += 1j * beside if _edge_below(size) else beside
+    return needed.real < high_x - low_x + _SPARE and needed.imag < high_y - low_y + _SPARE
 
 
-def _extent(shape: object) -> float:
-    """A length that no view of a shape falls below [m]; long parts are interrupted."""
+def _extent(shape: object) -> tuple[complex, float]:
+    """Width and height that no front or section view of a shape falls below, and the thickness of a plate [m]."""
     if isinstance(shape, Prism):
         low, high = bounds(shape.section.outline)
-        return max((high - low).real, (high - low).imag)
-    if isinstance(shape, Turned):
-        return 2 * shape.outer_radius
-    return 0.0
+        return high - low, 0.0 if is_long(shape.section, shape.length) else shape.length
+    return complex(0.0, 2 * shape.outer_radius if isinstance(shape, Turned) else 0.0), 0.0
+
+
+def _edge_below(size: complex) -> bool:
+    """Whether the edge of a plate of a width and height is seen below its front view, not right of it."""
+    return size.real > size.imag * 1.2
+
+
+def _area(paper: str) -> Box:
+    """The room of the views on a paper."""
+    width, height = PAPERS[paper]
+    return LEFT + _PAD, EDGE + BLOCK_HEIGHT + _PAD, width - EDGE - _PAD, height - EDGE - _PAD
 
 
 def _laid(arrangement: Arrangement, part: DrawnPart, paper: str) -> SheetPicture | None:
     """All pictures at their positions on the paper; None: they have no room."""
-    width, height = PAPERS[paper]
-    area = (LEFT + _PAD, EDGE + BLOCK_HEIGHT + _PAD, width - EDGE - _PAD, height - EDGE - _PAD)
+    width, area = PAPERS[paper][0], _area(paper)
     views = _projected(arrangement.views)
     box = joined_box([view.box for view in views])
     notes = _notes(part)
