@@ -343,7 +343,8 @@ class _Plan:
                 return False
             low, high = swept_box(unit.opened.box + start, move)
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
-            for other in {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group:
+            others = {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group
+            for other in sorted(others, key=lambda own: own not in met):  # what was in the way, often is again
                 if frozenset((unit, other)) not in self.through and meets(unit.opened, other.solid, move, start):
                     self.known[key] = other
                     met.add(other)

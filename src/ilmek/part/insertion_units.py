@@ -18,7 +18,7 @@ from scipy.spatial import ConvexHull
 from ilmek.arrays import Float
 from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.retaining_rings import RetainingRing, ring_of
-from ilmek.part.colliders import MANY, collider
+from ilmek.part.colliders import COARSE, MANY, collider
 from ilmek.part.part import Part
 from ilmek.part.part_lists import BELTS, FASTENER
 from ilmek.part.placement import IDENTITY, Placement, placement
@@ -147,7 +147,8 @@ def _placed(pieces: Sequence[StandingPart], by: float) -> MovedSolids:
 
 @lru_cache(maxsize=4096)
 def _of_shape(shape: Shape, by: float) -> FittedSolid:
-    return fitted(collider(shape).solid, by)
+    own = collider(shape)
+    return fitted(shape.mesh(COARSE) if own.large else own.solid, by)
 
 
 def _hull(points: Float[np.ndarray, "points 3"]) -> Solid:
