@@ -329,16 +329,22 @@ def figure_texts(page: str, section: int) -> list[str]:
     return [text.words for text in figure.texts]
 
 
+def every(sign: str) -> list[str]:
+    """The ends of a run of signs, and what stands in a sentence of the diagram: `S1 … 4`, `S0`."""
+    first, _, last = sign.partition(" … ")
+    return [first, f"reset {first}", *([first[0] + last] if last else [])]
+
+
 def test_diagrams_have_the_devices_of_the_tables() -> None:
     drawn = figure_texts("electrical", 0)
     for sign, title, row_of_table, number, _, _, amplifier, fuse, section, _ in rows_of("electrical", 1):
         wires = 5 if "stepper" in str(row_of_table) else 4
-        row = [
-            f"{sign}: {number} × {title}",
-            f"{sign.replace('M', 'F')}: {number} × {fuse:g} A",
-            f"{amplifier:g} A, STO",
-        ]
-        assert {*row, f"{wires} × {section:g} mm²", str(sign).replace("M", "T")} <= {*drawn}
+
+        def each(letter: str, sign: str = str(sign)[1:], number: int = int(number)) -> str:
+            return f"{letter}{sign}" if number == 1 else f"{letter}{sign}.1 … {letter}{sign}.{number}"
+
+        row = [f"{each('M')}: {number} × {title}", f"{each('F')}: {number} × {fuse:g} A", f"{amplifier:g} A, STO"]
+        assert {*row, f"{wires} × {section:g} mm²", each("T")} <= {*drawn}
     circuit, terminals = figure_texts("electrical", 4), rows_of("electrical", 3)
     for sign, _, _, number, signals in rows_of("electrical", 4):
         letter = str(sign).rstrip("0123456789 …")
@@ -348,6 +354,8 @@ def test_diagrams_have_the_devices_of_the_tables() -> None:
             ]
             (address,) = [f"X1:{row[1]}{row[2]}" for row in terminals if row[0] == signals]
             assert address in circuit
+    signs = [str(row[0]) for row in rows_of("electrical", 4)]
+    assert [sign for sign in signs if sign and not any(text in circuit for text in (f"{sign}.1", *every(sign)))] == []
     (axes,) = [row["quantity"] for row in listed("parts") if row["id"] == "automated-loom/control-axis"]
     assert f"T1 … ({axes} ×)" in circuit
 
