@@ -8,7 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import reduce
-from itertools import groupby
+from itertools import chain, groupby
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from ilmek.part.welds import welds_of
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
-from ilmek.units import format_quantity, in_mm
+from ilmek.units import format_quantity, in_mm, mm
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -173,14 +173,25 @@ def with_screws(
 def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblyStep]:
     """The rows with the welds of a tree, each with the second of its parts."""
     pairs = {(name, weld.other): weld.throat for name, own in welds_of(tree).items() for weld in own if weld.other}
-    bodies: dict[str, set[str]] = defaultdict(set)
+    welded, boxes = frozenset(chain(*pairs)), defaultdict[str, list[Box]](list)
     for step in steps:
-        coming = {} if step.built else step.parts
-        for piece in step.pieces if coming else ():
-            bodies[piece.part.id].add(piece.body)
-        near, names = {*step.bodies, *step.onto}, {part.id for part in coming}
-        made = (pair for pair in pairs if not names.isdisjoint(pair) and all(bodies[name] & near for name in pair))
-        yield replace(step, welds=tuple((*pair, pairs[pair]) for pair in made))
+        pieces = [piece for piece in step.pieces if piece.part.id in welded]
+        for piece in () if step.built else pieces:
+            boxes[piece.part.id].append(piece.box)
+        names = {piece.part.id for piece in pieces}
+        joined_now = dict.fromkeys(
+            pair
+            for piece in pieces
+            for pair in pairs
+            if piece.part.id in pair and not (step.built and names.issuperset(pair))
+            for other in boxes[pair[pair[0] == piece.part.id]]
+            if _touch(piece.box, other)
+        )
+        yield replace(step, welds=tuple((*pair, pairs[pair]) for pair in joined_now))
+
+
+def _touch(first: Box, second: Box) -> bool:
+    return bool((first[0] < second[1] + mm).all() and (second[0] < first[1] + mm).all())
 
 
 def _nearest(screw: StandingPart, pieces: Sequence[tuple[Box, list[int]]]) -> list[int]:
