@@ -88,8 +88,8 @@ EAR = (7 * mm, 9 * mm, 4 * mm)
 ROD_WELD = 0.7 * mm
 """Throat of the weld of a twisted bar on the rod of its gripper [m]."""
 
-SUPPORT = 6 * mm
-"""Thickness of the support of the sley's rod [m]."""
+SUPPORT, LEAST_WALL = 6 * mm, 1 * mm
+"""Thickness of the support of the sley's rod, and its wall about that at least [m]."""
 
 
 def opener_track(weaver: Weaver) -> str:
@@ -311,17 +311,17 @@ def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
 def _sley_rod(weaver: Weaver) -> Iterator[Occurrence]:
     """The rod of the sley's block, pressed into its support on the left side plate, to the upper plate; its spring."""
     tool, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), station(weaver, SLEY)
-    inner = stack_width(weaver.params) / 2
+    inner, wall = stack_width(weaver.params) / 2, ROD / 2 + LEAST_WALL
     depth = (tool.corner + tool.size).real + SLEY_BLOCK / 2
     foot = tool.corner.imag - longest(weaver, SLEY)
     top = (weaver.shape.body + weaver.shape.size).imag - sheet(weaver)
-    yield Occurrence(
-        _made("sley-rod", "rod of the sley", bar(ROD, top - foot + SUPPORT)),
-        (placement(side, foot - SUPPORT, depth).after(UPRIGHT),),
-    )
-    right = side + weaver.params.cam_thickness / 2
-    seat = circle(1j * (side - (right - inner) / 2), ROD / 2)
-    section = Profile(rectangle(SLEY_BLOCK, right + inner), (seat,))
+    right = side + max(weaver.params.cam_thickness / 2, wall)
+    pressed = side + inner > wall  # else it stands on the support
+    begin = foot - SUPPORT if pressed else foot
+    rod = _made("sley-rod", "rod of the sley", bar(ROD, top - begin))
+    yield Occurrence(rod, (placement(side, begin, depth).after(UPRIGHT),))
+    seat = (circle(1j * (side - (right - inner) / 2), ROD / 2),) if pressed else ()
+    section = Profile(rectangle(SLEY_BLOCK, right + inner), seat)
     support = _plate("sley-support", "support of the sley's rod", section, SUPPORT)
     yield Occurrence(support, (placement((right - inner) / 2, foot - SUPPORT, depth).after(UPRIGHT),))
     if (spring := spring_part(weaver, SLEY)) is not None:

@@ -291,21 +291,23 @@ def _slotted(weaver: Weaver, track: str, gripper: Part) -> Part:
     begin = float(rod.positions[0].origin[2])
     end = begin + float(shape_box(rod.shape)[1][2])
     if track == SIDE_GRASP:
-        whole, lean = circle(0j, outer), math.asin(half / outer)
+        lean = math.asin(half / outer)
         points = outer * np.exp(1j * np.array([turn / 4 + lean, turn / 2, -turn / 4, 0.0, turn / 4 - lean]))
         rise, quarter = math.tan((turn / 4 - lean) / 4), math.tan(turn / 16)
         bulges = [rise, quarter, quarter, rise]
     else:
-        whole = rectangle(2 * outer, 2 * outer)
         points = outer * np.array([1j - half / outer, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j, 1j + half / outer])
         bulges = [0.0] * 5
     below = half * np.array([1.0, -1j, -1.0])
     slot = Contour(np.concatenate([points, below]), np.array([*bulges, 0.0, *[-math.tan(turn / 16)] * 2, 0.0]))
-    full, open_ = Profile(whole, (circle(0j, half),)), Profile(slot)
     marks = [begin, min(ends) - half - PLAY, max(ends) + half + PLAY, end]
-    lengths = zip((full, open_, full), pairwise(marks), strict=True)
-    bars = (Placed(Prism(section, high - low), (placement(z=low),)) for section, (low, high) in lengths)
-    return replace(gripper, shape=Sum((*bars, *others)))
+    square = Profile(rectangle(2 * outer, 2 * outer), (circle(0j, half),))
+    lengths = [high - low for low, high in pairwise(marks)]
+    round_ = track == SIDE_GRASP
+    bars = [tube(2 * outer, outer - half, long) if round_ else Prism(square, long) for long in lengths]
+    bars[1] = Prism(Profile(slot), lengths[1])
+    placed = (Placed(own, (placement(z=low),)) for own, low in zip(bars, marks, strict=False))
+    return replace(gripper, shape=Sum((*placed, *others)))
 
 
 def opened(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
