@@ -80,6 +80,14 @@ def test_a_pin_in_one_bore_has_the_fit_of_its_joint(kind: JointKind, bore: str, 
     assert [name for name, _ in classes["frame"] + classes["pin"]] == [bore, journal]
 
 
+def test_a_rod_in_a_bore_that_is_drilled_deep_is_loose() -> None:
+    """Over 20 diameters; the same rod guided in a short bore."""
+    for length, classes in ((0.19, ("H7", "g6")), (0.21, ("H11", "c11"))):
+        rod, block = _made("rod", bar(10 * mm, 0.3)), _made("block", tube(30 * mm, 10 * mm, length))
+        own = _classes(_tree((_at(block),), (_at(rod, -0.01),), JointKind.SLIDE))
+        assert tuple(own[name][0][0] for name in ("block", "rod")) == classes
+
+
 def test_a_roller_turns_on_its_pin_though_it_is_no_body() -> None:
     roller = _made("roller", tube(30 * mm, 9 * mm, 10 * mm))
     tree = Tree((RigidBody("fork", (_at(FRAME), _at(PIN), _at(roller, 15 * mm, turning=True))),))
@@ -229,7 +237,7 @@ def test_what_runs_has_play_and_what_is_fixed_has_none(machine: str) -> None:
         least, largest = hole.lower - shaft.upper, hole.upper - shaft.lower
         keyed = meeting.bore.feature.keyway or meeting.inner.feature.keyway
         if meeting.joint is not JointKind.FIXED:
-            assert 0 < least < largest < 100 * um
+            assert 0 < least < largest < (200 if hole.tolerance == "H11" else 100) * um  # drilled deep
         elif keyed:
             assert least <= 0 < largest
         else:

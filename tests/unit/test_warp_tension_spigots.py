@@ -66,7 +66,7 @@ def test_each_tube_is_welded_round_both_ends_to_the_flanges_of_its_shaft_ends() 
             assert weld.throat >= cylinder.throat
 
 
-def test_in_the_machine_alone_nothing_is_through_another() -> None:
-    # The frame of a loom holds the three cylinders, so that alone they are groups of their own.
+def test_the_machine_alone_is_one_machine() -> None:
     assert MACHINE.tree is not None
-    assert not contacts(MACHINE.tree(MACHINE.design(WarpTensionParams()))).through
+    alone = contacts(MACHINE.tree(MACHINE.design(WarpTensionParams())))
+    assert (len(alone.groups), alone.through) == (1, ())

@@ -140,3 +140,14 @@ def seat_of(row: RollingBearing, force: float = 0.0) -> BearingSeat:
     if row.kind == INSERT and not row.flange:
         return BearingSeat(find_bearing(row.name.replace("UC ", "UCF ")), force)
     return BearingSeat(row, force)
+
+
+def least_height(moment: tuple[float, float], stress: float) -> float:
+    """Least height of a bracket for moments in its plane and out of it [N m] and a stress [Pa].
+
+    >>> h = least_height((1000.0, 100.0), 100e6)
+    >>> round(6 * 1000.0 / (BRACKET * h**2) + 6 * 100.0 / (h * BRACKET**2), 3)
+    100000000.0
+    """
+    half = 3 * moment[1] / (stress * BRACKET**2)
+    return half + math.sqrt(half**2 + 6 * moment[0] / (stress * BRACKET))

@@ -24,7 +24,7 @@ from ilmek.machines.loom_task import LoomTask, MachineDesign, P
 from ilmek.params import Params, Setting
 from ilmek.part.bill import bill
 from ilmek.part.plates import pieces_of, plates_of
-from ilmek.part.tree import Tree
+from ilmek.part.tree import GROUND, Tree
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import (
@@ -98,6 +98,7 @@ class Component(Generic[P, D, A]):
     self_tests  analysis -> tests of the computation itself, such as a power balance; listed apart, a failed one is a
                 failed check too, so that such a design is never reported as sound
     tree        design -> its parts in bodies, from which its parts list, its plates and its pieces follow
+    stand       design -> the bodies that carry it where it is alone, which are in its tree then; a loom's frame does
     own_tree    design -> the bodies of it that are in none of its children; default: all
     plates, pieces, cam_tables, cyclograms   design -> what is made of it, what its axes follow, its timing
     mechanism   design -> its linkage as an own mechanism, for a file; None where the design has none
@@ -130,6 +131,7 @@ class Component(Generic[P, D, A]):
     figures: Callable[[A], tuple[Figure | LazyFigure, ...]] = _nothing
     warnings: Callable[[A], tuple[str, ...]] = _nothing
     tree: Callable[[D], Tree] | None = None
+    stand: Callable[[D], Tree] | None = None
     own_tree: Callable[[D], Tree] | None = None
     pieces: Callable[[D], tuple[WorkPiece, ...]] = _nothing
     plates: Callable[[D], tuple[Plate, ...]] = _nothing
@@ -155,8 +157,12 @@ class Component(Generic[P, D, A]):
 
     def __post_init__(self) -> None:
         if self.tree is not None:
-            tree = lru_cache(maxsize=8)(self.tree)
-            object.__setattr__(self, "tree", tree)
+            tree = whole = lru_cache(maxsize=8)(self.tree)
+            if self.stand is not None:
+                stand = lru_cache(maxsize=8)(self.stand)
+                object.__setattr__(self, "stand", stand)
+                whole = lru_cache(maxsize=8)(lambda design: stand(design).carrying(GROUND, tree(design)))
+            object.__setattr__(self, "tree", whole)
             object.__setattr__(self, "parts", lru_cache(maxsize=8)(lambda design: bill(tree(design))))
             own = self.own_tree or tree
             object.__setattr__(self, "plates", lambda design: plates_of(own(design)))
@@ -203,6 +209,7 @@ class Component(Generic[P, D, A]):
         whole = (self.assembly(design),) if self.assembly and assembled else ()
         figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated and drawn else ((), ())
         tests = self.self_tests(analysis)
+        stand = Tree() if in_a_loom or self.stand is None else self.stand(design)
         made = Report(
             machine=self.name,
             title=self.title,
@@ -219,10 +226,10 @@ class Component(Generic[P, D, A]):
             else (),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),
-            plates=self.plates(design),
+            plates=(*self.plates(design), *plates_of(stand)),
             cam_tables=self.cam_tables(design),
-            pieces=self.pieces(design),
-            parts=self.parts(design),
+            pieces=(*self.pieces(design), *pieces_of(stand)),
+            parts=(*self.parts(design), *bill(stand)),
             children=tuple(child.reported(illustrated=illustrated, drawn=drawn) for child in self.children(design)),
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),

@@ -21,12 +21,11 @@ from ilmek.part import catalogue
 from ilmek.part.bolt_contacts import FaceSide, StandingPiece, face_contacts, pattern_of, standing_groups
 from ilmek.part.bolt_holes import DrilledPart
 from ilmek.part.bolt_spots import clear, free_points, mapped, pattern_points, row_points
-from ilmek.part.part import Part
+from ilmek.part.part import WELDED, Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.seat_faces import Depth, seat_faces
 from ilmek.part.shapes import Drilling, Prism
 from ilmek.part.tree import Occurrence, Tree
-from ilmek.part.welds import WELDED
 from ilmek.units import mm, um
 
 _CLAMPED = (2.0, 1.0)

@@ -15,6 +15,7 @@ from ilmek.part.features import FeatureOfSize, faces_of, features_of_size
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
+from ilmek.part.shapes import box_corners, shape_box
 from ilmek.part.tree import STANDING, JointKind, Tree
 from ilmek.records import record
 from ilmek.units import um
@@ -173,10 +174,11 @@ def slide_seats(tree: Tree) -> tuple[GuideSeat, ...]:
     for k in sliding:
         near = (boxes[:, 0] <= boxes[k, 1] + _FLUSH).all(1) & (boxes[k, 0] <= boxes[:, 1] + _FLUSH).all(1)
         for j in np.flatnonzero(near).tolist():
-            if _relative(stands[k][2], stands[j][2])[0] is JointKind.SLIDE:
+            kind, body = _relative(stands[k][2], stands[j][2])
+            if kind is JointKind.SLIDE:
                 for (part, lies, _), (other, there, _) in ((stands[k], stands[j]), (stands[j], stands[k])):
                     for middle, length in _covered(part, lies, other, there):
-                        seat = GuideSeat(part, other, stands[k][2][-1].name, middle, length, slides=True)
+                        seat = GuideSeat(part, other, body, middle, length, slides=True)
                         seats.setdefault((part.id, other.id, str(np.round(middle.origin / SAME))), seat)
     return tuple(seats.values())
 
@@ -200,19 +202,46 @@ def _box(part: Part, lies: Placement) -> Float[np.ndarray, "2 3"]:
 
 
 def guide_seats(tree: Tree) -> tuple[GuideSeat, ...]:
-    """The seats of guides on made parts of the same body, each once."""
-    seats: dict[tuple[str, ...], GuideSeat] = {}
-    for body in tree.bodies:
-        placed = [(own.part, position) for own in body.occurrences for position in own.positions]
-        guides = [(part, position) for part, position in placed if part.process in GUIDES]
-        made = [(part, position) for part, position in placed if part.material is not None] if guides else []
-        for part, position in made:
-            for guide, at in guides:
-                for middle, length in _covered(part, position, guide, at):
-                    lies = GuideSeat(part, guide, body.id, middle, length)
-                    rounded = str(np.round(middle.origin / SAME))
-                    seats.setdefault((part.id, guide.id, rounded), lies)
-    return tuple(seats.values())
+    """The seats of guides on parts that stand to them, and of parts on the axes that move them, each once.
+
+    Also those on bought parts, whose makers see to them.
+    """
+    placed = [
+        (own.part, body.after(position), chain)
+        for chain, body in _bodies(tree)
+        for own in chain[-1].body.occurrences
+        for position in own.positions
+    ]
+    placed = [each for each in placed if each[0].shape is not None]
+    corners = np.array([lies.points(_corners(part)) for part, lies, _ in placed]).reshape(-1, 8, 3)
+    low, high = corners.min(1) - _FLUSH, corners.max(1) + _FLUSH
+    seats, driven = dict[tuple[str, ...], GuideSeat](), dict[tuple[str, ...], GuideSeat]()
+    for number in (k for k, each in enumerate(placed) if each[0].process in GUIDES):
+        guide, there, carrier = placed[number]
+        near = (low <= high[number]).all(1) & (low[number] <= high).all(1)
+        for part, lies, chain in (placed[k] for k in np.flatnonzero(near) if placed[k][0].process not in GUIDES):
+            kind, body = _relative(carrier, chain)
+            for middle, length in _covered(part, lies, guide, there):
+                seat = GuideSeat(part, guide, body, middle, length)
+                if kind is JointKind.FIXED:
+                    seats.setdefault((part.id, guide.id, str(np.round(middle.origin / SAME))), seat)
+                elif kind is JointKind.SLIDE:  # of what an axis moves, the rest only touches it
+                    driven[body, guide.id] = max(driven.get((body, guide.id), seat), seat, key=lambda one: one.length)
+    return (*seats.values(), *driven.values())
+
+
+@lru_cache(maxsize=4096)
+def _corners(part: Part) -> Float[np.ndarray, "8 3"]:
+    assert part.shape is not None
+    return box_corners(*shape_box(part.shape))
+
+
+def _bodies(tree: Tree) -> Iterator[tuple[Chain, Placement]]:
+    """The chain of each body, of like ones the first, and where it stands."""
+    for chain in chains(tree):
+        if not any(link.index for link in chain):
+            here = poses(chain, "", np.zeros(1))
+            yield chain, Placement(here.origin[0], here.rotation[0])
 
 
 def _covered(part: Part, position: Placement, guide: Part, at: Placement) -> Iterator[tuple[Placement, float]]:

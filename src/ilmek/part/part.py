@@ -22,6 +22,9 @@ PITCH, CUTTER, ZERO = "pitch curve", "cutter path", "zero"
 SET_SCREW, CLAMP = "set screw", "clamp"
 """Names of the seats of what holds a hub along its shaft: of a set screw, of a bush or rings that clamp it."""
 
+WELDED, LASER_CUT = "welded frame", "laser-cut part"
+"""Processes of stock that is welded to others, and of plates, which it is welded to."""
+
 
 @record
 class HolePattern:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.errors import ParameterError
-from ilmek.plane.contours import STRAIGHT, area, circle, counter_clockwise
+from ilmek.plane.contours import STRAIGHT, area, as_hole, circle, counter_clockwise
 from ilmek.plane.vectors import following
 from ilmek.records import record
 from ilmek.report import Contour, Hole
@@ -53,6 +53,15 @@ class Profile:
     def contours(self) -> tuple[Contour, ...]:
         """Its outline counter-clockwise, and its holes clockwise: the section lies to the left of each."""
         return (counter_clockwise(self.outline), *(_clockwise(hole) for hole in self.holes))
+
+    @property
+    def least_wall(self) -> float:
+        """Of a disc from its edge to the corners of its holes [m]: how far chords may lie inside of it; else inf."""
+        disc = as_hole(self.outline)
+        if disc is None:
+            return math.inf
+        farthest = (float(np.abs(hole.points - disc.at).max()) for hole in self.holes)
+        return min((disc.radius - far for far in farthest), default=math.inf)
 
     @property
     def area(self) -> float:

@@ -33,7 +33,7 @@ from ilmek.plane.solids import thinned
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.scene import Solid
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, mm, um
 
 _ON_AXIS = 1e-9
 """Radius below 0 that counts as rounding [m]."""
@@ -111,7 +111,8 @@ class Prism:
 
     def mesh(self, deviation: float = CHORD) -> Solid:
         """A closed surface of triangles; arcs become chords inside of them."""
-        loops = (along(contour, deviation) for contour in self.section.contours)
+        fine = min(deviation, max(self.section.least_wall / 2, um))
+        loops = (along(contour, fine) for contour in self.section.contours)
         whole = extruded([_fewer(loop, deviation) if self.section.smooth else loop for loop in loops], self.length)
         return without(whole, [hole.cutter(deviation) for hole in self.drilled]) if self.drilled else whole
 

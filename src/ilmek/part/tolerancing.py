@@ -3,7 +3,8 @@
 A feature is a cylinder or a square of a part's shape, or its keyway. Its fit is that of the meeting with another part,
 which follows from the joint between them [`meetings`]; both parts read it from there, and none types it a second time:
 
-    runs or slides                     H7/g6; on a journal that is also fixed in a part: G7/h6
+    runs or slides                     H7/g6; on a journal that is also fixed in a part: G7/h6; a rod or wire in a bore
+                                       longer than 20 diameters, which is drilled, not reamed: H11/c11
     fixed                              H7/m6; on a journal on which a part also runs: P7/h6; a bush in its hub H7/s6
     with a keyway                      H7/h6; the keyway N9 in the shaft, JS9 in the hub
     square                             H9/h11, as laser-cut H12: the bar is bright drawn
@@ -91,7 +92,8 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
             tolerance = journals[key] if key in journals else _bore(one, journals)
             features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
     for seat in (*guide_seats(tree), *slide_seats(tree)):
-        if not seat.slides or seat.part.machined or seat.part.process not in AS_DELIVERED:
+        bought = seat.part.material is None
+        if not bought and (not seat.slides or seat.part.machined or seat.part.process not in AS_DELIVERED):
             features[seat.part.id].append(_face(seat))
     return {part: tuple(_related(_named(own))) for part, own in features.items()}
 
@@ -130,6 +132,17 @@ def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | N
     return FitDuty.KEYED if own.feature.keyway or other.feature.keyway else FitDuty.FIXED
 
 
+_LONG = 20.0
+"""Length over diameter from which a bore is drilled deep, and not reamed; assumed by this project."""
+
+
+def _is_long(duty: FitDuty, meeting: Meeting) -> bool:
+    """Whether a journal runs in a bore that is long over its diameter."""
+    (low, high), inner = meeting.along, meeting.inner.feature
+    within = min(high, inner.length) - max(low, 0.0)
+    return duty is FitDuty.RUNNING and within > _LONG * inner.size
+
+
 _SMALL = 18 * mm
 """Bore up to which a bearing's shaft is js6."""
 
@@ -141,6 +154,8 @@ def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     if one.duty is FitDuty.BEARING:
         return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
     if one.duty is FitDuty.RUNNING:
+        if any(_is_long(own, meeting) for own, _, meeting in one.others):
+            return "c11"
         return "h6" if one.has(FitDuty.FIXED) or one.has(FitDuty.KEYED) else "g6"
     if one.duty is FitDuty.KEYED:
         return "h6"
@@ -174,6 +189,8 @@ def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
         for duty, other, _ in one.others
         if duty in {FitDuty.RUNNING, FitDuty.FIXED}
     }
+    if "c11" in classes:
+        return "H11"
     if one.duty in {FitDuty.RUNNING, FitDuty.FIXED} and classes == {"h6"}:
         return "G7" if one.duty is FitDuty.RUNNING else "P7"
     return "H7"

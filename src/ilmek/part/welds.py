@@ -17,7 +17,7 @@ from ilmek.elements.fillet_welds import throat_for
 from ilmek.part.contacts import Touch, joined_by, touches
 from ilmek.part.forms import form_of
 from ilmek.part.making import seams
-from ilmek.part.part import Part
+from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import Prism, Sum, Turned, shape_box
 from ilmek.part.tree import Tree
@@ -25,11 +25,7 @@ from ilmek.plane.contours import along, bounds
 from ilmek.records import record
 from ilmek.units import mm
 
-WELDED = "welded frame"
-"""Process of stock that is welded to others."""
-
-PLATE = "laser-cut part"
-_WITH = frozenset({WELDED, PLATE})
+_WITH = frozenset({WELDED, LASER_CUT})
 """Processes of the parts that it is welded to."""
 
 TUBE, SPIGOT = "steel tube", "turned part"
@@ -91,7 +87,7 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     screwed = [frozenset(pair) for pair in joined_by(tree, screws).values()] if screws else []
     welds: dict[str, dict[object, Weld]] = defaultdict(dict)
     for part in parts.values():
-        if part.process == PLATE and isinstance(part.shape, Sum):
+        if part.process == LASER_CUT and isinstance(part.shape, Sum):
             welds[part.id].update(enumerate(_of_plates(part, part.shape)))
     plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
     for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset())):

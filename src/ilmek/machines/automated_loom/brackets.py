@@ -28,7 +28,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, part_id
-from ilmek.machines.bearing_seats import BRACKET, BearingSeat
+from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import bearing_inner, reducer
 from ilmek.machines.warp_tension.cylinders import cylinders
@@ -110,17 +110,6 @@ def arm_stress(seat: BearingSeat, edge: float) -> float:
     height = edge - seat.bore / 2
     lever, aside = float(seat.corners().real.max()), (seat.bearing.width + BRACKET) / 2
     return 3 * seat.force * (lever / (BRACKET * height**2) + aside / (height * BRACKET**2))
-
-
-def least_height(moment: tuple[float, float], stress: float) -> float:
-    """Least height of a bracket for moments in its plane and out of it [N m] and a stress [Pa].
-
-    >>> h = least_height((1000.0, 100.0), 100e6)
-    >>> round(6 * 1000.0 / (BRACKET * h**2) + 6 * 100.0 / (h * BRACKET**2), 3)
-    100000000.0
-    """
-    half = 3 * moment[1] / (stress * BRACKET**2)
-    return half + math.sqrt(half**2 + 6 * moment[0] / (stress * BRACKET))
 
 
 @record

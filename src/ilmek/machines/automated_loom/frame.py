@@ -30,9 +30,8 @@ from ilmek.errors import LoomError
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.feet import FEET, Foot
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.part.part import Part
+from ilmek.part.part import LASER_CUT, Part
 from ilmek.part.shapes import box, square_tube
-from ilmek.part.welds import PLATE
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_least, at_most, choose
 from ilmek.units import mm, turn
@@ -67,7 +66,7 @@ END_PLATE = 10 * mm
 
 def end_plate(name: str, title: str, section: HollowSquare) -> Part:
     """The plate before the end of a section, as large as that, from z = 0."""
-    return Part(part_id(name), title, PLATE, shape=box(section.side, section.side, END_PLATE), material=STEEL)
+    return Part(part_id(name), title, LASER_CUT, shape=box(section.side, section.side, END_PLATE), material=STEEL)
 
 
 _COLUMN = (part_id("column"),)

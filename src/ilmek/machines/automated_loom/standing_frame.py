@@ -20,12 +20,11 @@ from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.part.welds import WELDED
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
 

@@ -25,12 +25,11 @@ from ilmek.machines.hammer.params import STEEL, HammerParams
 from ilmek.machines.link_tree import GAP
 from ilmek.machines.linkage_strength import FLAT_BARS
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import WELDED, Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
-from ilmek.part.welds import WELDED
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, in_mm, mm

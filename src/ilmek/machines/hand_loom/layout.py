@@ -13,12 +13,12 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.fillet_welds import TwoSeams, throat_for
 from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR, RoundPart, rolled, under_the_fell
-from ilmek.machines.automated_loom.brackets import arm_stress, least_height, screw_bores
+from ilmek.machines.automated_loom.brackets import arm_stress, screw_bores
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, column_checks
 from ilmek.machines.automated_loom.joints import Seam
 from ilmek.machines.automated_loom.supports import within
-from ilmek.machines.bearing_seats import BRACKET, BearingSeat
+from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.hand_shed import HandShed
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders, spacer_tube

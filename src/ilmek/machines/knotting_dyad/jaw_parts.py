@@ -154,7 +154,7 @@ def drive_of(jaws: Jaws, on: Placement) -> Iterator[Occurrence]:
 @lru_cache(maxsize=8)
 def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
     """Neck, solenoid, and the spring where one fits."""
-    bore, row, spring = jaws.rod + IN_BORE, jaws.solenoid, jaws.spring
+    bore, row, spring = jaws.rod, jaws.solenoid, jaws.spring
     end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR), (placement(), placement(z=jaws.cup - COLLAR)))
     about = Placed(tube(jaws.around, CUP, jaws.cup - 2 * COLLAR), (placement(z=COLLAR),))
     stem = Placed(tube(bore + 2 * CUP, CUP, jaws.neck - jaws.cup), (placement(z=jaws.cup),))
@@ -194,7 +194,7 @@ def centre_parts(params: KnottingDyadParams, head: Head, jaws: Jaws, ends: tuple
     width, thick, back = params.link_width, params.link_thickness, bar_end(jaws, rear)
     slot = _rectangle(jaws.arm - LUG / 2, jaws.arm + LUG / 2, jaws.rod + IN_BORE)
     front = Prism(Profile(_rectangle(nose, clamp, width), (slot,)), thick)
-    section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), (jaws.rod + IN_BORE) / 2),))
+    section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), jaws.rod / 2),))
     members = (
         Placed(front, (placement(z=-thick / 2),)),
         Placed(Prism(section, nose - back), (placement(nose).after(ALONG),)),

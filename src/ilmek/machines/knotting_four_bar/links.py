@@ -25,7 +25,10 @@ from ilmek.units import format_quantity
 
 MACHINE_NAME = "knotting-four-bar"
 
-LEVELS = ((GROUND,), ("crank", "rocker"), ("coupler",))
+SHAFT = f"{MACHINE_NAME}/shaft"
+"""Id of the shaft of a crank, which is fixed in it."""
+
+LEVELS = ((GROUND,), ("crank",), ("coupler",), ("rocker",))
 
 
 def coupler_ends(params: KnottingFourBarParams) -> tuple[float, float]:
@@ -77,7 +80,7 @@ def made_parts(params: KnottingFourBarParams, hole: float, ground_angle: float =
     size = LinkSize(params.width, params.thickness, hole, material_of(params))
     levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
     formed = {"coupler": _coupler(params, size)}
-    return linkage_parts(MACHINE_NAME, mechanism(params, ground_angle), levels, formed)
+    return linkage_parts(MACHINE_NAME, mechanism(params, ground_angle), levels, formed, ("O1",))
 
 
 def gear_part(params: KnottingFourBarParams, gears: EqualGears, bore: float) -> Part:

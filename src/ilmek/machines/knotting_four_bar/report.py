@@ -3,7 +3,7 @@
 import numpy as np
 
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, made_parts
+from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, SHAFT, made_parts
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
 from ilmek.machines.knotting_four_bar.posed import PosedFourBar
 from ilmek.machines.knotting_four_bar.sides import SidesAnalysis, analyse_sides
@@ -42,7 +42,7 @@ def checks(analysis: KnottingFourBarAnalysis) -> tuple[Check, ...]:
     """Dead point and transmission angle, servo; both sides, and the knot that they tie."""
     design = analysis.design
     distance = design.dead_point_distance
-    parts = made_parts(design.params, design.hole).ids
+    parts = {**made_parts(design.params, design.hole).ids, "O1": SHAFT}
     dead_point = at_least("crank's distance from its dead point", distance, DISTANCE, "deg", "rule of thumb")
     return (
         *((dead_point,) if design.range else ()),

@@ -1,24 +1,36 @@
 """The knotting four-bar as a tree of bodies: one side or both, and the drive of its first crank in line with the shaft.
 
-It moves from the first pose to the last and back, without poses over the whole range of its crank. With both sides the
-gears of the cranks lie between the plate that stands and the drive.
+It moves from the first pose to the last and back, without poses over the whole range of its crank. The crank's shaft
+turns in the frame plate, with the drive on that plate's back; with both sides on a base plate behind the gears.
 """
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.solve import solve
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, gear_part, made_parts
-from ilmek.machines.link_tree import GAP, Levels, LinkageParts, linkage_parts, linkage_tree
+from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, SHAFT, gear_part, made_parts, material_of
+from ilmek.machines.knotting_four_bar.sides import KnottingSides
+from ilmek.machines.link_tree import GAP, Levels, LinkageParts, linkage_parts, linkage_tree, pin_part
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
+from ilmek.part.profile import drilled
+from ilmek.part.shapes import Prism
 from ilmek.part.tree import Occurrence, Tree, in_line
+from ilmek.plane.contours import rounded_hull
+from ilmek.report import Hole
+from ilmek.units import in_mm, mm
+
+PILLAR = 12 * mm
+"""Diameter of the pillars between frame plate and base plate [m]; assumed by this project."""
 
 EVERY = 6
 """Every n-th sample of the design is a pose in space."""
@@ -31,14 +43,49 @@ def tree(design: KnottingFourBar) -> Tree:
     turns = design.working is None and design.range is None
     angles = there if turns else np.concatenate([there, there[-2::-1]])
     planned = sides.plan if sides else design.plan
-    mechanism, below = planned.mechanism, -GAP * params.thickness
+    mechanism, drive = planned.mechanism, tuple(_drive(design))
+    pivots, parts = mechanism.body(GROUND).points, parts_of(design, mechanism)
+    face = catalogue.face_of(drive[0]) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
+    carried = pivots["O1"] + face
+    top, begin, cranks = parts.levels.across(["crank"])[1], 0.0, {"crank": list[Occurrence]()}
     others: dict[str, Sequence[Occurrence]] = {}
     if sides is not None:
-        below -= sides.gears.width
-        gear = (Occurrence(gear_part(params, sides.gears, design.hole), (placement(z=below),)),)
-        others |= {"crank": gear, other("crank"): gear}
-    others[GROUND] = in_line(tuple(_drive(design)), below, mechanism.body(GROUND).points["O1"])
-    return linkage_tree(parts_of(design, mechanism), solve(planned, angles).require(), others)
+        gap, pillars = GAP * params.thickness, _pillars(sides, pivots["O1"])
+        low = -sides.gears.width - 2 * gap
+        begin = low - params.thickness
+        nodes = np.concatenate([carried, pillars, [pivots["O1"], pivots[other("O1")]]])
+        base = _plate(design, "base", "base plate", nodes, [pivots["O1"], pivots[other("O1")]])
+        post = pin_part(f"{MACHINE_NAME}/pillar", "pillar of the base plate", PILLAR, -low)
+        others[GROUND] = (
+            Occurrence(base, (placement(z=begin),)),
+            Occurrence(post, tuple(placement(point.real, point.imag, low) for point in pillars)),
+        )
+        gear = Occurrence(gear_part(params, sides.gears, design.hole), (placement(z=low + gap),))
+        cranks = {"crank": [gear], other("crank"): [gear]}
+        carried = pillars
+    points = np.concatenate([list(pivots.values()), carried])
+    frame = _plate(design, "frame", "frame plate", points, list(pivots.values()))
+    shaft = pin_part(SHAFT, "shaft of a crank", design.hole, top - begin)
+    others |= {body: (*own, Occurrence(shaft, (placement(z=begin),))) for body, own in cranks.items()}
+    others[GROUND] = (*others.get(GROUND, ()), *in_line(drive, begin, pivots["O1"]))
+    plates = {**parts.plates, GROUND: frame}
+    return linkage_tree(replace(parts, plates=plates), solve(planned, angles).require(), others)
+
+
+def _pillars(sides: KnottingSides, pivot: complex) -> ComplexArray:
+    """Axes of the pillars on the mirror, above and below both gears, of which they keep clear [m]; pivot  of one."""
+    radius = sides.gears.pitch_radius
+    aside = math.sqrt((radius + sides.gears.module + PILLAR) ** 2 - radius**2)
+    return complex(sides.mirror, pivot.imag) + 1j * np.array([aside, -aside])
+
+
+def _plate(design: KnottingFourBar, name: str, title: str, nodes: ComplexArray, bores: Sequence[complex]) -> Part:
+    """A plate that stands: about some nodes, with bores for pins and shafts [m]."""
+    params = design.params
+    outline = rounded_hull(nodes, max(params.width, PILLAR) / 2)
+    shape = Prism(drilled(outline, [Hole(point, design.hole / 2) for point in bores]), params.thickness)
+    size = f"plate {in_mm(params.thickness)}"
+    return Part(f"{MACHINE_NAME}/{name}", title, "machined link", size, shape, material_of(params))
 
 
 def parts_of(design: KnottingFourBar, mechanism: Mechanism) -> LinkageParts:
@@ -51,9 +98,8 @@ def parts_of(design: KnottingFourBar, mechanism: Mechanism) -> LinkageParts:
         tuple((*level, *(other(body) for body in level if body != GROUND)) for level in one.levels.bodies),
         {**sizes, **{other(body): sizes[body] for body in moving}},
     )
-    return linkage_parts(
-        MACHINE_NAME, mechanism, levels, {**moving, **{other(body): part for body, part in moving.items()}}
-    )
+    plates = {**moving, **{other(body): part for body, part in moving.items()}}
+    return linkage_parts(MACHINE_NAME, mechanism, levels, plates, ("O1", other("O1")))
 
 
 def _drive(design: KnottingFourBar) -> Iterator[Part]:

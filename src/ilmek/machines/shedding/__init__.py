@@ -21,7 +21,7 @@ from ilmek.machines.shedding.in_loom import fit, work
 from ilmek.machines.shedding.params import SheddingParams
 from ilmek.machines.shedding.report import tables, warnings
 from ilmek.machines.shedding.stack import CamStack
-from ilmek.machines.shedding.tree import tree
+from ilmek.machines.shedding.tree import stand, tree
 from ilmek.machines.shedding.workshop import cam_tables
 
 __all__ = ["MACHINE", "SheddingDesign", "SheddingParams", "design", "shed_lengthenings"]
@@ -40,6 +40,7 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     tree=tree,
+    stand=stand,
     cam_tables=cam_tables,
     work=work,
     fit=fit,

@@ -16,6 +16,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.shedding.cam_shaft import CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.reed import Reed, dent, reed_of
@@ -60,16 +61,35 @@ def tree(
 ) -> Tree:
     """The bodies of the shafts.
 
-    positions  of each shaft's axes; default: one above the other
+    positions  of each shaft's axes; default: one above the other, as on their stand
     turning, sinking   motions of the shafts about their axes, and of all that is on them; default: they stand
     """
-    where = positions or [placement(y=shaft.beyond) for shaft in design.shafts]
+    where = positions or [placement(y=height) for height in stand_heights(_carried(design))]
     bodies = [
         body
         for index, position in enumerate(where)
         for body in _of_shaft(design, index, position, Joint(JointKind.PIN, _ALONG, turning), sinking)
     ]
     return Tree(tuple(bodies))
+
+
+def stand(design: SheddingDesign) -> Tree:
+    """What carries the shafts of the machine alone."""
+    return shaft_stand(part_id, _carried(design))
+
+
+def _carried(design: SheddingDesign) -> tuple[CarriedShaft, ...]:
+    """The shafts, as their stand carries them: the cams with their guides take up room beside their axes."""
+    return tuple(
+        CarriedShaft(
+            _numbered(design, index, "cam shaft"),
+            f"shaft-{index + 1}",
+            shaft.seat,
+            bearing_inner(design, index),
+            max(shaft.stack.guide_radius, front_of(design, index), catalogue.face_of(reducer(design, index)) / 2),
+        )
+        for index, shaft in enumerate(design.shafts)
+    )
 
 
 def _of_shaft(

@@ -14,7 +14,7 @@ from ilmek.machines.tension_compensator.figures import figures
 from ilmek.machines.tension_compensator.in_loom import fit
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.report import checks, choices, tables, warnings
-from ilmek.machines.tension_compensator.tree import tree
+from ilmek.machines.tension_compensator.tree import stand, tree
 
 __all__ = ["MACHINE", "TensionCompensator", "TensionCompensatorParams", "design"]
 
@@ -30,6 +30,7 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     tree=tree,
+    stand=stand,
     choices=choices,
     fit=fit,
 )

@@ -96,9 +96,12 @@ class TensionCompensator:
     )
     half_depth = computed(
         "mm",
-        "from the middle plane to the sheet of a parity: the bars keep a radius between them, and the cross-pieces "
-        "pass over what carries a back rest of their radius",
-        lambda it: max(-it.one.lever.rest.real + 1.5 * it.radius, -it.parts.supports.low - 2 * it.radius),
+        "from the middle plane to the sheet of a parity: the bars keep a radius between them, the cross-pieces pass "
+        "over what carries a back rest of their radius, and the beams of two parities have room beside each other",
+        lambda it: max(
+            -it.one.lever.rest.real + 1.5 * it.radius,
+            -it.parts.supports.low + (it.members.beam.side + CLEARANCE / 2 if it.bars > 1 else -2 * it.radius),
+        ),
     )
 
     @property

@@ -7,12 +7,22 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.machines.tension_compensator.design import TensionCompensator
-from ilmek.machines.tension_compensator.parts import sprung_bar, standing
+from ilmek.machines.tension_compensator.members import part_id
+from ilmek.machines.tension_compensator.params import STEEL
+from ilmek.machines.tension_compensator.parts import CUT, sprung_bar, standing
+from ilmek.part.part import Part
 from ilmek.part.placement import placement
-from ilmek.part.tree import RigidBody, Tree
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.plane.contours import rounded_hull
 from ilmek.report.scene import SceneMotion
+from ilmek.units import mm
 
 EVEN, ODD = "even", "odd"
+
+SIDE, EDGE, PLAY = 12 * mm, 10 * mm, 5 * mm
+"""Thickness of a plate of the stand, from beams and openings to its edge, round a bar that swings [m]; assumed."""
 
 
 def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = None) -> Tree:
@@ -27,6 +37,21 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
         stand = standing(parts, parity, turned[parity])
         bodies += (stand, replace(sprung_bar(parts, parity, (motions or {}).get(parity)), parent=stand.id))
     return Tree(tuple(bodies))
+
+
+def stand(design: TensionCompensator) -> Tree:
+    """What carries the beams of the machine alone: a plate welded to their ends on each side, open where bars swing."""
+    parts, lever = design.parts, design.one.lever
+    swept = np.array([complex(lever.bar(angle)) for angle in (0.0, design.one.angle)]) + design.half_depth
+    swings = (swept, -swept.conj())[: design.bars]
+    beams = np.array([axis for axis, _ in design.beams])
+    room = design.radius + PLAY
+    reach = max(design.members.beam.side / math.sqrt(2), room) + EDGE
+    outline = rounded_hull(np.concatenate([beams, *swings]), reach)
+    section = Profile(outline, tuple(rounded_hull(swing, room) for swing in swings))
+    plate = Part(part_id("side-plate"), "side plate of the stand", CUT, "", Prism(section, SIDE), STEEL)
+    half = parts.supports.params.cloth.width / 2
+    return Tree((RigidBody(part_id("sides"), (Occurrence(plate, (placement(z=half), placement(z=-half - SIDE))),)),))
 
 
 def lever_motion(drive: str, angle: FloatArray, rotation: FloatArray) -> SceneMotion:

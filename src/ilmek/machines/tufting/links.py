@@ -4,12 +4,14 @@
     rocker and arm: an eye on the driven shaft at C, and one at the other pin             rod: a flat link
 
 d is the main shaft's diameter. An eye's radius is half the link's width, or what leaves a wall about its hole. The
-needle bar is round and as long as from E to F; its diameter follows from its mass, which counts the needles.
+needle bar has a bored head at E and is round from there to F; its diameter follows from its mass, with the needles.
 """
 
 import math
 from functools import lru_cache
 from typing import NamedTuple
+
+from scipy.optimize import brentq
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.elements.materials import MATERIALS, Material
@@ -21,7 +23,7 @@ from ilmek.part.flat_link import eyed_link
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.report import Contour
@@ -76,7 +78,7 @@ def needle_parts(params: TuftingParams, sizes: NeedleSizes) -> LinkageParts:
     thick = sections["coupler"][1]
     pins = dict(sizes.pins)
     plates = {name: LinkSize(*section, min(pins.values()), material) for name, section in sections.items()}
-    needle = needle_diameter(params)
+    needle = needle_diameter(params, pins["E"])
     room = {"crank": LinkSize(2 * params.crank, thick, sizes.main, material), **plates}
     if needle > 0:
         room["needle"] = LinkSize(needle, needle, pins["E"], material)
@@ -86,7 +88,7 @@ def needle_parts(params: TuftingParams, sizes: NeedleSizes) -> LinkageParts:
         "rocker": _eyed(params, "rocker", circle(0j, sizes.driven / 2), pins["B"]),
         "arm": _eyed(params, "arm", circle(0j, sizes.driven / 2), pins["D"]),
         "rod": _eyed(params, "rod", circle(0j, pins["D"] / 2), pins["E"]),
-        **({"needle": needle_bar(params)} if needle > 0 else {}),
+        **({"needle": needle_bar(params, pins["E"])} if needle > 0 else {}),
     }
     levels = Levels(tuple(level for level in LEVELS if set(level) <= set(room)), room, pins)
     return linkage_parts(NAME, mechanism(params), levels, formed, SHAFTS)
@@ -122,18 +124,32 @@ def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
     return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL, machined=True)
 
 
-def needle_diameter(params: TuftingParams) -> float:
-    """Diameter of a round bar from E to F that weighs as much as bar and needles [m]."""
-    return math.sqrt(4 * params.needle_mass / (math.pi * STEEL.density * params.needle))
+def needle_diameter(params: TuftingParams, pin: float) -> float:
+    """Diameter of a bar from E to F that weighs, with its bored head, as much as bar and needles [m]; pin  at E [m].
+
+    The head lets it weigh more than a round bar of that length, whose diameter is the greatest.
+    """
+    volume = params.needle_mass / STEEL.density
+    round_one = math.sqrt(4 * volume / (math.pi * params.needle))
+    if volume <= 0:
+        return 0.0
+    return float(brentq(lambda one: _needle_shape(params, pin, one).volume - volume, 1e-3 * round_one, round_one))
 
 
-def needle_bar(params: TuftingParams) -> Part:
-    """The needle bar from E downwards, its lower side at z = 0."""
-    diameter, length = needle_diameter(params), params.needle
-    down = placement(z=diameter / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
-    size = f"{round_size(diameter)}, {in_mm(length)}"
-    shape = Sum((Placed(bar(diameter, length), (down,)),))
-    return Part(f"{NAME}/needle", "needle bar with its needles", "steel bar", size, shape, STEEL, envelope=True)
+def needle_bar(params: TuftingParams, pin: float) -> Part:
+    """The needle bar from E downwards, its lower side at z = 0, with a head about the pin at E."""
+    diameter = needle_diameter(params, pin)
+    size, shape = f"{round_size(diameter)}, {in_mm(params.needle)}", _needle_shape(params, pin, diameter)
+    title = "needle bar with its needles"
+    return Part(f"{NAME}/needle", title, "steel bar", size, shape, STEEL, envelope=True, machined=True)
+
+
+def _needle_shape(params: TuftingParams, pin: float, diameter: float) -> Sum:
+    """A bored block about E, as thick as the bar, and the bar below it."""
+    side = min(max(diameter, pin * (1 + 2 * WALL)), params.needle)
+    head = Prism(Profile(rectangle(side, side), (circle(0j, min(pin, 0.9 * side) / 2),)), diameter)
+    down = placement(y=-side / 2, z=diameter / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
+    return Sum((Placed(head), Placed(bar(diameter, params.needle - side / 2), (down,))))
 
 
 def eccentric_radius(crank: float, shaft: float) -> float:

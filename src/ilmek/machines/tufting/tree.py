@@ -16,6 +16,7 @@ from ilmek.elements.reducers import DIRECT
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.motion import Motion
 from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
+from ilmek.machines.shaft_stand import lantern
 from ilmek.machines.tufting.design import Tufting
 from ilmek.machines.tufting.links import NAME, WALL, driven_shaft, mechanism_depth, needle_parts, shaft_part
 from ilmek.machines.tufting.model import move
@@ -74,7 +75,7 @@ def needle_drives(
         (
             Occurrence(plate, tuple(beside)),
             *(_at(part, x, beside) for part, x in zip(bearings, (0.0, abs(away)), strict=True)),
-            *(in_line(motors, low - thick - sizes.main) if motors else ()),
+            *(in_line(motors, low - thick) if motors else ()),
         ),
         joint=Joint(JointKind.MISSING),
     )
@@ -165,10 +166,13 @@ def _driven_shaft_at(design: Tufting) -> complex:
 
 
 def _drive(design: Tufting) -> Iterator[Part]:
-    """The servo of the main shaft behind its reducer, from the shaft on."""
-    strength = needle_strength(design)
+    """The lantern on the first bearing plate, and behind it the servo of the main shaft with its reducer."""
+    strength, driven = needle_strength(design), list[Part]()
     row, reducer = strength.motor or (None, DIRECT)
     if reducer.ratio != 1:
-        yield catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer, row)
+        driven.append(catalogue.reducer(f"{NAME}/reducer", "reducer of the main shaft", reducer, row))
     torque, speed = reducer.motor_torque(strength.motor_torque), design.params.speed * reducer.ratio
-    yield catalogue.motor(f"{NAME}/motor", "servo of the main shaft", row, torque, speed)
+    driven.append(catalogue.motor(f"{NAME}/motor", "servo of the main shaft", row, torque, speed))
+    main = needle_sizes(design).main
+    yield lantern(f"{NAME}/lantern", "main shaft", driven[0], main, main)
+    yield from driven

@@ -10,7 +10,7 @@ import numpy as np
 
 from ilmek.elements.bearing_table import DEEP_GROOVE, ROLLING_BEARINGS, RollingBearing
 from ilmek.linkage.model import GROUND
-from ilmek.machines.tufting.links import WALL, eccentric_radius, mechanism_depth, needle_diameter, needle_parts
+from ilmek.machines.tufting.links import WALL, eccentric_radius, mechanism_depth, needle_parts
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.looper_parts import CRANK, ROCKER
@@ -75,11 +75,15 @@ class TuftingLayout:
         return self.machine.lowest + self.machine.loop.geometry.under
 
     @property
+    def needle_sides(self) -> tuple[float, float]:
+        """Both sides of the room of the first push rod along z [m]."""
+        needle = self.machine.needle
+        return needle_parts(needle.params, needle_sizes(needle)).levels.across(["needle"])
+
+    @property
     def needle_level(self) -> float:
         """Middle of the first push rod along z [m]: of the plane of the needles."""
-        needle = self.machine.needle
-        bottoms = needle_parts(needle.params, needle_sizes(needle)).levels.bottoms
-        return bottoms["needle"] + needle_diameter(needle.params) / 2
+        return sum(self.needle_sides) / 2
 
     def middle(self, drive: int) -> float:
         """Middle of a drive, counted from 0, along z [m]."""

@@ -16,7 +16,6 @@ from ilmek.elements.reducers import DIRECT, Reducer
 from ilmek.linkage.model import GROUND
 from ilmek.linkage.solve import solve
 from ilmek.machines.link_tree import TURN, body_id, linkage_bodies, linkage_closures
-from ilmek.machines.tufting.links import needle_diameter
 from ilmek.machines.tufting.links import needle_parts as drive_parts
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import POSES, keyed, needle_drives
@@ -70,9 +69,7 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
     """The needle drives with push rods, needle bar and needles; what closes the bar's loops."""
     machine, params = laid.machine, laid.machine.params
     made, (first, last) = needle_parts(params), laid.ends
-    rod = Occurrence(
-        _headed_rod(machine), (placement(z=laid.needle_level - needle_diameter(machine.needle.params) / 2),)
-    )
+    rod = Occurrence(_headed_rod(machine), (placement(z=laid.needle_sides[0]),))
     end = last + END_PLATE + CLEAR + STATION + params.shafts.flywheel
     drives = needle_drives(machine.needle, laid.pitch, needle=(rod,), feet=feet(laid), shaft=(first - END_PLATE, end))
     wheel, pulley = _flywheel(machine), _pulley("pulley", machine.shafts.diameter)

@@ -16,7 +16,7 @@ from ilmek.machines.warp_tension.figures import figures
 from ilmek.machines.warp_tension.in_loom import fit, work
 from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.report import checks, tables, warnings
-from ilmek.machines.warp_tension.tree import tree
+from ilmek.machines.warp_tension.tree import stand, tree
 
 __all__ = ["MACHINE", "WarpTensionDesign", "WarpTensionParams", "design"]
 
@@ -32,6 +32,7 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     tree=tree,
+    stand=stand,
     work=work,
     choices=choices,
     fit=fit,

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.warp_tension.attachment import on_cylinder
 from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
 from ilmek.machines.warp_tension.design import WarpTensionDesign
@@ -25,9 +26,6 @@ from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, round_size, turn
 
-GAP = 20 * mm
-"""Room between the cylinders of the machine alone [m]; assumed by this project."""
-
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
 
@@ -35,10 +33,12 @@ WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = None) -> Tree:
     """The bodies of the three cylinders.
 
-    positions  of each cylinder's axes by its name; default: one above the other, as it has no side view of its own
+    positions  of each cylinder's axes by its name; default: one above the other, as on their stand
     """
     shells, drives = _shells(design), _drives(design)
-    where = positions or {own.name: placement(y=y) for own, y in zip(cylinders(design), _heights(design), strict=True)}
+    where = positions or {
+        own.name: placement(y=y) for own, y in zip(cylinders(design), stand_heights(_carried(design)), strict=True)
+    }
     bodies = (
         body
         for cylinder, shell in zip(cylinders(design), shells, strict=True)
@@ -47,14 +47,25 @@ def tree(design: WarpTensionDesign, positions: dict[str, Placement] | None = Non
     return Tree(tuple(bodies))
 
 
-def _heights(design: WarpTensionDesign) -> tuple[float, ...]:
-    """Heights of the axes of the cylinders one above the other [m]."""
-    drives = _drives(design)
-    upper, lower, spacer = (
-        max(2 * own.flange, own.seat.side, *map(catalogue.face_of, drives[own.name][:1])) + GAP
+def stand(design: WarpTensionDesign) -> Tree:
+    """What carries the cylinders of the machine alone."""
+    return shaft_stand(part_id, _carried(design))
+
+
+def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
+    """The cylinders, as their stand carries them: with the room of tubes and reducers, or hand wheels."""
+    drives, far = _drives(design), design.params.span / 2 + design.params.stub
+    wheel = design.params.crank + HANDLE_SIZE if design.params.by_hand else 0.0
+    return tuple(
+        CarriedShaft(
+            f"{own.name} cylinder",
+            own.name,
+            own.seat,
+            far,
+            max(own.flange, catalogue.face_of(drives[own.name][0]) / 2, wheel),
+        )
         for own in cylinders(design)
     )
-    return 0.0, -(upper + lower) / 2, -(upper + 2 * lower + spacer) / 2
 
 
 def turning(bodies: Tree, motions: dict[str, SceneMotion]) -> Tree:

@@ -18,16 +18,17 @@ import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
 from ilmek.machines.weaver.design import Weaver
+from ilmek.machines.weaver.jaw_hinge import JawHinge
 from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP
 from ilmek.machines.weaver.opener import STEEL
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
 from ilmek.machines.weaver.stations import station
-from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, part_id, wire_of
+from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, TO_THE_TIP, part_id, wire_of
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Turned, bar, box, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
@@ -43,8 +44,8 @@ EYE, LUG = 3 * mm, 2.5 * mm
 PIN, PIN_HEAD, HEAD = 3 * mm, 5 * mm, 1 * mm
 """Diameters of a roller's pin and of its head, and thickness of this, which holds the roller on its arm [m]."""
 
-IN_BORE = 0.1 * mm
-"""Room of a wire in its bore [m]."""
+APART = 0.3 * mm
+"""From a spring, or a collar in the middle of its stroke, to what it must not touch [m]."""
 
 HUB, FLANGE, GROOVE, WALL = 4 * mm, 7 * mm, 2.8 * mm, 0.8 * mm
 """Diameters of a collar's hub and flanges, width of its groove and thickness of its flanges [m]."""
@@ -88,7 +89,7 @@ def rocker(weaver: Weaver, track: str) -> Rocker:
 
 def _before(weaver: Weaver, track: str) -> float:
     """From a carriage to the axle of its rocker [m]: the spring, and half a collar, in the middle of its stroke."""
-    return longest(weaver, track) - stroke_at(weaver.cam(track)) / 2 + GROOVE / 2 + WALL + IN_BORE * 3
+    return longest(weaver, track) - stroke_at(weaver.cam(track)) / 2 + GROOVE / 2 + WALL + APART
 
 
 def arm_of(weaver: Weaver, track: str) -> float:
@@ -231,53 +232,56 @@ def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:
 def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
     """The collar on a gripper, and the wire that it pulls, from the gripper's tip to it."""
     params, side = weaver.params, track == SIDE_GRASP
-    bore, kind = (params.finger / 2, "side") if side else (params.finger / math.sqrt(2), "centre")
-    deep = GROOVE + 2 * WALL
-    corners = [
-        *(complex(0, bore), complex(deep, bore), complex(deep, FLANGE / 2), complex(deep - WALL, FLANGE / 2)),
-        *(complex(deep - WALL, HUB / 2), complex(WALL, HUB / 2), complex(WALL, FLANGE / 2), complex(0, FLANGE / 2)),
-    ]
-    ring = Turned(Profile(polygon(np.array(corners))))
+    kind = "side" if side else "centre"
+    bore = circle(0j, params.finger / 2) if side else rectangle(params.finger, params.finger)
+    flange, hub = (Profile(circle(0j, size / 2), (bore,)) for size in (FLANGE, HUB))
+    flanges = Placed(Prism(flange, WALL), (placement(), placement(z=GROOVE + WALL)))
+    ring = Sum((flanges, Placed(Prism(hub, GROOVE), (placement(z=WALL),))))
     begin = weaver.tool_bodies.tip(LEFT) if side else weaver.tool_bodies.tip(CENTRE) + JAW
     wire, long = wire_of(params), rocker(weaver, track).axle.real - begin
     title = f"collar of the {kind} jaws"
     return (
         Part(part_id(f"{kind}-collar"), title, "turned part", in_mm(FLANGE), ring, STEEL),
-        Part(wire_id(track), f"wire of the {kind} jaws", "pin or bush", in_mm(wire), bar(wire - IN_BORE, long), STEEL),
+        Part(wire_id(track), f"wire of the {kind} jaws", "pin or bush", in_mm(wire), bar(wire, long), STEEL),
     )
 
 
 def opened(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
     """Angle of the jaws' fingers [rad] at lifts of their follower [m], 0 when they are closed."""
-    length = weaver.tool_bodies.jaw if track == SIDE_GRASP else JAW
+    long = _hinge(weaver, track == SIDE_GRASP)
+    length = long.length - long.root
     widest = math.asin(min(weaver.params.jaw / length, 0.5)) if length > 0 else 0.0
     return np.asarray(widest * (1 - lift / weaver.cam(track).lift))
 
 
+def _hinge(weaver: Weaver, side: bool) -> JawHinge:
+    """The hinge of the side or the centre jaws."""
+    return JawHinge(weaver.tool_bodies.jaw if side else JAW, weaver.params.finger)
+
+
 def _finger(weaver: Weaver, name: str) -> RigidBody | None:
     """The finger at a gripper's end, in the gripper's frame, open; None where its arm is too short."""
-    half, side = weaver.params.finger / 2, name != CENTRE
-    if side and weaver.tool_bodies.jaw <= 0:
+    side = name != CENTRE
+    hinge, level = _hinge(weaver, side), weaver.params.finger / 4
+    if hinge.length <= 0:
         return None
-    track = SIDE_GRASP if side else CENTRE_GRASP
-    angle, axis = float(opened(weaver, track, 0.0)), (0.0, 0.0, 1.0) if side else (1.0, 0.0, 0.0)
-    part = _finger_part(weaver, side)
+    angle = float(opened(weaver, SIDE_GRASP if side else CENTRE_GRASP, 0.0))
     if side:
-        turned_half = placement(about=axis, angle=math.pi if name == LEFT else 0.0)
-        rest = turned_half.after(placement(weaver.grippers.arm - weaver.tool_bodies.jaw, half))
-        place = placement(weaver.tool_bodies.jaw / 2, -half / 2, -half)
+        half_turn = placement(about=(0.0, 0.0, 1.0), angle=math.pi if name == LEFT else 0.0)
+        rest = half_turn.after(placement(weaver.grippers.arm - hinge.length + hinge.root, level))
     else:
-        rest, place = placement(0.0, half, JAW), placement(0.0, -half / 2, -JAW)
-    position = rest.after(placement(about=axis, angle=angle))
-    return RigidBody(finger_body(name), (Occurrence(part, (place,)),), name, Joint(JointKind.PIN, axis), (position,))
+        rest = placement(0.0, level, JAW - hinge.root).after(TO_THE_TIP)
+    position = rest.after(placement(about=(0.0, 0.0, 1.0), angle=angle))
+    return RigidBody(
+        finger_body(name), (Occurrence(_finger_part(weaver, side)),), name, Joint(JointKind.PIN), (position,)
+    )
 
 
 @lru_cache(maxsize=8)
 def _finger_part(weaver: Weaver, side: bool) -> Part:
-    finger = weaver.params.finger
-    shape = box(weaver.tool_bodies.jaw, finger / 2, finger) if side else box(finger, finger / 2, JAW)
-    kind = "side" if side else "centre"
-    return Part(part_id(f"{kind}-finger"), f"finger of the {kind} jaws", "machined link", in_mm(finger), shape, STEEL)
+    kind, shape = "side" if side else "centre", _hinge(weaver, side).finger
+    title, size = f"finger of the {kind} jaws", in_mm(weaver.params.finger)
+    return Part(part_id(f"{kind}-finger"), title, "machined link", size, shape, STEEL)
 
 
 def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:

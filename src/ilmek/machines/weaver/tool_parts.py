@@ -27,6 +27,7 @@ from ilmek.machines.weaver.head_shape import (
     HeadTool,
     HeadTools,
 )
+from ilmek.machines.weaver.jaw_hinge import JawHinge
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
@@ -59,6 +60,9 @@ CENTRE_BAR, WINDOW = 8 * mm, 4 * mm
 this project."""
 
 _ALONG = (0.0, 0.0, 1.0)
+
+TO_THE_TIP = placement(about=(0.0, 1.0, 0.0), angle=math.pi / 2)
+"""The axes of the centre jaws' hinge in their gripper's."""
 
 
 def part_id(name: str) -> str:
@@ -135,29 +139,38 @@ class ToolBodies:
         members = [rod]
         if by.arm - jaw > half:
             members.append(Placed(bar(by.finger, by.arm - jaw - half), (placement(half).after(ALONG_WIDTH),)))
+        pinned: tuple[Occurrence, ...] = ()
         if jaw > 0:
+            hinge, root = JawHinge(jaw, by.finger), by.arm - jaw
             members.append(Placed(box(jaw, half, by.finger), (placement(by.arm - jaw / 2, -half / 2, -half),)))
+            members.append(_moved(hinge.lugs, placement(root + hinge.root, half / 2)))
+            pin = hinge.pin(part_id("side-finger-pin"), "pin of the side jaws' finger")
+            pinned = (Occurrence(pin, (placement(root + hinge.root, half / 2, -half),)),)
         part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), round_size(by.finger))
-        part = replace(part, machined=True)
+        own = Occurrence(replace(part, machined=True)), *pinned
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
             turned = placement(about=_ALONG, angle=math.pi if hand < 0 else 0.0)
             origin = placement(hand * by.axis, self.tied + hand * by.lift / 2, self.tip(name))
-            return SIDE_MOTION, RigidBody(name, (Occurrence(part, (turned,)),), PLATES, joint, (origin,))
+            parts = tuple(replace(one, positions=tuple(turned.after(at) for at in one.positions)) for one in own)
+            return SIDE_MOTION, RigidBody(name, parts, PLATES, joint, (origin,))
 
         return body(LEFT, -1), body(RIGHT, 1)
 
     def _centre(self, parent: str) -> tuple[str, RigidBody]:
         """A square tube to its carriage, at its tip half as thick, beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
-        length = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE)
+        length, hinge = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE), JawHinge(JAW, by.finger)
         size = f"square {in_mm(by.finger)}"
         section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
         rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw)), size)
-        return CENTRE_MOTION, _sliding(CENTRE, (Occurrence(part),), parent, origin)
+        at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
+        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))), size)
+        pin = hinge.pin(part_id("centre-finger-pin"), "pin of the centre jaws' finger")
+        parts = Occurrence(part), Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
+        return CENTRE_MOTION, _sliding(CENTRE, parts, parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
         """Both plates, alike."""
@@ -242,6 +255,11 @@ class ToolBodies:
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
     return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{in_mm(shape.length)} thick")
+
+
+def _moved(member: Placed, position: Placement) -> Placed:
+    """A member of a sum elsewhere."""
+    return replace(member, positions=tuple(position.after(own) for own in member.positions))
 
 
 def wire_of(params: WeaverParams) -> float:

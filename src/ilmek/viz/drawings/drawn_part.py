@@ -9,14 +9,14 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.part.blanks import blanks_of, size_of
 from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
-from ilmek.part.part import CamMaking, Part
+from ilmek.part.part import WELDED, CamMaking, Part
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.specification import PartSpecification, specification
 from ilmek.part.tolerances import ToleratedFeature
 from ilmek.part.tree import Tree
-from ilmek.part.welds import WELDED, Weld, welds_of
+from ilmek.part.welds import Weld, welds_of
 from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import circle
 from ilmek.records import record

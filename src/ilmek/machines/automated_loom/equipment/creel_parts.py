@@ -32,12 +32,11 @@ from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, box, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
-from ilmek.part.welds import WELDED
 from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
 
