@@ -106,7 +106,8 @@ def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progr
     per_metre = CELLS / gun.params.row_spacing
     if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
         order = replace(order, size=make_charted(order, progress.part(0.0, 0.2)).chart.size)
-    charted = make_charted(replace(order, quality=Quality(per_metre, per_metre)), progress.part(0.2, 0.6))
+    order = replace(order, quality=Quality(per_metre, per_metre), pdf=False, files=replace(order.files, rows="none"))
+    charted = make_charted(order, progress.part(0.2, 0.6))
     chart, carpet = charted.chart, charted.order.order
     wool = carpet.plan.price("pile", "wool")
     cones = tuple(

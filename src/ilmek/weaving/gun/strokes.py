@@ -2,7 +2,7 @@
 
 The centre of the gun may be where it is at least half a row from the border. Rows lie on lines a row apart, on the same
 lines for the whole carpet. A row is as long as anything within a share of half a row beside its centre is deeper than a
-row, so is not covered by the outline. Rows that follow each other are joined to one stroke where the way between their
+row, so is not covered by the outline. Rows that follow each other are joined to one stroke where a way between their
 ends keeps the distance from the border.
 
 All regions of a colour are cut at once: region k is laid k strips further up, and comes back when its strokes are made.
@@ -16,7 +16,7 @@ from manifold3d import CrossSection
 from ilmek.arrays import Bool, Complex, Int
 from ilmek.plane.vectors import cross, following
 from ilmek.records import record
-from ilmek.weaving.gun.intervals import LINE, Intervals, common, cut, holds
+from ilmek.weaving.gun.cuts import LINE, Cuts, common, cut, nearest
 from ilmek.weaving.gun.regions import deeper, polygons_of, section
 
 SHARES = (0.4, 0.99)
@@ -27,13 +27,16 @@ regions of which too little is covered.
 _HALVES = np.linspace(-0.5, 0.5, 7)
 """Where that is looked for, of this share [rows]."""
 
-_STEPS = (0.25, 0.5, 0.75)
-"""Where the way from a row to the next is proved to be clear of the border."""
+_STEPS = tuple((np.arange(1, 8) / 8).tolist())
+"""Where the way from a row to the next is kept clear of the border."""
+
+_ASIDE = 0.5
+"""Largest distance from the straight way [rows]."""
 
 _SHORTEST = 0.02
 """Shortest row [rows]."""
 
-TOLERANCE = 0.002
+TOLERANCE = 0.006
 """Deviation of outlines [rows]."""
 
 
@@ -75,7 +78,7 @@ def strokes_of(shape: CrossSection, spacing: float, least: float) -> list[Region
     spacing  distance of the rows, and the width that one covers [m]
     least    share of a region below which its rows are made longer
     """
-    regions = shape.decompose()
+    regions = [region for region in shape.decompose() if not region.is_empty()]
     first, longer = SHARES
     strokes = _strokes(regions, spacing, first)
     bare = [number for number, own in enumerate(strokes) if own.bare > (1 - least) * own.area]
@@ -143,19 +146,21 @@ def _rectangles(chains: list[Complex[np.ndarray, " points"]], half: float) -> It
         yield from np.stack([start - side, start + piece - side, start + piece + side, start + side], axis=1)
 
 
-def _chains(rows: Intervals, ways: list[Intervals], spacing: float) -> Iterator[Complex[np.ndarray, " corners"]]:
+def _chains(rows: Cuts, ways: list[Cuts], spacing: float) -> Iterator[Complex[np.ndarray, " corners"]]:
     """Rows joined turn by turn, where each of two lines has one row beside the other's."""
     after = _row_after(rows)
     alone = np.ones(len(after), dtype=bool)
     alone[after[after >= 0]] = False
     ends = np.stack([rows.start, rows.end]) + 1j * (rows.line + 0.5) * spacing
-    clear = _clear(ends, after, rows, ways)
+    links, bent = _links(ends, after, rows, ways, spacing)
+    clear = np.isfinite(links).all(axis=2)
     for first in np.flatnonzero(alone).tolist():
         row, side = first, 0
         chain = [ends[0, row], ends[1, row]]
         while (beside := int(after[row])) >= 0:
             if clear[1 - side, row]:
                 side = 1 - side
+                chain += links[side, row, bent[side, row]].tolist()
             else:
                 yield np.array(chain)
                 chain, side = [], 0
@@ -164,7 +169,7 @@ def _chains(rows: Intervals, ways: list[Intervals], spacing: float) -> Iterator[
         yield np.array(chain)
 
 
-def _row_after(rows: Intervals) -> Int[np.ndarray, " rows"]:
+def _row_after(rows: Cuts) -> Int[np.ndarray, " rows"]:
     """The row on the next line that each is joined to: the only one beside it, beside no other; -1: none."""
     first, number = _beside(rows, 1)
     _, numbers = _beside(rows, -1)
@@ -172,20 +177,30 @@ def _row_after(rows: Intervals) -> Int[np.ndarray, " rows"]:
     return np.where((after >= 0) & (numbers[after] == 1), after, -1)
 
 
-def _beside(rows: Intervals, step: int) -> tuple[Int[np.ndarray, " rows"], Int[np.ndarray, " rows"]]:
+def _beside(rows: Cuts, step: int) -> tuple[Int[np.ndarray, " rows"], Int[np.ndarray, " rows"]]:
     """The first row on the line `step` further that has an x in common with each, and how many have."""
     line = LINE * (rows.line + step)
     first = np.searchsorted(LINE * rows.line + rows.end, line + rows.start, side="right")
     return first, np.searchsorted(LINE * rows.line + rows.start, line + rows.end) - first
 
 
-def _clear(
-    ends: Complex[np.ndarray, "2 rows"], after: Int[np.ndarray, " rows"], rows: Intervals, ways: list[Intervals]
-) -> Bool[np.ndarray, "2 rows"]:
-    """Whether the way from each end of a row to that of the next is within what the centre may reach."""
-    clear = np.ones(ends.shape, dtype=bool)
-    for side in (0, 1):
-        for step, way in zip(_STEPS, ways, strict=True):
+def _links(
+    ends: Complex[np.ndarray, "2 rows"],
+    after: Int[np.ndarray, " rows"],
+    rows: Cuts,
+    ways: list[Cuts],
+    spacing: float,
+) -> tuple[Complex[np.ndarray, "2 rows steps"], Bool[np.ndarray, "2 rows steps"]]:
+    """Points between each end of a row and that of the next, as near to the straight way as the border allows, and
+    whether they are beside it; NaN: the centre cannot go there.
+    """
+    links = np.full((*ends.shape, len(_STEPS)), np.nan + 0j)
+    bent = np.zeros(links.shape, dtype=bool)
+    for number, (step, way) in enumerate(zip(_STEPS, ways, strict=True)):
+        for side in (0, 1):
             x = ends[side].real + step * (ends[side, after].real - ends[side].real)
-            clear[side] &= holds(way, rows.line, x)
-    return clear
+            near = nearest(way, rows.line, x)
+            points = near + 1j * (ends[side].imag + step * spacing)
+            bent[side, :, number] = near != x
+            links[side, :, number] = np.where(np.abs(near - x) <= _ASIDE * spacing, points, np.nan)
+    return links, bent
