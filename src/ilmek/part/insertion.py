@@ -17,7 +17,6 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.part.insertion_units import MAIN, Direction, InsertedUnit, units_of
-from ilmek.part.part import LASER_CUT, WELDED
 from ilmek.part.straight_moves import FIT, Vector, meets, swept_box, through
 from ilmek.part.tree import Tree
 from ilmek.records import record
@@ -137,7 +136,7 @@ class _Plan:
     def _next(self) -> list[Insertion]:
         """The steps in which a body leaves, the last of the tree first; else a part of one, a group, by two moves."""
         bodies: dict[str, list[InsertedUnit]] = defaultdict(list)
-        for unit in sorted(self.standing, key=lambda unit: (self._is_stock(unit), -unit.number)):
+        for unit in sorted(self.standing, key=lambda unit: (unit.name in self.welded and unit.is_stock, -unit.number)):
             bodies[unit.name].append(unit)
         for units in bodies.values():
             alone = len(units) == len(self.standing)
@@ -149,10 +148,6 @@ class _Plan:
         step = next(filter(None, tries), None) or self._held()
         self.standing -= set(step.units)
         return [step]
-
-    def _is_stock(self, unit: InsertedUnit) -> bool:
-        """Whether a unit is welded: it leaves after what is only screwed to the same body."""
-        return unit.name in self.welded and unit.pieces[0].part.process in {WELDED, LASER_CUT}
 
     def _body(self, units: list[InsertedUnit]) -> list[Insertion]:
         """The steps in which the parts of a body leave, all one after the other, or all at once; none: they cannot."""

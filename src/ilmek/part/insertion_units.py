@@ -19,7 +19,7 @@ from ilmek.arrays import Float
 from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.retaining_rings import RetainingRing, ring_of
 from ilmek.part.colliders import COARSE, MANY, collider
-from ilmek.part.part import Part
+from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.part_lists import BELTS, FASTENER
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains, poses
@@ -92,6 +92,11 @@ class InsertedUnit:
     def fastens(self) -> bool:
         """Whether it is screws, or a key."""
         return len(self.parts) == 1 and self.pieces[0].part.process == FASTENER
+
+    @property
+    def is_stock(self) -> bool:
+        """Whether it is welded: it leaves after what is only screwed to the same body."""
+        return self.pieces[0].part.process in {WELDED, LASER_CUT}
 
     @property
     def yields(self) -> bool:
