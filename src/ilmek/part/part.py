@@ -49,6 +49,7 @@ class Bought:
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
     holes   for its screws; None: its maker drills it where its seat is
+    housing  tolerance class of the bore in which its outer ring sits
     """
 
     row: str
@@ -58,6 +59,7 @@ class Bought:
     drives: int = 0
     data: str = ""
     holes: HolePattern | None = None
+    housing: str = "H7"
 
 
 @record

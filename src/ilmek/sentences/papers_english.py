@@ -359,7 +359,8 @@ PAPERS = {
     "manual.then-from": "{first}, then {second}",
     "manual.comes": "parts",
     "manual.mass": "mass",
-    "manual.tighten": "screws and keys",
+    "manual.tighten": "screws, keys and welds",
+    "manual.weld": "weld a{throat}",
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",

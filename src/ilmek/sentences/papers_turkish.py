@@ -358,7 +358,8 @@ PAPERS = {
     "manual.then-from": "{first}, sonra {second}",
     "manual.comes": "parçalar",
     "manual.mass": "kütle",
-    "manual.tighten": "vida ve kamalar",
+    "manual.tighten": "vida, kama ve kaynaklar",
+    "manual.weld": "kaynak a{throat}",
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
