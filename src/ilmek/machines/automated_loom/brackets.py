@@ -273,12 +273,11 @@ def _of_seat(  # noqa: PLR0917
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
     outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
     nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
-    bores, inner, opening = screw_bores(seat, moved), far + seat.bearing.width, complex(at.real - loom.side.column)
+    bores, inner = screw_bores(seat, moved), far + seat.bearing.width
+    opening: complex | None = complex(at.real - loom.side.column) if shift is None else 1j
     root = complex(moved[np.argmin(moved.imag)])
-    if shift is not None and np.ptp(moved.real) > um:
+    if np.ptp(moved.real) > um:  # no straight slot
         bores, opening = (rounded_hull(moved, seat.bore / 2), *bores), None
-    elif shift is not None:
-        opening = 1j
     return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, root, force, moment)
 
 
