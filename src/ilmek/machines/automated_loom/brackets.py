@@ -274,12 +274,10 @@ def _of_seat(  # noqa: PLR0917
     outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
     nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
     bores, inner = screw_bores(seat, moved), far + seat.bearing.width
-    opening: complex | None = complex(at.real - loom.side.column)
+    opening: complex | None = complex(at.real - loom.side.column) if shift is None else 1j
     root = complex(moved[np.argmin(moved.imag)])
-    if shift is not None and np.ptp(moved.real) > um:
+    if np.ptp(moved.real) > um:  # no straight slot
         bores, opening = (rounded_hull(moved, seat.bore / 2), *bores), None
-    elif shift is not None:
-        opening = 1j
     return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, root, force, moment)
 
 
