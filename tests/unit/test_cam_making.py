@@ -8,22 +8,38 @@ import numpy as np
 import pytest
 
 from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT
-from ilmek.cams.profile_tolerance import MOST, radius_tolerance
+from ilmek.cams.profile_tolerance import BAND, increment_tolerance
 from ilmek.jobs.design import design_machine
 from ilmek.jobs.workshop_order import WorkshopOrder
 from ilmek.machines.catalogue import find_machine
+from ilmek.machines.making_checks import making_checks
 from ilmek.units import deg, mm, um
 
 
 @pytest.mark.parametrize(("spare", "speed"), [(40.0, 12.5), (5.0, 3.14), (2.0, 6.0)])
-def test_alternating_errors_of_the_radii_add_no_more_than_is_spare(spare: float, speed: float) -> None:
-    tolerance = radius_tolerance(spare, speed, deg)
-    time = np.linspace(0.0, 20 * deg / speed, 40_001)
-    for error, kept in ((tolerance, True), (tolerance + 1 * um, False)):
-        wave = error * np.cos(np.pi * speed * time / deg)  # from + to - and back within two degrees
-        added = np.abs(np.diff(wave, 2) / (time[1] - time[0]) ** 2).max()
-        assert bool(added <= spare) is kept
-    assert radius_tolerance(math.inf, speed, deg) == radius_tolerance(1e9, speed, deg) == pytest.approx(MOST)
+def test_errors_whose_changes_are_within_the_tolerance_add_no_more_than_is_spare(spare: float, speed: float) -> None:
+    """Waves of whole degrees at all phases, as high as the change from degree to degree lets them be."""
+    increment = increment_tolerance(spare, speed, deg)
+    degrees, time = np.arange(0, 361), np.linspace(0.0, 20 * deg / speed, 40_001)
+
+    def added(change: float, half: int, phase: float) -> float:
+        height = change / np.abs(np.diff(np.cos(np.pi * degrees / half + phase))).max()
+        wave = height * np.cos(np.pi * speed * time / (half * deg) + phase)
+        return float(np.abs(np.diff(wave, 2) / (time[1] - time[0]) ** 2).max())
+
+    assert added(increment, 1, 0.0) <= spare < added(increment + 1 * um, 1, 0.0)
+    longer = [added(increment, half, phase) for half in range(2, 20) for phase in np.linspace(0.0, np.pi, 19)]
+    assert max(longer) < 0.6 * spare
+    assert increment_tolerance(math.inf, speed, deg) == increment_tolerance(1e9, speed, deg) == pytest.approx(BAND)
+
+
+def test_a_cam_that_cannot_be_ground_as_its_follower_needs_is_a_failed_check() -> None:
+    machine = find_machine("weaver")
+    assert machine.tree is not None
+    for force, ok in (("5N", True), ("0.5N", False)):
+        tree = machine.tree(machine.design(machine.params.read({"contact_force": force})))
+        (check,) = (one for one in making_checks(tree) if one.unit == "um")
+        assert check.ok is ok, (force, check)
 
 
 def test_the_follower_of_a_head_stays_on_its_cam_with_errors_within_the_tolerance() -> None:

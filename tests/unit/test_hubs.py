@@ -44,8 +44,6 @@ BOUGHT_WHOLE = {"weft/turning cutters", "weft/fingers of the selector"}
 """Bodies that are bought devices, turned inside."""
 
 NO_FIT = {
-    "cam": {"cam/cam"},  # a cam by itself: its shaft is the customer's
-    "tufting": {"tufting/needle"},  # its bar is an envelope of the mass in the paper, guided by the whole machine
     "hand-shed": {"hand-shed/shed rod"},  # its guide is a slot
     "hand-loom": {"hand-shed/shed rod"},
 }

@@ -1,13 +1,16 @@
 """Joints that move without a fit: nothing says how close what runs or slides in them is.
 
 A joint has its fit from a bore and what moves in it, from faces that slide on each other, or from a bought part that
-brings it: a guide, an axis, or a device that moves in itself. What magnets draw along has no bearing, and what a
+brings it: a guide, an axis, or a device that moves in itself. A bore with a keyway has its fit for a shaft that is not
+in the tree; an envelope, whose form is not designed, has none. What magnets draw along has no bearing, and what a
 closure fixes to another body moves in the fit of that.
 """
 
 from collections.abc import Iterator
 
+from ilmek.part.features import features_of_size
 from ilmek.part.meetings import guide_seats, meetings, slide_seats
+from ilmek.part.part import Part
 from ilmek.part.tree import STANDING, JointKind, RigidBody, Tree
 
 MAGNET = "magnet"
@@ -23,11 +26,17 @@ def joints_without_fit(tree: Tree) -> tuple[str, ...]:
 
     def loose(body: RigidBody) -> bool:
         own = [occurrence.part for occurrence in body.occurrences]
-        brought = all(part.purchase is not None for part in own) or any(part.id in parts for part in own)
+        brought = all(part.purchase is not None or part.envelope for part in own)
+        brought = brought or any(part.id in parts or _keyed(part) for part in own)
         return not (body.joint.kind in STANDING or brought or body.id in fitted or body.id in led)
 
     turning = (own.part.id for body in tree.bodies for own in body.occurrences if own.turning)
     return (*(body.id for body in tree.bodies if loose(body)), *(part for part in turning if part not in parts))
+
+
+def _keyed(part: Part) -> bool:
+    """Whether it has a bore with a keyway."""
+    return part.shape is not None and any(one.inside and one.keyway for one in features_of_size(part.shape))
 
 
 def _led(tree: Tree) -> Iterator[str]:

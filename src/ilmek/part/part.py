@@ -49,6 +49,7 @@ class Bought:
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
     holes   for its screws; None: its maker drills it where its seat is
+    housing  tolerance class of the bore in which its outer ring sits
     """
 
     row: str
@@ -58,6 +59,7 @@ class Bought:
     drives: int = 0
     data: str = ""
     holes: HolePattern | None = None
+    housing: str = "H7"
 
 
 @record
@@ -77,13 +79,15 @@ class CamMaking:
     """How a disc cam is cut and checked.
 
     cutter, largest_cutter  radius that its path is for, and least hollow radius of the profile [m]; inf: convex
-    tolerance  of its radii at each degree, ± [m]      spare  acceleration of the follower that it adds at most [m/s²]
+    tolerance  of its radii at each degree, ± [m]      increment  of their errors from one degree to the next, ± [m]
+    spare      acceleration of the follower that these add at most [m/s²]
     speed      at which that is so [rad/s]; above 0 the cam turns counter-clockwise about z
     """
 
     cutter: float
     largest_cutter: float
     tolerance: float
+    increment: float
     spare: float
     speed: float
 
@@ -102,6 +106,7 @@ class Part:
     cam       how a disc cam is cut; None: it is none
     machined  its seats are machined after it is cut, sawn or welded: bores, threads, faces of guides, journals
     throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
+    joins     ids of the parts that a fastener holds together, or that a made part is welded to
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
     fixing    by what it holds itself where it stands, with no screw, weld or fit of this tree; ""
 

@@ -35,7 +35,6 @@ from ilmek.errors import ParameterError
 from ilmek.part.blanks import SHEET
 from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
-from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.specification import AS_DELIVERED
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
@@ -183,7 +182,8 @@ def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
         cut = one.seat.part.process in SHEET and not one.seat.part.machined
         return f"H{FINEST[LASER]}" if cut else "H9"
     if one.duty is FitDuty.HOUSING:
-        return "N7" if any(_is_freewheel(other.part) for _, other, _ in one.others) else "H7"
+        rings = (other.part.purchase for duty, other, _ in one.others if duty is FitDuty.HOUSING)
+        return next((ring.housing for ring in rings if ring is not None), "H7")
     classes = {
         journals[other.part.id, other.number]
         for duty, other, _ in one.others
@@ -194,10 +194,6 @@ def _bore(one: _Met, journals: Mapping[_Key, str]) -> str:
     if one.duty in {FitDuty.RUNNING, FitDuty.FIXED} and classes == {"h6"}:
         return "G7" if one.duty is FitDuty.RUNNING else "P7"
     return "H7"
-
-
-def _is_freewheel(part: Part) -> bool:
-    return part.purchase is not None and part.purchase.row.startswith("HF")
 
 
 _ROUGH = {

@@ -153,10 +153,11 @@ class KeyedCircle(NamedTuple):
 
 
 def as_keyed(contour: Contour) -> KeyedCircle | None:
-    """The bore or shaft with keyways that a contour is; None: it is none.
+    """The bore or shaft with keyways that a contour is; None: it is none, as an eye whose groove is as wide as it.
 
     >>> as_keyed(keyed_bore(0.010, 0.006, 0.0028)).width, as_keyed(circle(0j, 0.01))
     (0.006, None)
+    >>> as_keyed(Contour(np.array([-1j, 2 - 1j, 2 + 1j, 1j]), np.array([0.0, 0.0, 0.0, 1.0])))
     """
     points, after, bulges = contour.points, following(contour.points), contour.bulges
     arcs = np.flatnonzero(np.abs(bulges) >= STRAIGHT)
@@ -168,7 +169,8 @@ def as_keyed(contour: Contour) -> KeyedCircle | None:
     radii = np.abs(points - centres[0])
     circles = np.ptp(np.delete(radii, np.concatenate([floors, (floors + 1) % len(points)]))) + np.ptp(centres)
     spread = np.ptp(np.abs(out)) + np.ptp(np.abs(across)) + float(np.max(np.abs(dot(out, across))))
-    if circles + spread > _SAME * radii[arcs[0]]:
+    wide = float(np.abs(across[0])) > 2 * radii[arcs[0]] * (1 - _SAME)
+    if wide or circles + spread > _SAME * radii[arcs[0]]:
         return None
     width, floor = float(np.abs(across[0])), float(np.abs(out[0]))
     return KeyedCircle(centres[0], float(radii[arcs[0]]), width, floor, tuple((out / floor).tolist()))
@@ -249,9 +251,9 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
 
 
 def _chords(chord: float, bulge: float, chord_error: float) -> int:
-    """Number of chords of an arc; one where its sagitta b c/2 is within the error."""
+    """Number of chords of an arc; one where its sagitta b c/2 is within the error, of half a turn and more two."""
     if bulge * chord / 2 <= chord_error:
-        return 1
+        return 2 if bulge >= 1 - STRAIGHT else 1
     radius = chord * (1 + bulge**2) / (4 * bulge)
     return math.ceil(2 * math.atan(bulge) / math.acos(max(0.0, 1 - chord_error / radius)))
 

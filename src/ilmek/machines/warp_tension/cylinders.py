@@ -296,7 +296,7 @@ def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope
 def bearings_offered() -> tuple[RollingBearing, ...]:
     """The thesis' bearing; then flanged inserts, deep-groove ball and cylindrical roller bearings, each by its bore."""
     by_bore = sorted(ROLLING_BEARINGS.values(), key=lambda one: (_KINDS.index(one.kind), one.bore, one.mass))
-    return find_bearing(THESIS_BEARING), *(one for one in by_bore if one.kind != INSERT or one.name.startswith("UCF"))
+    return find_bearing(THESIS_BEARING), *(one for one in by_bore if one.kind != INSERT or one.flange)
 
 
 def bearing_checks(

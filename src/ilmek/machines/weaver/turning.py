@@ -149,7 +149,7 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         "freewheel of the pile handler",
         "bearing",
         shape=tube(outer, (outer - SHAFT) / 2, wide),
-        purchase=Bought("HF0406", 0.001),
+        purchase=Bought("HF0406", 0.001, housing="N7"),
         seats={"bore": Seat(placement(), SHAFT)},
         envelope=True,
     )

@@ -73,7 +73,8 @@ def mark_cam(view: DrawnView, part: DrawnPart) -> None:
     curve = part.shape.section.outline
     points = along(curve, 1e-6)
     foot = complex(points[int(np.argmin(np.abs(np.angle(points * np.exp(-1j * _CALLED)))))])
-    words = Sentence("sheet.radii-called", tolerance=millimetres(part.cam.tolerance))
+    radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment))
+    words = Sentence("sheet.radii-called", tolerance=radius, increment=step)
     view.leader(words, foot * view.scale, 0.0, kind=None)
 
 

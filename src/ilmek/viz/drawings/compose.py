@@ -19,7 +19,7 @@ from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.hole_tables import face_views, hole_tables, named_holes
 from ilmek.viz.drawings.joined import joined_views, members_of
-from ilmek.viz.drawings.long import turned_view
+from ilmek.viz.drawings.long import is_long, turned_view
 from ilmek.viz.drawings.packing import BETWEEN, PAD, packed, top_left
 from ilmek.viz.drawings.paper import (
     BLOCK_HEIGHT,
@@ -34,11 +34,14 @@ from ilmek.viz.drawings.paper import (
     table,
     title_block,
 )
-from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
-from ilmek.viz.drawings.prism import flat_foot, prism_views
+from ilmek.viz.drawings.picture import Box, SheetPicture, joined_box, millimetres
+from ilmek.viz.drawings.prism import edge_below, flat_foot, prism_views
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
 from ilmek.viz.drawings.weld_symbols import cut_list, weld_symbols, weld_table
+
+_SPARE = 1.0
+"""What the quick look allows for chords of arcs [mm]."""
 
 LEAST_SIZE = {"A4": 70.0, "A3": 80.0, "A2": 110.0, "A1": 150.0}
 """Least greatest extent of a part on a paper [mm]: below it, the next paper is taken."""
@@ -115,7 +118,8 @@ def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     listed = merged(radius_tables(part))
     wide = listed.box[2] + LEFT + EDGE + PAD
     paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
-    within = f", ±{millimetres(part.cam.tolerance)}" if part.cam else ""
+    radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment)) if part.cam else ("", "")
+    within = Sentence("sheet.radii-within", tolerance=radius, increment=step) if part.cam else ""
     words = Sentence("sheet.radii", within=within)
     caption = SheetText(complex(LEFT + PAD, height - EDGE - 8.0), words, 2.5, bold=True)
     corner = complex(LEFT + PAD, height - EDGE - 11.0)
@@ -153,28 +157,38 @@ def _is_crowded(drawn: Callable[[float], Arrangement | None]) -> bool:
 
 
 def _may_fit(part: DrawnPart, paper: str, scale: float, most: float) -> bool:
-    """Whether a part's section could have room: a quick look, before anything is drawn; most  extent if enlarged."""
-    extent = _extent(part.shape)
-    if scale < 1 and extent * 1e3 / scale > most:
+    """Whether a part's section, and the edge of a plate, could have room: a quick look, before anything is drawn.
+
+    most  extent on the paper if enlarged [mm]
+    """
+    size, edge = _extent(part.shape)
+    if scale < 1 and max(size.real, size.imag) * 1e3 / scale > most:
         return False
-    width, height = PAPERS[paper]
-    return extent * 1e3 / scale < max(width, height)
+    low_x, low_y, high_x, high_y = _area(paper)
+    needed = size * 1e3 / scale
+    if edge:
+        beside = edge * 1e3 / scale + BETWEEN
+        needed += 1j * beside if edge_below(size) else beside
+    return needed.real < high_x - low_x + _SPARE and needed.imag < high_y - low_y + _SPARE
 
 
-def _extent(shape: object) -> float:
-    """A length that no view of a shape falls below [m]; long parts are interrupted."""
+def _extent(shape: object) -> tuple[complex, float]:
+    """Width and height that no front or section view of a shape falls below, and the thickness of a plate [m]."""
     if isinstance(shape, Prism):
         low, high = bounds(shape.section.outline)
-        return max((high - low).real, (high - low).imag)
-    if isinstance(shape, Turned):
-        return 2 * shape.outer_radius
-    return 0.0
+        return high - low, 0.0 if is_long(shape.section, shape.length) else shape.length
+    return complex(0.0, 2 * shape.outer_radius if isinstance(shape, Turned) else 0.0), 0.0
+
+
+def _area(paper: str) -> Box:
+    """The room of the views on a paper."""
+    width, height = PAPERS[paper]
+    return LEFT + PAD, EDGE + BLOCK_HEIGHT + PAD, width - EDGE - PAD, height - EDGE - PAD
 
 
 def _laid(arrangement: Arrangement, part: DrawnPart, paper: str) -> SheetPicture | None:
     """All pictures at their positions on the paper; None: they have no room."""
-    width, height = PAPERS[paper]
-    area = (LEFT + PAD, EDGE + BLOCK_HEIGHT + PAD, width - EDGE - PAD, height - EDGE - PAD)
+    width, area = PAPERS[paper][0], _area(paper)
     views = _projected(arrangement.views)
     box = joined_box([view.box for view in views])
     notes = _notes(part)

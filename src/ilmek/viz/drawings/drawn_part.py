@@ -1,8 +1,10 @@
 """A made part as its drawing needs it, from the plate or piece of a report."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import field
+
+import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
@@ -15,7 +17,8 @@ from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.part.specification import PartSpecification, specification
-from ilmek.part.tolerances import ToleratedFeature
+from ilmek.part.tolerances import ToleratedFeature, groove_tolerance
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.part.welds import Weld, welds_of
 from ilmek.plane.biarcs import as_contour
@@ -25,6 +28,7 @@ from ilmek.report import Contour, Plate, RoundSolid, WorkPiece
 from ilmek.sentences import Sentence
 from ilmek.sentences.english import ENGLISH
 from ilmek.units import format_quantity, mm, um
+from ilmek.viz.drawings.picture import millimetres
 
 
 @record
@@ -138,7 +142,8 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     bent = part.shape if part is not None and isinstance(part.shape, Prism) and folded_sheet(part.shape) else None
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
-        _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume, plate.notes,
+        _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume,
+        (*plate.notes, *_row(part, plate.tree)),
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
         _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent, kinds=_kinds(part, plate.tree),
     )  # fmt: skip
@@ -150,9 +155,26 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
-        part.notes if part else (), features=_features(piece.features), stated=_stated(part),
-        welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
+        (*(part.notes if part else ()), *_row(part, piece.tree)), features=_features(piece.features),
+        stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
     )  # fmt: skip
+
+
+def _row(part: Part | None, tree: object) -> Iterator[Sentence]:
+    """Where the pieces of a part stand that is there many times in an even row, with nothing in it that sets them."""
+    if part is None or not isinstance(tree, Tree) or tolerances_of(tree).get(part.id):
+        return
+    for occurrence in (own for body in tree.bodies for own in body.occurrences if own.part.id == part.id):
+        steps = np.diff([position.origin for position in occurrence.positions], axis=0)
+        if len(steps) >= _LEAST_ROW and np.ptp(steps, axis=0).max() < um:
+            pitch, number = float(np.linalg.norm(steps[0])), len(steps) + 1
+            sizes = {"pitch": millimetres(pitch), "error": millimetres(groove_tolerance(pitch))}
+            yield Sentence("sheet.row", number=str(number), **sizes)
+            return
+
+
+_LEAST_ROW = 9
+"""Pitches of a row from which it is one."""
 
 
 def _cut(part: Part | None) -> tuple[str, float] | None:

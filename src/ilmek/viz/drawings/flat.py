@@ -220,7 +220,7 @@ def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits, named: Sequence[
             _hole_label(view, flat, group, fits, detail.centre)
     for centre, side in flat.squares:
         if detail.has(centre):
-            _square(view, centre - detail.centre, side, fits)
+            square(view, centre - detail.centre, side, fits)
     ends = [end for edge in flat.edges if all(map(detail.has, edge)) for end in edge]
     for across in (False, True) if ends else ():
         low = min(ends, key=lambda point: coordinate(point, across))
@@ -334,7 +334,7 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits, details: Sequence[Detai
         _radii(view, contour_features(cut).arcs)
     for centre, side in flat.squares:
         if not any(detail.has(centre) for detail in details):
-            _square(view, centre, side, fits)
+            square(view, centre, side, fits)
 
 
 def _hole_label(view: DrawnView, flat: FlatPart, group: HoleGroup, fits: Fits, origin: complex = 0j) -> None:
@@ -350,7 +350,7 @@ def _hole_label(view: DrawnView, flat: FlatPart, group: HoleGroup, fits: Fits, o
     _diameter(view, words, hole.at - origin, hole.radius, count, note)
 
 
-def _square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
+def square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
     """Width across flats of a square bore, with its angle where it is turned; side  from corner to corner [m]."""
     size, angle = abs(side), math.degrees(float(np.angle(side))) % 90
     corner = centre + side * (1 + 1j) / 2

@@ -6,6 +6,7 @@ cut list, by section and length.
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -20,7 +21,7 @@ from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import PARALLEL
+from ilmek.viz.drawings.flat import PARALLEL, square
 from ilmek.viz.drawings.keyways import keyway
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
@@ -62,8 +63,10 @@ def joined_views(
         if name == "front":
             _dimension(view, members, across, upwards, towards)
             _circles(view, members, (across, upwards, towards), fits)
-        elif name == "right":
-            _lengths(view, members, across, upwards)
+            _squares(view, (across, upwards), _seen(fits, towards))
+        else:
+            centres = _fitted(view, (across, upwards, towards), fits)
+            _lengths(view, members, (across, upwards), centres, whole=name == "right")
         views[name] = view
     pictorial = DrawnView(scale)
     corner = 1 / math.sqrt(3)
@@ -203,12 +206,73 @@ def _holes_seen(member: Member, eye: FloatArray) -> Iterator[FloatArray]:
         yield from (position.points(np.array([hole.at.real, hole.at.imag, 0.0])) for hole in holes)
 
 
-def _lengths(view: DrawnView, members: tuple[Member, ...], right: FloatArray, up: FloatArray) -> None:
-    """Depths of the members in the view from the left; all else stands in the front view."""
-    low = min(reach(member, up)[0] for member in members)
-    values = distinct([end for member in members for end in reach(member, right)])
+def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fits: Fits) -> list[complex]:
+    """Labels of the fitted diameters that are seen as circles in a view beside the front one; their centres [m]."""
+    right, up, eye = axes
+    seen = _seen(fits, eye)
+    sizes: dict[tuple[float, FeatureKind], list[complex]] = {}
+    for one in seen.features:
+        if one.kind in {FeatureKind.BORE, FeatureKind.JOURNAL}:
+            centre = complex(float(one.position.origin @ right), float(one.position.origin @ up))
+            centres = sizes.setdefault((one.nominal, one.kind), [])
+            if all(abs(centre - other) > SAME for other in centres):
+                centres.append(centre)
+    _squares(view, (right, up), seen)
+    for (size, kind), centres in sizes.items():
+        note, times = seen.note(size, kind), f"{len(centres)}× " if len(centres) > 1 else ""
+        for each in centres:
+            view.cross(each, size / 2)
+        view.leader(
+            f"{times}⌀{millimetres(size)}{note.words}",
+            max(centres, key=lambda c: c.real + c.imag) * view.scale,
+            size / 2 * view.scale,
+            kind=DimensionKind.DIAMETER,
+            value=size,
+            count=len(centres),
+            note=note,
+        )
+    return [centre for centres in sizes.values() for centre in centres]
+
+
+def _seen(fits: Fits, eye: FloatArray) -> Fits:
+    """The features whose axis points to the eye."""
+    facing = (one for one in fits.features if abs(one.position.rotation[:, 2] @ eye) > 1 - 1e-9)
+    return replace(fits, features=tuple(facing))
+
+
+def _squares(view: DrawnView, axes: tuple[FloatArray, FloatArray], seen: Fits) -> None:
+    """Labels of the fitted square bores that a view shows as squares, those on one axis once; axes  right and up."""
+    labelled: dict[complex, complex] = {}
+    for one in seen.features:
+        if one.kind is FeatureKind.SQUARE_BORE:
+            centre, side = (
+                complex(*(round(float(own @ axis), 9) for axis in axes))
+                for own in (one.position.origin, one.nominal * one.position.rotation[:, 0])
+            )
+            labelled.setdefault(centre, side)
+    for centre, side in labelled.items():
+        square(view, centre, side, seen)
+
+
+def _lengths(
+    view: DrawnView,
+    members: tuple[Member, ...],
+    axes: tuple[FloatArray, FloatArray],
+    centres: list[complex],
+    *,
+    whole: bool,
+) -> None:
+    """Where centres are from the lower left corner of a view beside the front one; whole  the ends of members too."""
+    low, bottom = (min(reach(member, axis)[0] for member in members) for axis in axes)
+    if centres:
+        foot = complex(low, bottom) * view.scale
+        heights = [value for value in distinct([centre.imag for centre in centres]) if value - bottom > SAME]
+        up = [MeasuredLength(foot, complex(low, value) * view.scale, value - bottom) for value in heights]
+        view.rows(up, across=True)
+    ends = [end for member in members for end in reach(member, axes[0])] if whole else []
+    values = distinct([*ends, *([low] if centres else []), *(centre.real for centre in centres)])
     values = values if len(values) <= MOST_ENDS else [values[0], values[-1]]
-    drawn = [complex(value, low) * view.scale for value in values]
+    drawn = [complex(value, bottom) * view.scale for value in values]
     if len(values) <= PARALLEL + 1:
         spans = [
             MeasuredLength(drawn[0], foot, value - values[0]) for foot, value in zip(drawn[1:], values[1:], strict=True)

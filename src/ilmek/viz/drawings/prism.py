@@ -61,7 +61,7 @@ def _plate(  # noqa: PLR0917
     if sheet is not None and part.bent is not None:
         tables = (*tables, *bent_pictures(part.bent, sheet))
     low, high = bounds(flat.outline)
-    below = (high - low).real > (high - low).imag * 1.2
+    below = edge_below(high - low)
     edge = edge_view(flat, shape.length, scale, below=below)
     face_notes(front, fits, *FRONT)
     face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
@@ -81,3 +81,8 @@ def _edge_foot(high: complex, scale: float, *, below: bool) -> Foot:
 def flat_foot(scale: float) -> Foot:
     """Where welds are in the front view of a plate."""
     return lambda weld: complex(float(weld.middle[0]), float(weld.middle[1])) * scale
+
+
+def edge_below(size: complex) -> bool:
+    """Whether the edge of a plate of a width and height is seen below its front view, not right of it."""
+    return size.real > size.imag * 1.2

@@ -279,6 +279,8 @@ class DrawnView:
                 box = text_box(text)
                 box = box if hung is None else joined_box([box, box_below(box, hung, text.anchor)])
                 fault = taken.fault(box, tip, elbow, np.inf if best is None else best[0])
+                if not fault:
+                    return tip, elbow, text
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
             if best is not None and best[0] < 3:
@@ -329,7 +331,8 @@ class DrawnView:
 
     def _taken(self) -> TakenRoom:
         samples = np.concatenate([np.zeros(0, complex), *self._samples])
-        return TakenRoom(np.array(self._boxes, dtype=float).reshape(-1, 4), samples[np.argsort(samples.real)])
+        self._samples = [samples[np.argsort(samples.real, kind="stable")]]  # quick where most are in order
+        return TakenRoom(np.array(self._boxes, dtype=float).reshape(-1, 4), self._samples[0])
 
     def _clear_pieces(self, start: complex, end: complex) -> list[ComplexArray]:
         """A straight line, interrupted where texts lie."""
@@ -358,9 +361,12 @@ class DrawnView:
         points = line_points(line, 0.1)
         steps = np.abs(np.diff(points))
         total = float(steps.sum())
-        if total > 0:
+        count = max(2, int(total / _STEP) + 1)
+        if total > 0 and len(points) == 2:
+            self._samples.append(np.linspace(points[0], points[1], count))
+        elif total > 0:
             length = np.concatenate([[0.0], np.cumsum(steps)])
-            marks = np.linspace(0.0, total, max(2, int(total / _STEP) + 1))
+            marks = np.linspace(0.0, total, count)
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
 
 

@@ -8,6 +8,7 @@ from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
+from ilmek.machines.making_checks import making_checks
 from ilmek.part.bolting import bolted
 from ilmek.part.part_lists import part_lists
 from ilmek.report import Papers, Report
@@ -15,7 +16,7 @@ from ilmek.report import Papers, Report
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    manual, reached = assembly_manual(loom)
+    manual, assembled = assembly_manual(loom)
     pages = (
         manual,
         commissioning(loom, report),
@@ -24,5 +25,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         risks(loom, report),
     )
     tree = bolted(loom_tree(loom))
-    checks = (*safety_checks(loom, report), reached)
+    checks = (*safety_checks(loom, report), *assembled, *making_checks(loom_tree(loom)))
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)

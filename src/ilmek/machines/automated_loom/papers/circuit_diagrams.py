@@ -59,15 +59,27 @@ def _switch(at: complex, words: str, *, closed: bool) -> Iterator[Mark]:
 
 @record
 class MotorRow:
-    """A motor circuit in words: its number, phases of the motor, fuse, amplifier, wire, motor, its power."""
+    """Motor circuits of a kind in words: their number, pieces, phases of the motor, fuse, amplifier, wire, motor, its
+    power. Each piece has its own fuse, amplifier and cable, drawn once.
+    """
 
     number: str
+    pieces: int
     kind: str
     fuse: str
     drive: str
     wire: str
     motor: str
     power: str
+
+    def sign(self, letter: str) -> str:
+        """Signs of the devices of a kind.
+
+        >>> MotorRow("3", 38, "3~", "", "", "", "", "").sign("T")
+        'T3.1 … T3.38'
+        """
+        own = f"{letter}{self.number}"
+        return own if self.pieces == 1 else f"{own}.1 … {own}.{self.pieces}"
 
 
 @record
@@ -123,23 +135,25 @@ def _motor(row: MotorRow, height: float) -> Iterator[Mark]:
     """A motor circuit from its busbar: fuse, amplifier, wire, motor."""
     y = 1j * height
     yield _line(_BUS + y, _FUSE + y)
-    yield from _fuse(_FUSE + y, f"F{row.number}: {row.fuse}")
+    yield from _fuse(_FUSE + y, "")
+    yield _text(_BUS + 1.5 + y + 2.5j, f"{row.sign('F')}: {row.fuse}", anchor="left")
     yield _line(_FUSE + 8 + y, _DRIVE + y)
     yield _box(_DRIVE + y - 4j, 26 + 8j)
-    yield _text(_DRIVE + 13 + y + 0.6j, f"T{row.number}")
+    yield _text(_DRIVE + 13 + y + 0.6j, row.sign("T"))
     yield _text(_DRIVE + 13 + y - 2.8j, row.drive)
     yield _line(_DRIVE + 26 + y, _MOTOR - 4.5 + y)
     yield _text((_DRIVE + 26 + _MOTOR - 4.5) / 2 + y + 1.2j, row.wire)
     yield _circle(_MOTOR + y, 4.5)
     yield _text(_MOTOR + y + 0.4j, "M")
     yield _text(_MOTOR + y - 3j, row.kind)
-    yield _text(_WORDS + y + 0.5j, f"M{row.number}: {row.motor}", anchor="left")
+    yield _text(_WORDS + y + 0.5j, f"{row.sign('M')}: {row.motor}", anchor="left")
     yield _text(_WORDS + y - 3j, row.power, anchor="left")
 
 
-def safety_circuit(guards: Sequence[tuple[str, int, str]], amplifiers: int, halt: str) -> Schematic:
+def safety_circuit(guards: Sequence[tuple[str, int, str]], enabling: str, amplifiers: int, halt: str) -> Schematic:
     """The two channels through all devices that stop the loom, the safety relay, and what it switches.
 
+    enabling    sign of the enabling device, whose two contacts are in parallel with the guards while these are open
     guards      of each kind of device: its sign, pieces, and the terminal of its signal
     amplifiers  pieces      halt  terminal of the signal to the motion controller
     """
@@ -170,9 +184,20 @@ def safety_circuit(guards: Sequence[tuple[str, int, str]], amplifiers: int, halt
         yield from _switch(x + 7 - 28j, "", closed=False)
         yield _line(x - 1 - 28j, x + 7 - 28j)
         yield _text(x - 2 - 29j, Sentence("electric.reset", sign="S0"), anchor="right")
+        yield from _enabling(x, enabling)
         yield from _outputs(x + 30, amplifiers, halt)
 
     return _schematic("safety-circuit", Sentence("electric.safety"), marks())
+
+
+def _enabling(x: float, sign: str) -> Iterator[Mark]:
+    """The enabling device before the relay at x: a contact of each channel, open at rest, and its own selector."""
+    for channel, (y, into) in enumerate(((-40j, 19), (-50j, 22)), 1):
+        yield _text(y + 2.5j, f"24 V, {channel}", anchor="left")
+        yield _line(y, x / 2 + y)
+        yield from _switch(x / 2 + y, f"{sign}.{channel}", closed=False)
+        yield _line(x / 2 + 8 + y, x + into + y, x + into - 22j)
+        yield _text(x + into - 0.8 + y + 0.8j, f"S{channel + 2}1-S{channel + 2}2", 1.8, "right")
 
 
 _DRAWN = 4

@@ -115,6 +115,7 @@ def _drawn(one: MotorCircuit, held: Mapping[str, str]) -> MotorRow:
     load, brake = one.load, held.get(one.part.id, "")
     return MotorRow(
         one.sign[1:],
+        one.number,
         f"{load.phases}~",
         f"{one.number * load.poles} × {load.fuse:g} A",
         f"{load.amplifier:g} A, STO",
@@ -315,7 +316,7 @@ def _safety(loom: LoomDesign, report: Report) -> PaperSection:
         part: f"X1:{number}{level}" for _, number, level, parts in terminal_rows(loom) for part in parts.split()[:1]
     }
     devices = [(own.sign, own.number, addresses.get(own.part, "")) for own in functions]
-    picture = safety_circuit(devices, numbers_of(loom)[AMPLIFIER], addresses[signals.RELAY])
+    picture = safety_circuit(devices, SIGNS[signals.ENABLING], numbers_of(loom)[AMPLIFIER], addresses[signals.RELAY])
     texts = text, Sentence("electric.enabling-how", sign=SIGNS[signals.ENABLING]), Sentence("electric.residual")
     return PaperSection(made.title, texts, made.table, figure=picture)
 
