@@ -7,6 +7,7 @@ code has a part in it.
 import math
 import re
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 from typing import NamedTuple
 
@@ -159,9 +160,12 @@ def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Itera
     """
     centres = every = [complex(*own.point[:2]) for own in holes if abs(own.axis[2]) > 1 - 1e-9]
     for text in sheet.texts:  # evenly on a circle: its centre instead
-        circle = re.match(r"(\d+)× .* on ⌀([\d.]+)", text)
+        circle = re.match(r"(\d+)× [⌀M]([\d.]+).* on ⌀([\d.]+)", text)
         if circle is not None:
-            centres = _by_circle(centres, int(circle.group(1)), float(circle.group(2)) / 2)
+            number, size, across = (float(own) for own in circle.groups())
+            alike = [complex(*own.point[:2]) for own in holes if abs(own.diameter - size) < NEAR]
+            others = [centre for centre in centres if centre not in alike]
+            centres = others + _by_circle([c for c in centres if c in alike], int(number), across / 2)
     tables = [number for number, text in enumerate(sheet.texts) if text.startswith("Holes, from the datum")]
     cells = sheet.texts[tables[0] :] if tables else ()
     listed = [float(text) for text in cells if re.fullmatch(r"-?[\d.]+", text)]
@@ -181,14 +185,10 @@ def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Itera
 
 
 def _by_circle(centres: list[complex], number: int, radius: float) -> list[complex]:
-    """Centres with those on a pitch circle left out, and its centre put in."""
-    for middle in centres:
-        ring = [c for c in centres if abs(abs(c - middle) - radius) < NEAR]
-        if len(ring) == number:
-            return [c for c in centres if c not in ring]
-    points = np.array(centres)
-    for first in range(len(points)):
-        near = points[np.abs(points - points[first]) < 2 * radius + NEAR]
-        if len(near) >= number and np.ptp(np.abs(near - near.mean())) < NEAR:
-            return [*(c for c in centres if c not in near.tolist()), complex(near.mean())]
+    """Centres with so many on a pitch circle left out, and its centre put in."""
+    for first, second in combinations(centres, 2):
+        for middle in (first, (first + second) / 2, sum(centres) / len(centres)):
+            ring = [c for c in centres if abs(abs(c - middle) - radius) < NEAR]
+            if len(ring) == number:
+                return [*(c for c in centres if c not in ring), middle]
     return centres

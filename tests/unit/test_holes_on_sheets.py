@@ -142,7 +142,7 @@ def test_stock_is_what_is_sold_and_holds_the_part() -> None:
         for blank in blanks:
             name = sold_as(part)
             assert ("10219" in name) == (blank.form == "hollow section" and "S235" in name), drawn.number
-            assert not (blank.form in {"round", "tube"} and "10025" in name), drawn.number
+            assert not (blank.form in {"round", "tube"} and blank.section[0] < 0.1 and "10025" in name), drawn.number
             assert not (min(blank.section) < 2 * mm and "10083" in name), drawn.number
         if part.process in MILLED and isinstance(part.shape, Prism):
             sides = sorted(np.ptp(np.array(shape_box(part.shape)), axis=0))

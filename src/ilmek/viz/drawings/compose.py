@@ -17,6 +17,7 @@ from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.fits import Fits
+from ilmek.viz.drawings.hole_tables import face_views, hole_tables, named_holes
 from ilmek.viz.drawings.joined import joined_views, members_of
 from ilmek.viz.drawings.long import is_long, turned_view
 from ilmek.viz.drawings.packing import BETWEEN, PAD, packed, top_left
@@ -95,6 +96,11 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     if project is None:
         return None
     views, more = joined_views(shape, scale, project, fits)
+    own = cast(Shape, shape)
+    named, datum = named_holes(own, None, fits, part.kinds), shape_box(own)[0]
+    if named:
+        views["front"].datum_mark(complex(*datum[:2]), {"X": 1.0, "Y": 1j})
+    more = (*hole_tables(named, datum, part.kinds), *face_views(own, project, named, datum), *more)
     weld_symbols(views["front"], part.welds, flat_foot(scale))
     return Arrangement(views, (*tables, *more))
 

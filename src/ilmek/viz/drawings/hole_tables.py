@@ -13,9 +13,9 @@ from string import ascii_lowercase
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.part.features import round_holes
+from ilmek.part.features import drillings, round_holes
 from ilmek.part.hole_kinds import HoleKinds
-from ilmek.part.shapes import Drilling, Prism, shape_box
+from ilmek.part.shapes import Drilling, Prism, Shape, shape_box
 from ilmek.part.tolerances import FeatureKind
 from ilmek.report import Contour
 from ilmek.report.sheet import LineKind, SheetText
@@ -29,6 +29,7 @@ from ilmek.viz.drawings.flat import FlatPart
 from ilmek.viz.drawings.holes import NamedHole, draw_hole, hole_words
 from ilmek.viz.drawings.paper import SCALES, scale_words, table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
+from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView
 
 _LETTERS = "ABCDEFGHJKLMNPQRSTUVW"
@@ -56,14 +57,14 @@ def _is_along(hole: Drilling) -> bool:
     return bool(abs(hole.position.rotation[2, 2]) > 1 - SAME)
 
 
-def named_holes(shape: Prism, flat: FlatPart, fits: Fits, kinds: HoleKinds | None) -> tuple[NamedHole, ...]:
+def named_holes(shape: Shape, flat: FlatPart | None, fits: Fits, kinds: HoleKinds | None) -> tuple[NamedHole, ...]:
     """The holes of a part that its table has: all that are drilled, and those of its section that have a row."""
+    rows = () if flat is None else tuple(own.at for group in flat.groups if flat.has_row(group) for own in group.holes)
+    drilled = len(drillings(shape))
     alike: dict[tuple[object, ...], list[NamedHole]] = defaultdict(list)
     for number, hole in enumerate(round_holes(shape)):
         at = complex(*hole.position.origin[:2])
-        if number >= len(shape.drilled) and not any(
-            flat.has_row(group) and any(abs(own.at - at) < SAME for own in group.holes) for group in flat.groups
-        ):
+        if number >= drilled and not any(abs(own - at) < SAME for own in rows):
             continue
         has = () if kinds is None or len(kinds.holes[number]) == len(kinds.pieces) else kinds.holes[number]
         threaded, note = _note(hole, fits)
@@ -137,9 +138,12 @@ def _direction(into: Direction) -> str:
 
 
 def face_views(
-    shape: Prism, flat: FlatPart, named: Sequence[NamedHole], datum: Float[np.ndarray, " 3"]
+    shape: Shape, flat: FlatPart | Projector, named: Sequence[NamedHole], datum: Float[np.ndarray, " 3"]
 ) -> Iterator[SheetPicture]:
-    """A view along each direction of holes, with their names, and the axes from the datum."""
+    """A view along each direction of holes, with their names, and the axes from the datum.
+
+    flat  the section of a prism, or what projects another shape
+    """
     sides: dict[tuple[float, ...], list[NamedHole]] = defaultdict(list)
     for own in named:
         sides[tuple(np.round(own.into, 3) + 0.0)].append(own)
@@ -148,8 +152,8 @@ def face_views(
 
 
 def _face_view(
-    shape: Prism,
-    flat: FlatPart,
+    shape: Shape,
+    flat: FlatPart | Projector,
     side: tuple[Direction, Sequence[NamedHole]],
     datum: Float[np.ndarray, " 3"],
 ) -> SheetPicture:
@@ -166,18 +170,12 @@ def _face_view(
     def seen(point: Direction) -> complex:
         return complex(float(point @ right), float(point @ up))
 
-    if abs(into[2]) > 1 - SAME:
-        for contour in (flat.outline, *flat.cutouts):
-            points, mirrored = contour.points, right[0] < 0
-            turned = Contour(-points.conj(), -contour.bulges) if mirrored else contour
-            view.contour(LineKind.VISIBLE, turned)
+    if isinstance(flat, FlatPart):
+        _prism_lines(view, flat, (into, right, up), (low, high))
     else:
-        box = np.array([across.min() + 1j * upwards.min(), across.max() + 1j * upwards.max()])
-        view.contour(LineKind.VISIBLE, _rectangle(*box.tolist()))
-        eye, level = -complex(*into[:2]), right if abs(right[2]) < SAME else up
-        for value in distinct(list(levels_seen(flat, eye, complex(*level[:2])))):
-            line = np.array([[value * level + z * Z] for z in (low[2], high[2])]).reshape(2, 3)
-            view.line(LineKind.VISIBLE, np.array([seen(line[0]), seen(line[1])]))
+        visible, _ = flat(shape, tuple((-into).tolist()), tuple(right.tolist()))
+        for line in visible:
+            view.line(LineKind.VISIBLE, line)
     for own in holes:
         draw_hole(view, seen(own.hole.position.origin), own.diameters, threaded=own.threaded)
     names = {name: seen(axis) for name, axis in zip("XYZ", (X, Y, Z), strict=True)}
@@ -189,6 +187,31 @@ def _face_view(
         SheetText(top, Sentence("sheet.seen-along", axis=_direction(into), scale=scale_words(drawn)), 2.5, bold=True)
     )
     return view.picture
+
+
+def _prism_lines(
+    view: DrawnView,
+    flat: FlatPart,
+    axes: tuple[Direction, Direction, Direction],
+    ends: tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]],
+) -> None:
+    """A prism seen along its axis, or across; axes  into the paper, right, upwards; ends  least and greatest corner."""
+    into, right, up = axes
+    if abs(into[2]) > 1 - SAME:
+        for contour in (flat.outline, *flat.cutouts):
+            mirrored = Contour(-contour.points.conj(), -contour.bulges)
+            view.contour(LineKind.VISIBLE, mirrored if right[0] < 0 else contour)
+        return
+    corners = np.array(list(product(*np.stack(ends, axis=1))))
+    across, upwards = corners @ right, corners @ up
+    view.contour(
+        LineKind.VISIBLE,
+        _rectangle(complex(across.min(), upwards.min()), complex(across.max(), upwards.max())),
+    )
+    level = right if abs(right[2]) < SAME else up
+    for value in distinct(list(levels_seen(flat, -complex(*into[:2]), complex(*level[:2])))):
+        line = np.array([value * level + end[2] * Z for end in ends])
+        view.line(LineKind.VISIBLE, line @ right + 1j * (line @ up))
 
 
 def _axes(into: Direction, size: Float[np.ndarray, " 3"]) -> tuple[Direction, Direction]:
