@@ -16,7 +16,8 @@ from ilmek.elements.motor_loads import MAINS, PHASE, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.motors import MOTORS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.power_plan import MotorCircuit
-from ilmek.machines.automated_loom.in_space.scene import KNOT, loom_tree, periods_of
+from ilmek.machines.automated_loom.in_space.maker import KNOT
+from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
 from ilmek.machines.automated_loom.papers.wiring import plan_of
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.moving_energy import MovingEnergy, moving_energies
