@@ -1,6 +1,7 @@
 """Straight moves and orders of assembly against what can be said without a search: boxes, sleeves, closed frames."""
 
 import math
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -134,6 +135,26 @@ def test_bearings_that_hold_a_shaft_come_with_it_from_the_bench() -> None:
     assert sorted({unit.name for unit in together.units}) == ["bearings", "shaft"]
     assert names(together.bench)[0] == "shaft"
     assert all(abs(step.moves[0][1]) > 0.1 for step in together.bench[1:])  # along the shaft
+
+
+def test_a_sliding_body_on_both_sides_of_a_bracket_comes_part_by_part() -> None:
+    """Bearings and a drive move as one, but a post stands before the drive outside: it comes along the shaft."""
+    along = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+    rings = Occurrence(part("ring", tube(0.05, 0.015, 0.01)), tuple(along.after(placement(z=z)) for z in (-0.19, 0.18)))
+    drive = Occurrence(part("drive", tube(0.08, 0.03, 0.03)), (along.after(placement(z=0.211)),))
+    sliding = RigidBody("sliding", (rings, drive), joint=Joint(JointKind.SLIDE, (1.0, 0.0, 0.0)))
+    post = Occurrence(part("post", box(0.02, 0.03, 0.08)), (placement(0.06, 0.226, 0.02),))
+
+    def steps(*, closed: bool) -> tuple[Insertion, ...]:
+        (standing,) = frame(closed=closed)
+        standing = replace(standing, occurrences=(*standing.occurrences, post))
+        return insertions(Tree((standing, sliding, replace(shaft(), parent="sliding"))), UP, frozenset(("frame",)))
+
+    slotted = steps(closed=False)
+    assert blocked(slotted) == {}
+    assert [piece.part.id for piece in slotted[-1].units[0].pieces] == ["drive"]
+    assert slotted[-1].moves[-1][1] < 0  # from outside, when the shaft is in its slots
+    assert "shaft" in {unit.name for step in steps(closed=True) if step.blocking for unit in step.units}
 
 
 def test_sampled_moves_meet_nothing() -> None:

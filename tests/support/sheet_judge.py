@@ -25,15 +25,20 @@ from ilmek.io.hidden_lines import projected
 from ilmek.io.step import part_solid
 from ilmek.jobs.workshop import _own_names
 from ilmek.machines.catalogue import find_machine
+from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
-from ilmek.part.plates import tolerated
+from ilmek.part.plates import of_tree, tolerated
 from ilmek.part.shapes import Prism
+from ilmek.part.tree import Tree
 from ilmek.report.sheet import DrawingSheet, Issue
 from ilmek.viz.drawings.compose import sheets_of
 from ilmek.viz.drawings.drawn_part import DrawnPart, drawn_piece, drawn_plate
 
 NEAR = 2e-3
 """Deviation of what a sheet prints, with three decimals, from the solid [mm]."""
+
+LISTED = 6e-3
+"""Deviation of what a table of holes prints, to 0.01 mm [mm]."""
 
 LINEAR, ALIGNED, DIAMETER, RADIUS, ORDINATE = 0, 1, 3, 4, 6
 
@@ -59,11 +64,13 @@ class ReadSheet(NamedTuple):
 
 
 def made_parts(machine: str, **values: str) -> Iterator[tuple[DrawnPart, Part]]:
-    """The made parts of a design as they are drawn, with what they are drawn of."""
+    """The made parts of a design as they are drawn, with their holes for screws, and what they are drawn of."""
     report = find_machine(machine).report_for(values)
-    plates, pieces = (_own_names([*map(tolerated, own)]) for own in (report.all_plates, report.all_pieces))
-    for made, draw in ((plates, drawn_plate), (pieces, drawn_piece)):
-        for name, each in made.items():
+    every = *report.all_plates, *report.all_pieces
+    trees = [made.tree for made in every if isinstance(made.tree, Tree)]
+    whole = bolted(max(trees, key=lambda tree: len(tree.bodies))) if trees else None
+    for own, draw in ((report.all_plates, drawn_plate), (report.all_pieces, drawn_piece)):
+        for name, each in _own_names([tolerated(of_tree(made, whole)) for made in own]).items():
             if isinstance(each.part, Part):
                 yield draw(each, report.machine, name), each.part  # type: ignore[operator]
 
@@ -163,11 +170,12 @@ def _unplaced(sheet: ReadSheet, holes: list[Bore], corners: np.ndarray) -> Itera
         own = sorted({round(centre.imag if upright else centre.real, 4) for centre in centres})
         given = [v for kind, up, v in sheet.dimensions if kind in {LINEAR, ORDINATE} and up is upright]
         values = np.abs(np.array([0.0, *given, *listed]))
+        near = np.array([NEAR] * (1 + len(given)) + [LISTED] * len(listed))
         ends = corners[:, int(upright)].tolist()
         ends += [end + sign * radius for end, sign in zip(ends, (1, -1), strict=True) for radius in radii]
         others = [centre.imag if upright else centre.real for centre in every]
         datums = [*ends, *others]
-        placed = any(all(np.min(np.abs(values - abs(c - datum))) < NEAR for c in own) for datum in datums)
+        placed = any(all(np.min(np.abs(values - abs(c - datum)) - near) < 0 for c in own) for datum in datums)
         if own and not placed:
             yield f"{name} of bores {own}"
 

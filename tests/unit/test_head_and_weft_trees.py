@@ -35,6 +35,7 @@ from ilmek.machines.weft.carriers import BOBBIN, FITTINGS, MAGNET, RAPIER_TUBE, 
 from ilmek.machines.weft.tree import DRAGGING
 from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
+from ilmek.part.seat_faces import prism_of
 from ilmek.part.tree import Tree
 from ilmek.plane.solids import bounds, is_closed, volume
 from ilmek.report.scene import Scene
@@ -177,7 +178,8 @@ def test_the_plates_of_the_opener_pass_between_the_warps_and_spread_them(pitch: 
 
 
 def _outline(part: Part) -> Outline:
-    corners = part.shape.section.outline.points  # type: ignore[union-attr]
+    plate, _ = prism_of(part.shape, 0)
+    corners = plate.section.outline.points
     return Outline(np.stack([corners.real, corners.imag], axis=1))
 
 

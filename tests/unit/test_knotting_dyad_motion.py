@@ -222,7 +222,8 @@ def test_parts_and_work_of_the_arms_of_a_head() -> None:
     one, two = inertias(made_.params, made_.head, head_motion(made_.params, made_.head).hole).values()
     on_first = ("link 1 of an arm", "pin of an arm", "sleeve of a first link, with its pulley", "belt of an elbow")
     on_second = {"link 2 of an arm": 1, "hub of an elbow": 1, "pulley of an elbow": 1, "blade of a needle": 1}
-    on_second |= {f"{name} of a finger": 1 for name in ("pin", "spring", "solenoid")} | {"neck of a solenoid": 1}
+    on_second |= {f"{name} of a finger": 1 for name in ("pin", "spring", "solenoid")}
+    on_second |= {"neck of a solenoid": 1, "cap of a neck": 1}
     on_second |= {"lug of a finger's pin": 2, "finger of an arm": 1, "rod of the finger of an arm": 1}
     assert sum(parts[name].mass for name in on_first) == pytest.approx(one.mass)
     assert sum(number * parts[name].mass for name, number in on_second.items()) == pytest.approx(two.mass)

@@ -8,13 +8,16 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.carpet_summary import carpet_pairs
+from ilmek.cli.gun_summary import GUN, TECHNIQUES, require_no_loom, weave_with_gun
 from ilmek.cli.loom_summary import loom_pairs
 from ilmek.cli.options import force_option, json_option, rates_option, text_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
+from ilmek.errors import ParameterError
 from ilmek.io.rates_file import read_rates
+from ilmek.jobs.gun import read_gun_order
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -33,6 +36,7 @@ Examples:
   ilmek weave photo.jpg --colours 24 --heads 4 --loom tubes=12 --loom package_mass=1kg
   ilmek weave carpet.toml --deadline 72h
   ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
+  ilmek weave photo.jpg --size 100x150cm --colours 8 --technique gun --gun row_spacing=4mm
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1,000 heads.
 """
@@ -58,6 +62,19 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     help="Set a parameter of the loom or its machines: beat=comb, shedding.law=modified-sine; @FILE reads a file. "
     "FILE alone: weave on that loom, written by design automated-loom --json or by weave as machine.json.",
 )
+@click.option(
+    "--technique",
+    type=click.Choice(TECHNIQUES),
+    default=TECHNIQUES[0],
+    help="knotted on a loom, or tufted by a gun on a gantry; default: knotted.",
+)
+@click.option(
+    "--gun",
+    "gun_settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Set a parameter of the tufting gun or its gantry: row_spacing=4mm, cones=8, room_width=3m.",
+)
 @rates_option
 @force_option
 @json_option
@@ -69,6 +86,8 @@ def command(
     aim: str | None,
     warp_pitch: str | None,
     settings: tuple[str, ...],
+    technique: str,
+    gun_settings: tuple[str, ...],
     rates: Path | None,
     force: bool,
     json_to: str | None,
@@ -83,8 +102,19 @@ def command(
     --pdf), rows.txt, rows.pdf, yarn.csv, programme.ilmek and machine.json. Where the loom cannot weave the carpet, the
     report has the reasons and what would cure them, there is no programme, and the command ends with 3. A loom for
     weavers, --loom knotting=hand, has no programme: its weavers tie by the chart and its rows.
+
+    --technique gun tufts the carpet instead: the folder contains report.html with the path in motion, report.json, and
+    gun.ngc, the G-code of the gun, where every check holds.
     """
     order = read_order(**carpet)
+    if technique == GUN:
+        beside = {"--heads": heads, "--aim": aim, "--warp-pitch": warp_pitch, "--loom": settings, "--rates": rates}
+        require_no_loom({**beside, "--save-recipe": save_recipe})
+        gun = read_gun_order(order, read_settings(gun_settings), deadline)
+        files = {**carpet_inputs(order), **setting_files(gun_settings)}
+        return weave_with_gun(order, gun, out, files, force=force, json_to=json_to)
+    if gun_settings:
+        raise ParameterError("--gun without --technique gun", do="add --technique gun, or leave --gun out")
     loom_file, settings = loom_settings(settings)
     loom_order = read_loom_order(
         order,

@@ -156,6 +156,31 @@ SOCKET_SCREWS = {
 }
 """By thread, ascending: heads of ISO 4762, as high as the thread is wide, holes and counterbores for them."""
 
+CORES = {
+    diameter * mm: (core * mm, pitch * mm)
+    for diameter, core, pitch in (
+        (2, 1.6, 0.4), (2.5, 2.05, 0.45), (3, 2.5, 0.5), (4, 3.3, 0.7), (5, 4.2, 0.8), (6, 5.0, 1.0), (8, 6.8, 1.25),
+        (10, 8.5, 1.5), (12, 10.2, 1.75), (16, 14.0, 2.0), (20, 17.5, 2.5), (24, 21.0, 3.0),
+    )
+}  # fmt: skip
+"""Diameters of drills for coarse threads, and pitches [m], by the diameter of the thread [ISO 2306, ISO 261]."""
+
+RUN_OUT = 3.0
+"""Depth of a drilled core below its thread over the pitch: about the short run-out of DIN 76-1."""
+
+
+def core_of(diameter: float) -> tuple[float, float] | None:
+    """Diameter of the core of a coarse thread, and by how much it is drilled deeper [m]; None: it is of no such thread.
+
+    >>> core_of(0.004)
+    (0.0033, 0.0021)
+    """
+    row = next((row for size, row in CORES.items() if abs(size - diameter) < _SAME_SIZE), None)
+    return None if row is None else (row[0], round(RUN_OUT * row[1], 6))
+
+
+_SAME_SIZE = 1e-6
+
 SOCKET_LENGTHS = tuple(
     length * mm
     for length in (4, 5, 6, 8, 10, 12, 16, 20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 80, 90, 100, 110, 120, 130, 140)

@@ -6,8 +6,9 @@ The order and the moves are those of `part.insertion`.
 import math
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from itertools import groupby
+from dataclasses import field, replace
+from functools import reduce
+from itertools import chain, groupby
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.fastenings import fastenings
 from ilmek.part.insertion import Insertion
-from ilmek.part.insertion_units import Direction, InsertedUnit
+from ilmek.part.insertion_units import Box, Direction, InsertedUnit, StandingPart, is_screw, standing_parts
 from ilmek.part.part import Part
 from ilmek.part.part_lists import FASTENER
 from ilmek.part.poses import chains
@@ -24,10 +25,11 @@ from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.stacks import StackPiece, StackRun
 from ilmek.part.straight_moves import Vector
 from ilmek.part.tree import Tree
+from ilmek.part.welds import welds_of
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, in_mm, mm
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -41,22 +43,31 @@ UP = np.array([0.0, 1.0, 0.0])
 class AssemblyStep:
     """A row of the manual: what comes, of which bodies, by which moves, onto what.
 
-    parts  how many of each come      moves  directions by which each comes, in turn; none: it stands, or comes built
-    onto   bodies that it touches     built  how many come whose parts came on the bench, in the steps before; 0: parts
-    stack  the order of parts that alternate along an axis
+    pieces  the parts that come where they stand      moves  directions by which each comes, in turn; none: it stands
+    onto    bodies that it touches     built  how many come whose parts came on the bench, in the steps before; 0: parts
+    stack   the order of parts that alternate along an axis      screws  how many of each hold what comes in this step
+    welds   ids of the two parts that each weld joins which is made in this step, with its throat [m]
     """
 
     bodies: tuple[str, ...]
-    parts: Mapping[Part, int]
+    pieces: tuple[StandingPart, ...]
     moves: tuple[tuple[Direction, ...], ...]
     onto: tuple[str, ...]
     built: int = 0
     stack: tuple[StackRun, ...] = ()
+    screws: Mapping[Part, int] = field(default_factory=dict)
+    welds: tuple[tuple[str, str, float], ...] = ()
+
+    @property
+    def parts(self) -> Mapping[Part, int]:
+        """How many of each part come."""
+        return Counter(piece.part for piece in self.pieces)
 
     @property
     def mass(self) -> float:
         """Mass of what comes [kg]."""
-        return math.fsum(number * part.mass for part, number in self.parts.items() if not math.isnan(part.mass))
+        every = (*self.parts.items(), *self.screws.items())
+        return math.fsum(number * part.mass for part, number in every if not math.isnan(part.mass))
 
 
 def assembly_check(steps: Sequence[Insertion]) -> Check:
@@ -67,6 +78,14 @@ def assembly_check(steps: Sequence[Insertion]) -> Check:
     source = "; ".join(named) or "straight moves past all that stands"
     check = at_most("assembly: parts that cannot reach their seats", len(held), 0, "1", source)
     return check.with_cure("leave room for it, or bolt what blocks it", *dict.fromkeys(parts))
+
+
+def fastening_check(screwed: Tree) -> Check:
+    """Whether a weld, screw, key or fit, its neighbours or its own means hold each part of a tree with its screws."""
+    loose, titles = fastenings(screwed).loose, {part.id: part.title for part, _ in screwed.occurrences()}
+    source = "; ".join(dict.fromkeys(titles[name] for name in loose)) or "welds, screws, keys, fits, neighbours"
+    check = at_most("assembly: parts without a fastening", len(loose), 0, "1", source)
+    return check.with_cure("screw, weld, key or press in the parts named", *loose)
 
 
 def _every(steps: Sequence[Insertion]) -> Iterator[Insertion]:
@@ -80,7 +99,10 @@ def _names(units: Sequence[InsertedUnit]) -> str:
 
 
 def assembly_steps(steps: Sequence[Insertion]) -> Iterator[AssemblyStep]:
-    """The rows of steps, those on the bench before; like parts of a body that come one after the other in one."""
+    """The rows of steps, those on the bench before; like parts of a body that come one after the other in one.
+
+    Screws have no rows: they come with the second of what they join.
+    """
     return _rows(steps, _benches(steps))
 
 
@@ -95,18 +117,16 @@ def _benches(steps: Sequence[Insertion]) -> dict[str, tuple[Insertion, ...]]:
 
 
 def _rows(steps: Sequence[Insertion], benches: dict[str, tuple[Insertion, ...]]) -> Iterator[AssemblyStep]:
-    for (bodies, name, simple), some in groupby(steps, key=_alike):
+    coming = (step for step in steps if not all(is_screw(unit.pieces[0].part) for unit in step.units))
+    for (bodies, name, simple), some in groupby(coming, key=_alike):
         alike = tuple(some)
         onto = tuple(dict.fromkeys(unit.name for step in alike for unit in step.onto))
         moves = tuple(dict.fromkeys(tuple(map(_direction, step.moves)) for step in alike if step.moves))
-        counted = Counter[Part]()
-        for step in alike:
-            for unit in step.units:
-                counted.update(unit.parts)
+        pieces = tuple(piece for step in alike for unit in step.units for piece in unit.pieces)
         if not simple:
             yield from _rows(benches.pop(name, ()), benches)
         stack = alike[0].units[0].stack if simple else ()
-        yield AssemblyStep(bodies, counted, moves, onto, 0 if simple else len(alike), stack)
+        yield AssemblyStep(bodies, pieces, moves, onto, 0 if simple else len(alike), stack)
 
 
 def _alike(step: Insertion) -> tuple[tuple[str, ...], str, bool]:
@@ -122,17 +142,72 @@ def _direction(move: Vector) -> Direction:
     return tuple((move / np.linalg.norm(move)).round(2).tolist())
 
 
-def _with_screws(steps: Iterable[AssemblyStep], tree: Tree) -> tuple[AssemblyStep, ...]:
-    """The rows with the screws of fixed joints: each comes with the second of the parts that it joins."""
-    rows, come = list(steps), dict[str, int]()
+def with_screws(
+    steps: Iterable[AssemblyStep], tree: Tree, joins: Mapping[str, Sequence[str]]
+) -> tuple[AssemblyStep, ...]:
+    """The rows with the screws of a tree: each comes with the second of the pieces that it joins.
+
+    joins  the ids of the parts that a screw joins, by its id
+
+    What comes built several times is screwed on the bench as often; the bench shows one of it.
+    """
+    rows = tuple(steps)
+    pieces: dict[str, dict[bytes, tuple[Box, list[int]]]] = defaultdict(dict)
     for number, step in enumerate(rows):
-        for part in () if step.built else step.parts:
-            come.setdefault(part.id, number)
-    screws: dict[int, dict[Part, int]] = defaultdict(dict)
-    for part, pieces in tree.occurrences():
-        if part.joins and part.purchase:
-            screws[max(come.get(name, 0) for name in part.joins)][part] = pieces
-    return tuple(replace(step, parts={**step.parts, **screws[number]}) for number, step in enumerate(rows))
+        for piece in step.pieces:
+            known = pieces[piece.part.id].setdefault(piece.position.origin.round(6).tobytes(), (piece.box, []))
+            known[1].append(number)
+    screws: dict[int, Counter[Part]] = defaultdict(Counter)
+    for links in chains(tree):
+        for screw in standing_parts(links):
+            if is_screw(screw.part):
+                names = [name for name in joins[screw.part.id] if pieces[name]]
+                joined_pieces = [_nearest(screw, tuple(pieces[name].values())) for name in names]
+                number = _together(joined_pieces)
+                benched = any(len(own) > 1 for name in names for _, own in pieces[name].values())
+                if not (rows[number].built and benched and all(number in own for own in joined_pieces)):
+                    screws[number][screw.part] += 1
+    return tuple(replace(step, screws=screws[number]) for number, step in enumerate(rows))
+
+
+def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblyStep]:
+    """The rows with the welds of a tree, each with the second of its parts."""
+    pairs = {(name, weld.other): weld.throat for name, own in welds_of(tree).items() for weld in own if weld.other}
+    welded, boxes = frozenset(chain(*pairs)), defaultdict[str, list[Box]](list)
+    for step in steps:
+        pieces = [piece for piece in step.pieces if piece.part.id in welded]
+        for piece in () if step.built else pieces:
+            boxes[piece.part.id].append(piece.box)
+        names = {piece.part.id for piece in pieces}
+        joined_now = dict.fromkeys(
+            pair
+            for piece in pieces
+            for pair in pairs
+            if piece.part.id in pair and not (step.built and names.issuperset(pair))
+            for other in boxes[pair[pair[0] == piece.part.id]]
+            if _touch(piece.box, other)
+        )
+        yield replace(step, welds=tuple((*pair, pairs[pair]) for pair in joined_now))
+
+
+def _touch(first: Box, second: Box) -> bool:
+    return bool((first[0] < second[1] + mm).all() and (second[0] < first[1] + mm).all())
+
+
+def _nearest(screw: StandingPart, pieces: Sequence[tuple[Box, list[int]]]) -> list[int]:
+    """The rows of the piece that is nearest to a screw, by boxes."""
+    low, high = screw.box
+    lows, highs = np.array([box for box, _ in pieces]).swapaxes(0, 1)
+    apart = np.maximum(np.maximum(lows - high, low - highs), 0.0)
+    return pieces[int(np.linalg.norm(apart, axis=1).argmin())][1]
+
+
+def _together(pieces: Sequence[Sequence[int]]) -> int:
+    """The row in which pieces meet that come in rows, those on a bench before that of all that was built on it."""
+    shared = set(pieces[0]).intersection(*pieces[1:]) if pieces else {0}
+    last = min(shared, default=math.inf)
+    before = [number for own in pieces for number in own if number < last]
+    return max(before, default=min(shared, default=0))
 
 
 def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tree) -> Paper:
@@ -143,21 +218,24 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
     seen, standing = outlines(tree, view), set[str]()
     fasteners = frozenset(part.id for part, _ in screwed.occurrences() if part.process == FASTENER)
     titles = {part.id: part.title for part, _ in screwed.occurrences()}
-    joins = {name: [titles[one] for one in own] for name, own in joined_by(screwed, fasteners).items()}
+    joined_parts = joined_by(screwed, fasteners)
     sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
     last = (links[-1] for links in chains(tree))
     machines = {link.name: machine_of(link.body) for link in last if link.body.occurrences}
-    numbered = enumerate(_with_screws(assembly_steps(steps), screwed), 1)
+    rows_of = with_welds(with_screws(assembly_steps(steps), screwed, joined_parts), screwed)
+    numbered = enumerate(rows_of, 1)
     for machine, grouped in groupby(numbered, key=lambda row: machines[row[1].bodies[0]]):
         rows = tuple(grouped)
         coming = {body for _, step in rows for body in step.bodies}
-        sections.append(_section(machine, rows, joins, _picture(seen, standing, coming, _CAPTIONS[view])))
+        sections.append(
+            _section(
+                machine,
+                [_row(*row, joined_parts, titles) for row in rows],
+                _picture(seen, standing, coming, _CAPTIONS[view]),
+            )
+        )
         sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
         standing |= coming
-    loose = tuple(titles[name] for name in fastenings(screwed).loose)
-    if loose:
-        how = Sentence("manual.loose-how", number=str(len(loose)))
-        sections.append(PaperSection(Sentence("manual.loose"), (how, "; ".join(dict.fromkeys(loose)))))
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
 
 
@@ -174,11 +252,8 @@ def _stacked(piece: StackPiece) -> str:
     return f"{part.title}, {format_quantity(angle, 'deg', 3)}" if angle else part.title
 
 
-def _section(
-    machine: str, steps: Sequence[tuple[int, AssemblyStep]], joins: Mapping[str, Sequence[str]], picture: Drawing
-) -> PaperSection:
-    first, last = str(steps[0][0]), str(steps[-1][0])
-    title = Sentence("manual.machine", machine=machine.replace("-", " "), first=first, last=last)
+def _section(machine: str, rows: Sequence[tuple[float | int | str, ...]], picture: Drawing) -> PaperSection:
+    title = Sentence("manual.machine", machine=machine.replace("-", " "), first=str(rows[0][0]), last=str(rows[-1][0]))
     heads = (
         Column(Sentence("manual.step")),
         Column(Sentence("manual.body")),
@@ -189,13 +264,17 @@ def _section(
         Column(Sentence("manual.tighten")),
         Column(Sentence("manual.joins")),
     )
-    table = Table("steps", title, heads, tuple(_row(number, step, joins) for number, step in steps))
+    table = Table("steps", title, heads, tuple(rows))
     return PaperSection(title, (picture.title,), table, boxes=True, figure=picture)
 
 
-def _row(number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]]) -> tuple[float | int | str, ...]:
+def _row(
+    number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]], titles: Mapping[str, str]
+) -> tuple[float | int | str, ...]:
     parts = {} if step.built else step.parts
-    fasteners = [part for part in parts if part.process == FASTENER]
+    fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
+    fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
+    fastened += [(Sentence("manual.weld", throat=in_mm(throat)), pair) for *pair, throat in step.welds]
     named = [f"{parts[part]} × {part.title}" for part in parts if part.process != FASTENER]
     return (
         number,
@@ -204,18 +283,15 @@ def _row(number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]]) ->
         _from(step),
         Sentence("manual.built", count=str(step.built)) if step.built else "; ".join(named),
         step.mass,
-        "; ".join(_tightened(part, parts[part]) for part in fasteners),
-        "; ".join(", ".join(joins[part.id]) for part in fasteners),
+        reduce(joined, (text for text, _ in fastened), ""),
+        "; ".join(", ".join(titles[name] for name in own) for _, own in fastened),
     )
 
 
 def _from(step: AssemblyStep) -> str:
     """From where it comes, in words."""
     words = [_in_turn([_FROM.get(move, Sentence("manual.slanting")) for move in moves]) for moves in step.moves]
-    text = ""
-    for word in dict.fromkeys(words):
-        text = joined(text, word)
-    return text
+    return reduce(joined, dict.fromkeys(words), "")
 
 
 def _in_turn(words: Sequence[str]) -> str:

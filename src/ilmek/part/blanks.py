@@ -1,8 +1,8 @@
 """What a made part is cut from: bar, tube, section, plate or sheet of a size that is sold, no less than the part.
 
     sheet   of the plate's thickness, or the next one, from which it is milled; of a folded strip its developed width
-    milled  a plate of the next thickness, with an allowance at its edges
-    turned  a round bar: a plain pin of a size that is sold is that bar, else the next one over an allowance
+    milled  a plate of the next thickness, with an allowance at its edges, of links and cams
+    turned  a round bar: a pin of a size that is sold is that bar, bored or not; else the next one over an allowance
     stock   the bar, tube or section itself
 
 A blank's size is a function of the shape; parts list, cut list, drawing and price read it from here.
@@ -28,7 +28,7 @@ ALLOWANCE = 2 * mm
 _TURNED, _LEAST_TURNED = 0.04, 0.5 * mm
 """Allowance of a turned diameter over it, and the least [m]; assumed by this project."""
 
-SHEET, MILLED = ("laser-cut part", "cam plate"), ("machined link",)
+SHEET, MILLED = ("laser-cut part",), ("machined link", "cam plate")
 TURNED = ("turned part", "pin or bush")
 SOLID = "steel bar"
 STOCK = (SOLID, "steel tube", "carbon tube", "welded frame")
@@ -134,11 +134,51 @@ def turned_of(shape: Shape) -> Blank:
         section = offered(thick, PLATES), wide + 2 * ALLOWANCE
         return Blank(BAR, section, (long + 2 * ALLOWANCE,), math.prod(section))
     across = max(form.size[:2])
-    pin = form.plain and math.isclose(form.volume, math.pi / 4 * across**2 * form.size[2])
+    pin = isinstance(shape, Turned) and _is_even(shape)
     bar = offered(across, ROUNDS)
     if not pin or bar - across > _IN_SERIES:
         bar = offered(across + max(_TURNED * across, _LEAST_TURNED), ROUNDS)
     return Blank(ROUND, (bar,), (form.size[2] + ALLOWANCE,), math.pi / 4 * bar**2)
+
+
+def _is_even(shape: Turned) -> bool:
+    """Whether the outside of a turned shape is one cylinder from end to end."""
+    points, outer = shape.profile.outline.points, shape.outer_radius
+    outside = points.real[points.imag > outer - _IN_SERIES]
+    return bool(np.ptp(outside) > np.ptp(points.real) - _IN_SERIES)
+
+
+def sold_as(part: Part) -> str:
+    """Designation under which the stock of a made part is ordered: its form and size have their own standard.
+
+    >>> from ilmek.elements.materials import find_material
+    >>> from ilmek.part.shapes import bar
+    >>> sold_as(Part("probe/wire", "wire", "turned part", "", bar(0.9e-3, 0.1), find_material("heat-treatable steel")))
+    'SH EN 10270-1'
+    """
+    if part.material is None:
+        return ""
+    own = part.material.designation
+    blank = next(iter(blanks_of(part)), None)
+    if blank is None:
+        return own
+    rows = (row for row in _SOLD if row[0] == own and blank.form in row[1] and blank.section[0] < row[2])
+    return next((row[3] for row in rows), own)
+
+
+_STRUCTURAL, _HEAT_TREATABLE = "S235JR EN 10025-2", "C45+QT EN 10083-2"
+_SOLD = (
+    (_STRUCTURAL, (HOLLOW,), math.inf, "S235JRH EN 10219-1"),
+    (_STRUCTURAL, (TUBE,), math.inf, "E235 EN 10305-1"),
+    (_STRUCTURAL, (ROUND, SQUARE), math.inf, "S235JRC+C EN 10277"),
+    (_STRUCTURAL, (PLATE,), 1.5 * mm, "HC260LA EN 10268"),
+    (_HEAT_TREATABLE, (ROUND,), 2 * mm, "SH EN 10270-1"),
+    (_HEAT_TREATABLE, (SQUARE,), 8 * mm, "C45+C DIN 6880"),
+    (_HEAT_TREATABLE, (PLATE, BAR), 3 * mm, "C45E+QT EN 10132"),
+)
+"""Steel by its designation as plate or bar; form, and size below which it is sold otherwise [m]; what is sold: hollow
+sections, precision tubes, bright bars, cold rolled sheet, spring wire, key steel, strip, none weaker than the first.
+"""
 
 
 def stock_of(shape: Shape, *, hollow: bool = True) -> Blank:

@@ -4,24 +4,28 @@ Pieces of like parts that lie alike to each other are measured once.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from manifold3d import Manifold
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from ilmek.arrays import BoolArray, Float, Int
 from ilmek.part.clearances import Approach
-from ilmek.part.colliders import MANY, Collider, Common, collider, gap_between, inside, pose_key
+from ilmek.part.colliders import DEPTH, MANY, Collider, Common, collider, gap_between, inside, pose_key
 from ilmek.part.placement import Placement
 from ilmek.part.poses import Chain, chains, poses
-from ilmek.part.tree import STANDING, Tree
+from ilmek.part.tree import STANDING, JointKind, Tree
 from ilmek.records import record
 from ilmek.units import mm
 
 TOUCHING = 0.1 * mm
 """Distance within which parts touch [m]."""
+
+PLAY, LEAST = 1 * mm, 1e-3 * mm**3
+"""Move that shows what stops a piece [m], and volume in common that counts as rounding [m³]."""
 
 AROUND = 1 * mm
 """Greatest gap between a key and the room about it [m]; assumed by this project."""
@@ -54,6 +58,7 @@ class _Piece:
     """A piece of a part where it stands.
 
     rigid  names all that moves with it        held  names all that no joint lets move against it
+    turned  names all that no joint but pins lets move against it
     along  direction in which `MANY` of it follow each other
     """
 
@@ -63,6 +68,7 @@ class _Piece:
     collider: Collider
     rigid: tuple[tuple[str, int], ...]
     held: tuple[tuple[str, int], ...]
+    turned: tuple[tuple[str, int], ...]
     along: Float[np.ndarray, " 3"] | None = None
 
 
@@ -145,17 +151,59 @@ def _touch(own: _Piece, its: _Piece) -> Touch:
     return Touch(own.part, its.part, lies, np.sort(ends, axis=0))
 
 
-@record
+@dataclass(frozen=True, eq=False)
 class StandingTouches:
-    """Pieces that stand to each other: the ids of their parts, and the pairs of their numbers that touch.
+    """Pieces that stand to each other, by their numbers, and the pairs of them that touch.
 
-    lowest  of each, over the lowest of all [m]      ground  they stand
+    beside  pieces that turn against them      lowest  of each, over the lowest of all [m]      ground  they stand
     """
 
-    parts: tuple[str, ...]
+    pieces: tuple[_Piece, ...]
     pairs: tuple[tuple[int, int], ...]
+    beside: tuple[_Piece, ...]
     lowest: tuple[float, ...]
     ground: bool
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """Ids of their parts."""
+        return tuple(piece.part for piece in self.pieces)
+
+    def captive(self, own: Sequence[int], others: Collection[int]) -> bool:
+        """Whether some pieces, moved together, run into others, or what turns beside, along all axes of the first one.
+
+        A move of `PLAY` has to give them more in common, which is on the average thicker than `DEPTH`: as a shoulder
+        has, not the facets of a pin that slides in its bore.
+        """
+        mine, theirs = [self.pieces[k] for k in own], [*(self.pieces[k] for k in others), *self.beside]
+        low, high = (edge[:, None] for edge in _boxes(mine).swapaxes(0, 1))
+        begin, end = _boxes(theirs).swapaxes(0, 1)
+        near = np.argwhere((low <= end + PLAY).all(2) & (begin <= high + PLAY).all(2)).tolist()
+        known, pairs = dict[Collider, Manifold](), [(mine[k], theirs[j]) for k, j in near]
+        rests = [_in_common(one, other, np.zeros(3), known) for one, other in pairs]
+
+        def stops(move: Float[np.ndarray, " 3"]) -> bool:
+            for pair, (volume, surface) in zip(pairs, rests, strict=True):
+                more, around = _in_common(*pair, move, known)
+                if more - volume > LEAST and 2 * (more - volume) > DEPTH * (around - surface):
+                    return True
+            return False
+
+        axes = mine[0].position.rotation.T
+        return all(stops(sense * PLAY * axis) for axis in axes for sense in (1.0, -1.0))
+
+
+def _in_common(
+    own: _Piece, its: _Piece, move: Float[np.ndarray, " 3"], known: dict[Collider, Manifold]
+) -> tuple[float, float]:
+    """Volume [m³] and surface [m²] of what two pieces have in common when the first is moved [m]."""
+    for piece in (own, its):
+        if piece.collider not in known:
+            known[piece.collider] = piece.collider.manifold()
+    back = own.position.rotation.T
+    lies = np.column_stack([back @ its.position.rotation, back @ (its.position.origin - own.position.origin - move)])
+    common = known[own.collider] ^ known[its.collider].transform(lies)
+    return common.volume(), common.surface_area()
 
 
 def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
@@ -174,8 +222,9 @@ def standing_touches(tree: Tree) -> Iterator[StandingTouches]:
         between = ((one, two) for one, two in pairs[touch].tolist() if pieces[one].held == held)
         height = boxes[list(own), 0, 1]
         yield StandingTouches(
-            tuple(pieces[number].part for number in own),
+            tuple(pieces[number] for number in own),
             tuple((own[one], own[two]) for one, two in between),
+            tuple(piece for piece in pieces if piece.turned == pieces[next(iter(own))].turned and piece.held != held),
             tuple((height - height.min()).tolist()),
             ground=not held,
         )
@@ -190,7 +239,8 @@ def open_parts(tree: Tree) -> tuple[str, ...]:
 def _pieces(tree: Tree) -> Iterator[_Piece]:
     for chain in chains(tree):
         here = poses(chain, "", np.zeros(1))
-        body, rigid, held = Placement(here.origin[0], here.rotation[0]), _rigid(chain), _held(chain)
+        body, rigid = Placement(here.origin[0], here.rotation[0]), _rigid(chain)
+        held, turned = _held(chain, STANDING), _held(chain, STANDING | {JointKind.PIN})
         for occurrence in chain[-1].body.occurrences:
             if occurrence.part.shape is not None:
                 own, positions = collider(occurrence.part.shape), occurrence.positions
@@ -200,7 +250,9 @@ def _pieces(tree: Tree) -> Iterator[_Piece]:
                     else None
                 )
                 for position in positions:
-                    yield _Piece(occurrence.part.id, chain[-1].name, body.after(position), own, rigid, held, along)
+                    yield _Piece(
+                        occurrence.part.id, chain[-1].name, body.after(position), own, rigid, held, turned, along
+                    )
 
 
 def _boxes(pieces: Sequence[_Piece]) -> Float[np.ndarray, "pieces 2 3"]:
@@ -222,9 +274,9 @@ def _rigid(chain: Chain) -> tuple[tuple[str, int], ...]:
     return tuple((link.name, link.index) for link in chain[: moving[-1] + 1 if moving else 0])
 
 
-def _held(chain: Chain) -> tuple[tuple[str, int], ...]:
-    """The chain up to its last link that a joint lets move."""
-    jointed = [k for k, link in enumerate(chain) if link.body.joint.kind not in STANDING]
+def _held(chain: Chain, kinds: frozenset[JointKind]) -> tuple[tuple[str, int], ...]:
+    """The chain up to its last link whose joint is of none of some kinds."""
+    jointed = [k for k, link in enumerate(chain) if link.body.joint.kind not in kinds]
     return tuple((link.name, link.index) for link in chain[: jointed[-1] + 1 if jointed else 0])
 
 

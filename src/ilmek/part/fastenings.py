@@ -1,12 +1,13 @@
 """What holds the parts of a tree together that stand to each other, and which parts nothing holds.
 
 Parts that touch are joined by a weld, a screw or key, a fit, or by what a bought part brings with it: snaps, threads,
-hooks. Of the parts that move together all are held that are joined to each other, directly or by others; those that are
+hooks. Of the parts that move together all are held that are joined to each other, directly or by others, and what these
+and what turns beside them let move in no direction: a roller on its pin between two cheeks, a spacer. Those that are
 not joined to most of them are in the air, though they touch.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from enum import StrEnum
 from functools import lru_cache
 
@@ -48,6 +49,9 @@ OWN = {
 }
 """How kinds of parts hold themselves, by their process; a single part says it in its `fixing`."""
 
+_ROUND_OTHERS = frozenset({"belt", "belt and pulleys"})
+"""Kinds that lie round parts of other bodies, beside which they touch nothing."""
+
 
 @record
 class Fastenings:
@@ -70,7 +74,8 @@ def fastenings(tree: Tree) -> Fastenings:
             held = means.get(frozenset((first, second))) or _by_itself(parts[first], parts[second])
             counted[held] += 1
             (free if held is Means.NONE else joined).append(pair)
-        loose |= dict.fromkeys(group.parts[number] for number in _loose(group, joined, free))
+        names = (group.parts[number] for number in _loose(group, joined, free))
+        loose |= dict.fromkeys(name for name in names if parts[name].process not in _ROUND_OTHERS)
     return Fastenings(dict(counted), tuple(loose))
 
 
@@ -79,10 +84,17 @@ def _loose(group: StandingTouches, joined: Sequence[tuple[int, int]], free: Sequ
     groups = sorted(connected(len(group.parts), np.array(joined, int).reshape(-1, 2)), key=len, reverse=True)
     standing = [own for own in groups if group.ground and any(group.lowest[number] < _ON_FLOOR for number in own)]
     held = {number for own in standing or groups[:1] for number in own}
-    for own in groups:
-        if own[0] not in held:
-            ends = {number for pair in free for number in pair if not held.isdisjoint(pair)}
-            yield from ends & set(own) or own
+    apart = [own for own in groups if own[0] not in held]
+    while captive := [own for own in apart if _touch(own, held, free) and group.captive(own, held)]:
+        held.update(number for own in captive for number in own)
+        apart = [own for own in apart if own not in captive]
+    for own in apart:
+        yield from _touch(own, held, free) or own
+
+
+def _touch(own: Collection[int], others: Collection[int], pairs: Sequence[tuple[int, int]]) -> set[int]:
+    """Of some pieces those that touch others."""
+    return {number for pair in pairs if not set(pair).isdisjoint(others) for number in pair if number in own}
 
 
 _ON_FLOOR = 1 * mm

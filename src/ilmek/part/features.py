@@ -103,7 +103,7 @@ def _of_contour(contour: Contour, length: float, *, inside: bool) -> Iterator[Fe
         yield FeatureOfSize(lies, abs(side), length, inside, square=True)
 
 
-_Z = (0.0, 0.0, 1.0)
+_X, _Z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def _standard(keyed: KeyedCircle, *, inside: bool) -> Keyway | None:
@@ -136,6 +136,36 @@ def drillings(shape: object) -> tuple[Drilling, ...]:
             for hole in drillings(member.shape)
         )
     return ()
+
+
+def round_holes(shape: object) -> tuple[Drilling, ...]:
+    """All round holes of a prism: drilled ones, a counterbore with the hole that it is round, and through the section.
+
+    Those of the section have their mouth at the prism's length; of other shapes only the drilled ones.
+
+    >>> from ilmek.part.shapes import tube
+    >>> round_holes(tube(0.02, 0.005, 0.1))
+    ()
+    """
+    if not isinstance(shape, Prism):
+        return drillings(shape)
+    drilled = tuple(
+        replace(hole, steps=(*hole.steps, (hole.bore, shape.length - hole.steps[0][1])), through=True)
+        if hole.bore
+        else hole
+        for hole in shape.drilled
+    )
+    sunk = [complex(*hole.position.origin[:2]) for hole in shape.drilled if hole.bore]
+    plain = (hole for hole in map(as_hole, shape.section.holes) if hole is not None)
+    return *drilled, *(
+        Drilling(
+            placement(hole.at.real, hole.at.imag, shape.length, about=_X, angle=np.pi),
+            ((2 * hole.radius, shape.length),),
+            through=True,
+        )
+        for hole in plain
+        if all(abs(hole.at - own) > _LEAST for own in sunk)
+    )
 
 
 @record

@@ -103,7 +103,9 @@ class _Plan:
         self.near: dict[tuple[InsertedUnit, Direction], list[InsertedUnit]] = {}
         self.through: set[frozenset[InsertedUnit]] = set()
         self.beside: dict[InsertedUnit, set[InsertedUnit]] = {unit: set() for unit in self.units}
-        self.carried = {own: [unit for unit in self.units if own.name in unit.carriers] for own in self.units}
+        self.carried = {
+            own: [unit for unit in self.units if own.name in unit.carriers and not own.fastens] for own in self.units
+        }
         for first, other in _near(self.boxes):
             pair = self.units[first], self.units[other]
             touch = through(pair[0].grown, pair[1].grown)
@@ -121,8 +123,9 @@ class _Plan:
             if steps[0].blocking:
                 own = self.standing | set(steps[0].units)
                 beside = (unit for unit in self.units if unit.name == steps[0].units[0].name)
-                near = (*steps[0].units, *steps[0].blocking, *beside, *self.units)
-                built = [unit for unit in near if unit.inner and unit in own and (unit.fastens or not self.welded)]
+                near = (*steps[0].units, *steps[0].blocking)
+                every = [unit for unit in (*near, *beside, *self.units) if unit.inner and unit in own]
+                built = [unit for unit in every if unit.fastens or not self.welded or unit in near]
                 if built:  # it is put together in its place
                     rest = [*(own - {built[0]}), *built[0].inner]
                     parts = _Plan(rest, self.up, self.welded, self.learned).steps()
@@ -133,7 +136,7 @@ class _Plan:
     def _next(self) -> list[Insertion]:
         """The steps in which a body leaves, the last of the tree first; else a part of one, a group, by two moves."""
         bodies: dict[str, list[InsertedUnit]] = defaultdict(list)
-        for unit in sorted(self.standing, key=lambda unit: -unit.number):
+        for unit in sorted(self.standing, key=lambda unit: (unit.name in self.welded and unit.is_stock, -unit.number)):
             bodies[unit.name].append(unit)
         for units in bodies.values():
             alone = len(units) == len(self.standing)
@@ -220,9 +223,12 @@ class _Plan:
         return self.learned.reach * np.array(direction)
 
     def _may_leave(self, leaving: set[InsertedUnit]) -> bool:
-        """Whether what touched what leaves still hangs together, and nothing that it carries stays."""
+        """Whether what touched what leaves still hangs together, and nothing stays that a body carries of which nothing
+        but screws stays.
+        """
         rest = self.standing - leaving
-        if any(unit in rest for own in leaving for unit in self.carried[own]):
+        carrying = {own.name for own in leaving for unit in self.carried[own] if unit in rest}
+        if carrying and not carrying <= {unit.name for unit in rest if not unit.fastens}:
             return False
         around = {other for unit in leaving for other in self.beside[unit]} & rest
         if around:
@@ -257,7 +263,8 @@ class _Plan:
     def _held_along(
         self, units: Sequence[InsertedUnit], direction: Direction, most: int, length: float = 0.0
     ) -> set[InsertedUnit] | None:
-        """Some units and all that must move along with them in a direction; None: more than a number, or everything.
+        """Some units and all that must move along with them in a direction; None: more than a number, or everything, or
+        what is welded and stays.
 
         length  of the move [m]; default: to the outside
         """
@@ -270,7 +277,8 @@ class _Plan:
             along = (own for own in self._before(unit, direction) if self._meets(unit, own, direction, length))
             for other in chain((own for own in self.carried[unit] if own in self.standing), along):
                 if other not in group:
-                    if len(group) >= min(most, len(self.standing) - 1):
+                    stays = other.name in self.welded and units[0].name not in self.welded
+                    if stays or len(group) >= min(most, len(self.standing) - 1):
                         self.stuck[key] = frozenset((*group, other))
                         return None
                     group.add(other)
@@ -330,7 +338,8 @@ class _Plan:
                 return False
             low, high = swept_box(unit.opened.box + start, move)
             within = ((low <= self.boxes[:, 1]) & (self.boxes[:, 0] <= high)).all(1)
-            for other in {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group:
+            others = {self.units[k] for k in np.flatnonzero(within).tolist()} & self.standing - group
+            for other in sorted(others, key=lambda own: own not in met):  # what was in the way, often is again
                 if frozenset((unit, other)) not in self.through and meets(unit.opened, other.solid, move, start):
                     self.known[key] = other
                     met.add(other)

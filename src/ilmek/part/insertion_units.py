@@ -9,7 +9,7 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import count, groupby
+from itertools import count, groupby, product
 from typing import TypeAlias
 
 import numpy as np
@@ -18,8 +18,8 @@ from scipy.spatial import ConvexHull
 from ilmek.arrays import Float
 from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.retaining_rings import RetainingRing, ring_of
-from ilmek.part.colliders import MANY, collider
-from ilmek.part.part import Part
+from ilmek.part.colliders import COARSE, MANY, collider
+from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.part_lists import BELTS, FASTENER
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains, poses
@@ -38,6 +38,7 @@ _DIGITS = 6
 """Digits of a direction at which two are the same."""
 
 Direction: TypeAlias = tuple[float, ...]
+Box: TypeAlias = tuple[Vector, Vector]
 Axes: TypeAlias = tuple[Direction, ...]
 
 
@@ -48,6 +49,13 @@ class StandingPart:
     part: Part
     body: str
     position: Placement
+
+    @property
+    def box(self) -> Box:
+        """Its least and greatest coordinates [m]."""
+        corners = np.array(list(product(*np.transpose(shape_box(_shape(self.part))))))
+        points = self.position.points(corners)
+        return points.min(0), points.max(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +92,11 @@ class InsertedUnit:
     def fastens(self) -> bool:
         """Whether it is screws, or a key."""
         return len(self.parts) == 1 and self.pieces[0].part.process == FASTENER
+
+    @property
+    def is_stock(self) -> bool:
+        """Whether it is welded: it leaves after what is only screwed to the same body."""
+        return self.pieces[0].part.process in {WELDED, LASER_CUT}
 
     @property
     def yields(self) -> bool:
@@ -139,7 +152,8 @@ def _placed(pieces: Sequence[StandingPart], by: float) -> MovedSolids:
 
 @lru_cache(maxsize=4096)
 def _of_shape(shape: Shape, by: float) -> FittedSolid:
-    return fitted(collider(shape).solid, by)
+    own = collider(shape)
+    return fitted(shape.mesh(COARSE) if own.large else own.solid, by)
 
 
 def _hull(points: Float[np.ndarray, "points 3"]) -> Solid:
@@ -168,7 +182,7 @@ def _units(
     for prefix, own in grouped.items():
         link, axes = prefix[-1], _axes(prefix)
         carriers = frozenset(before.name for before in prefix[depth:-1] if before.body.joint.kind not in STANDING)
-        pieces = tuple(piece for links in own for piece in _pieces(links))
+        pieces = tuple(piece for links in own for piece in standing_parts(links))
         if pieces and len(prefix) > depth and len(link.body.positions) > 1:
             inner = tuple(_units(own, len(prefix), numbers, seats)) if link.index == 0 else ()
             yield InsertedUnit(next(numbers), link.name, pieces, axes, carriers, inner)
@@ -184,7 +198,7 @@ def _units(
         yield from (unit for unit in single if unit not in kept)
 
 
-def _pieces(links: Chain) -> Iterator[StandingPart]:
+def standing_parts(links: Chain) -> Iterator[StandingPart]:
     """The parts of the last body of a chain where they stand."""
     here = poses(links, "", np.zeros(1))
     body = Placement(here.origin[0], here.rotation[0])
@@ -211,22 +225,22 @@ def _of_body(
         stacks[lines.pop() if len(lines) == 1 else number] += own
     for same in stacks.values():
         rows = [tuple(same)] if len(same) >= MANY else [(piece,) for piece in same]
-        if _is_screw(same[0].part):
+        if is_screw(same[0].part):
             rows = [tuple(own) for _, own in groupby(sorted(same, key=_end), key=_end)]
         for own in rows:
             part, along = own[0].part, own[0].position.rotation[:, 2]
             seat = own[0].position.rotation @ seat_axis(part, seats)
             axial = own[-1].part is not part or _ring(part) is not None
             ends = _both(along) if axial else (*_both(seat), *axes, *_both(along))
-            ends = _both(along)[1:] if _is_screw(part) else tuple(dict.fromkeys(ends))
-            several = own if _is_screw(part) and len(own) > 1 else ()
+            ends = _both(along)[1:] if is_screw(part) else tuple(dict.fromkeys(ends))
+            several = own if is_screw(part) and len(own) > 1 else ()
             inner = tuple(InsertedUnit(next(numbers), own[0].body, (piece,), ends, carriers) for piece in several)
             yield InsertedUnit(next(numbers), own[0].body, own, ends, carriers, inner)
 
 
 def _comes_after(unit: InsertedUnit, body: Sequence[InsertedUnit]) -> bool:
     """Whether it comes after its body: screws, rings, and a key of which no hub is in the body."""
-    if _is_screw(unit.pieces[0].part) or _ring(unit.pieces[0].part):
+    if is_screw(unit.pieces[0].part) or _ring(unit.pieces[0].part):
         return True
     low, high = unit.solid.box
     meet = [own for own in body if (low < own.solid.box[1]).all() and (own.solid.box[0] < high).all()]
@@ -246,7 +260,8 @@ def _end(screw: StandingPart) -> tuple[float, ...]:
     return (*(along.round(3) + 0.0).tolist(), round(float(along @ screw.position.origin), 4))
 
 
-def _is_screw(part: Part) -> bool:
+def is_screw(part: Part) -> bool:
+    """Whether a part is a screw of a catalogue."""
     return part.purchase is not None and screw_of(part.purchase.row) is not None
 
 

@@ -106,6 +106,7 @@ class Part:
     cam       how a disc cam is cut; None: it is none
     machined  its seats are machined after it is cut, sawn or welded: bores, threads, faces of guides, journals
     throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
+    joins     ids of the parts that a fastener holds together, or that a made part is welded to
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
     fixing    by what it holds itself where it stands, with no screw, weld or fit of this tree; ""
 

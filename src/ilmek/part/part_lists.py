@@ -12,7 +12,7 @@ from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.assemblies import drawings_of_parts
 from ilmek.part.bill import line_of
-from ilmek.part.blanks import PLATE, blanks_of
+from ilmek.part.blanks import PLATE, blanks_of, sold_as
 from ilmek.part.contacts import joined_by
 from ilmek.part.part import Part
 from ilmek.part.tree import Tree
@@ -51,7 +51,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         line, bought = line_of(part, number), part.purchase
         source = (part.designation, "make" if bought is None else "buy")
         drawing = part.id if bought is None else ""
-        material = part.material.designation if part.material else ""
+        material = sold_as(part)
         into = " ".join(assemblies[part.id])
         made = position, part.id, part.title, drawing, into, number, source[1], line.description, material, part.process
         rows.append((*made, part.mass, price_of(line, prices), source[0]))
@@ -86,7 +86,7 @@ def cut_list(tree: Tree) -> Table:
     for part, number in tree.occurrences():
         for blank in blanks_of(part):
             if blank.form != PLATE and part.material is not None:
-                stock[blank.name, part.material.designation].append((blank.length, number, part.id))
+                stock[blank.name, sold_as(part)].append((blank.length, number, part.id))
     heads = columns("section | material | pieces | lengths | length of all [m] 6 | length of a bar [m] | bars")
     heads = (*heads, *columns("least number of bars | parts"))
     rows = []

@@ -4,7 +4,7 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TypeVar
 
-from ilmek.part.blanks import size_of
+from ilmek.part.blanks import size_of, sold_as
 from ilmek.part.folding import folded_sheet
 from ilmek.part.part import Part
 from ilmek.part.shapes import Prism
@@ -38,7 +38,7 @@ def pieces_of(tree: Tree, whole: Tree | None = None) -> tuple[WorkPiece, ...]:
 def _piece(part: Part, number: int, whole: Tree) -> WorkPiece:
     assert part.material is not None
     assert part.shape is not None
-    designation, volume = part.material.designation, part.shape.volume
+    designation, volume = sold_as(part), part.shape.volume
     return WorkPiece(plate_name(part), part.title, size_of(part), designation, number, part.shape, volume, part, whole)
 
 
@@ -102,7 +102,7 @@ def _plate(part: Part, number: int, whole: Tree) -> Plate:
             name=plate_name(part),
             title=part.title.capitalize(),
             number=number,
-            material=part.material.designation,
+            material=sold_as(part),
             part=part,
             tree=whole,
         )
@@ -115,7 +115,7 @@ def _plate(part: Part, number: int, whole: Tree) -> Plate:
         title=part.title.capitalize(),
         outline=outline.points if shape.section.smooth else outline,
         thickness=shape.length,
-        material=part.material.designation,
+        material=sold_as(part),
         holes=tuple(hole for _, hole in bores if hole is not None),
         cutouts=tuple(counter_clockwise(cut) for cut, hole in bores if hole is None),
         area=area(outline),

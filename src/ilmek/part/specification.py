@@ -3,6 +3,7 @@
 import numpy as np
 
 from ilmek.elements.materials import Hardening
+from ilmek.part.blanks import sold_as
 from ilmek.part.part import Part
 from ilmek.records import record
 from ilmek.units import mm, um
@@ -51,7 +52,7 @@ def specification(part: Part) -> PartSpecification:
     assert part.material is not None
     hardening = part.material.treatment
     return PartSpecification(
-        part.material.designation,
+        sold_as(part),
         hardening,
         _depth(part) if hardening is not None and hardening.kind else 0.0,
         "ISO 13920-BF" if part.process == "welded frame" else "ISO 2768-mK",

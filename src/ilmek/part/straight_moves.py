@@ -152,9 +152,6 @@ def _pairs(
     moving: MovedSolids, standing: MovedSolids, move: Vector, begin: Vector
 ) -> Iterator[tuple[tuple[FittedSolid, Placement], tuple[FittedSolid, Placement]]]:
     """What may meet, by the boxes of what moves from `begin` and of what stands."""
-    around = swept_box(moving.box + begin, move)
-    if (around[0] > standing.box[1]).any() or (standing.box[0] > around[1]).any():
-        return
     low = moving.boxes[:, 0] + begin + np.minimum(move, 0.0)
     high = moving.boxes[:, 1] + begin + np.maximum(move, 0.0)
     meet = (low[:, None] <= standing.boxes[:, 1]) & (standing.boxes[:, 0] <= high[:, None])

@@ -72,8 +72,14 @@ class Weld:
 
 def welded_together(one: Part, other: Part) -> bool:
     """Whether two parts are welded where they touch."""
+    if _is_joined(one, other) or _is_joined(other, one):
+        return True
     processes = {one.process, other.process}
     return WELDED in processes and processes <= _WITH
+
+
+def _is_joined(part: Part, other: Part) -> bool:
+    return part.material is not None and other.id in part.joins
 
 
 @lru_cache(maxsize=8)
@@ -90,9 +96,12 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
         if part.process == LASER_CUT and isinstance(part.shape, Sum):
             welds[part.id].update(enumerate(_of_plates(part, part.shape)))
     plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
-    for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset())):
-        ids = {touch.part for touch in pair}
-        if not ids & stock or (ids & spigots and not ids & tubes) or any(ids <= joined for joined in screwed):
+    stated = {frozenset((name, other)) for name, part in parts.items() if part.material for other in part.joins}
+    named = frozenset(name for ids in stated for name in ids)
+    for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset()) | named):
+        ids = frozenset(touch.part for touch in pair)
+        stocked = ids & stock and ids <= plates | tubes | spigots and not (ids & spigots and not ids & tubes)
+        if ids not in stated and (not stocked or any(ids <= joined for joined in screwed)):
             continue
         name, weld = _weld(pair, parts)
         if np.sort(np.ptp(weld.box, axis=0))[1] < weld.throat:
@@ -113,7 +122,11 @@ def _of_plates(part: Part, shape: Sum) -> Iterator[Weld]:
 
 def _weld(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> tuple[str, Weld]:
     """The weld of a contact with the id of its part: that whose end it is, or the thinner one."""
-    ends = [touch for touch in pair if _is_end(parts[touch.part], touch.box.mean(axis=0))]
+    ends = [
+        touch
+        for touch in pair
+        if touch.other in parts[touch.part].joins or _is_end(parts[touch.part], touch.box.mean(axis=0))
+    ]
     touch = (ends or sorted(pair, key=lambda own: wall_of(parts[own.part])))[0]
     own, other = parts[touch.part], parts[touch.other]
     if own.process == TUBE and own.shape is not None:  # on the flange of a spigot, round its end

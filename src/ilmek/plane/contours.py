@@ -251,9 +251,9 @@ def along(contour: Contour, chord_error: float) -> Complex[np.ndarray, " points"
 
 
 def _chords(chord: float, bulge: float, chord_error: float) -> int:
-    """Number of chords of an arc; one where its sagitta b c/2 is within the error."""
+    """Number of chords of an arc; one where its sagitta b c/2 is within the error, of half a turn and more two."""
     if bulge * chord / 2 <= chord_error:
-        return 1
+        return 2 if bulge >= 1 - STRAIGHT else 1
     radius = chord * (1 + bulge**2) / (4 * bulge)
     return math.ceil(2 * math.atan(bulge) / math.acos(max(0.0, 1 - chord_error / radius)))
 

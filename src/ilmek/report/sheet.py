@@ -28,6 +28,7 @@ class LineKind(StrEnum):
     WELD = "weld"
     CONTOUR = "contour"
     LEADER = "leader"
+    DATUM = "datum"
 
 
 LINE_WIDTHS = {
@@ -44,6 +45,7 @@ LINE_WIDTHS = {
     LineKind.WELD: 0.35,
     LineKind.CONTOUR: 0.35,
     LineKind.LEADER: 0.18,
+    LineKind.DATUM: 0.25,
 }
 """Width of each kind of line [mm]; ISO 128-2, group 0.5, contours and leaders of assemblies 0.35; of the frame ISO
 5457.

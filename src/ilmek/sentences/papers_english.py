@@ -366,13 +366,11 @@ PAPERS = {
     "manual.then-from": "{first}, then {second}",
     "manual.comes": "parts",
     "manual.mass": "mass",
-    "manual.tighten": "screws and keys",
+    "manual.tighten": "screws, keys and welds",
+    "manual.weld": "weld a{throat}",
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",
-    "manual.loose": "Not yet fastened",
-    "manual.loose-how": "For {number} parts the design states no weld, screw, key or fit that holds them; "
-    "agree with the designer how before they are made:",
     "manual.order": "Order",
     "manual.order-how": "What is put together on the bench is listed before it comes. Each part reaches its seat by "
     "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. What "

@@ -365,13 +365,11 @@ PAPERS = {
     "manual.then-from": "{first}, sonra {second}",
     "manual.comes": "parçalar",
     "manual.mass": "kütle",
-    "manual.tighten": "vida ve kamalar",
+    "manual.tighten": "vida, kama ve kaynaklar",
+    "manual.weld": "kaynak a{throat}",
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
-    "manual.loose": "Henüz bağlanmamış olanlar",
-    "manual.loose-how": "Tasarım {number} parça için tutan bir kaynak, vida, kama ya da geçme belirtmiyor; "
-    "yapılmadan önce tasarımcıyla kararlaştırın:",
     "manual.order": "Sıra",
     "manual.order-how": "Tezgâhta birleştirilenler yerine konmadan önce sıralanır. Her parça adı geçen düz "
     "hareketlerle, duranların yanından yerine ulaşır; ulaşamayan parça montaj kontrolünden geçmez. Birkaç tane "

@@ -1,7 +1,8 @@
 """A drawing sheet as DXF (R2010): paper in mm, one layer for each kind of line, true DIMENSION entities.
 
 A dimension carries the picture that the sheet has of it as its block, and its true length as its measurement: a program
-that opens the file shows what the PDF shows, and reads the value.
+that opens the file shows what the PDF shows, and reads the value. Lines and texts, which are many, are written as text;
+by the attributes of the library it takes five times as long.
 """
 
 import io
@@ -15,9 +16,10 @@ from typing import Any
 from ezdxf._options import options
 from ezdxf.document import Drawing
 from ezdxf.entities.dimension import Dimension
-from ezdxf.enums import TextEntityAlignment
+from ezdxf.entities.dxfgfx import DXFGraphic
 from ezdxf.filemanagement import new
 from ezdxf.layouts.layout import Modelspace
+from ezdxf.lldxf.tagwriter import AbstractTagWriter
 from ezdxf.units import MM
 
 from ilmek.report.sheet import (
@@ -42,9 +44,7 @@ _MARK = "\ue000"
 """Before and after the number of a text: a character that no text has."""
 
 _COLOURS = {LineKind.VISIBLE: 7, LineKind.HIDDEN: 5, LineKind.CENTRE: 1, LineKind.PATH: 3, LineKind.FRAME: 7}
-_ALIGNMENT = {
-    "left": TextEntityAlignment.LEFT, "center": TextEntityAlignment.CENTER, "right": TextEntityAlignment.RIGHT,
-}  # fmt: skip
+_ALIGNMENT = {"left": "", "center": " 72\n1\n", "right": " 72\n2\n"}
 _TYPES = {
     DimensionKind.LINEAR: 0, DimensionKind.ALIGNED: 1, DimensionKind.DIAMETER: 3, DimensionKind.RADIUS: 4,
     DimensionKind.ORDINATE: 6,
@@ -118,16 +118,39 @@ def _pattern(dashes: tuple[float, ...]) -> list[float]:
     return [sum(dashes), *signed] if dashes else []
 
 
+class _Written(DXFGraphic):
+    """An entity whose tags, but handle and owner, are text already."""
+
+    def __init__(self, kind: str, tags: str) -> None:
+        super().__init__()
+        self.DXFTYPE, self.tags = kind, tags
+
+    def export_dxf(self, tagwriter: AbstractTagWriter) -> None:
+        """Write it."""
+        tagwriter.write_str(
+            f"  0\n{self.DXFTYPE}\n  5\n{self.dxf.handle}\n330\n{self.dxf.owner}\n100\nAcDbEntity\n{self.tags}"
+        )
+
+
 def _line(space: Any, line: SheetLine) -> None:
-    bulges = [0.0] * len(line.points) if line.bulges is None else line.bulges.tolist()
-    points = [(at.real, at.imag, bulge) for at, bulge in zip(line.points.tolist(), bulges, strict=True)]
-    space.add_lwpolyline(points, format="xyb", close=line.closed, dxfattribs={"layer": line.kind.upper()})
+    points = line.points.tolist()
+    bulges = [0.0] * len(points) if line.bulges is None else line.bulges.tolist()
+    corners = [
+        f" 10\n{at.real}\n 20\n{at.imag}\n" + (f" 42\n{bulge}\n" if bulge else "")
+        for at, bulge in zip(points, bulges, strict=True)
+    ]
+    head = f"  8\n{line.kind.upper()}\n100\nAcDbPolyline\n 90\n{len(points)}\n 70\n{int(line.closed)}\n"
+    space.add_entity(_Written("LWPOLYLINE", head + "".join(corners)))
 
 
 def _text(space: Any, text: SheetText, layer: str = TEXTS) -> None:
-    entity = space.add_text(text.words, height=text.height, dxfattribs={"layer": layer, "style": FONT})
-    entity.dxf.rotation = math.degrees(text.angle)
-    entity.set_placement((text.position.real, text.position.imag), align=_ALIGNMENT[text.anchor])
+    x, y = float(text.position.real), float(text.position.imag)
+    turned = f" 50\n{math.degrees(text.angle)}\n" if text.angle else ""
+    tags = (
+        f"  8\n{layer}\n100\nAcDbText\n 10\n{x}\n 20\n{y}\n 30\n0.0\n 40\n{float(text.height)}\n  1\n{text.words}\n"
+        f"{turned}  7\n{FONT}\n{_ALIGNMENT[text.anchor]} 11\n{x}\n 21\n{y}\n 31\n0.0\n100\nAcDbText\n"
+    )
+    space.add_entity(_Written("TEXT", tags))
 
 
 def _dimension(document: Drawing, space: Modelspace, drawn: SheetDimension) -> None:

@@ -4,20 +4,26 @@ An arc of the sweep s <= 90° is a cubic curve whose handles are 4/3 tan(s/4) ra
 """
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+import numpy as np
 from reportlab.lib.units import mm as point_per_mm
 from reportlab.pdfgen.pathobject import PDFPathObject
 
 from ilmek.io.chart.printing import PrintCanvas, printed_file, write_stamp
 from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.plane.contours import STRAIGHT, arc_centre
-from ilmek.report.sheet import LINE_DASHES, LINE_WIDTHS, DrawingSheet, SheetLine, SheetText, arrowhead
+from ilmek.report.sheet import LINE_DASHES, LINE_WIDTHS, DrawingSheet, LineKind, SheetLine, SheetText, arrowhead
 from ilmek.sentences import translated
 
 CAPITAL = 0.729
 """Height of a capital over the size of DejaVu Sans."""
+
+DECIMALS = 4
+"""Of coordinates [mm]."""
+
+_MOVE, _DRAW, _CURVE = "%.8g %.8g m", "%.8g %.8g l", "%.8g %.8g %.8g %.8g %.8g %.8g c"
 
 
 def write_sheets_pdf(path: Path, sheets: Iterable[DrawingSheet], title: str) -> None:
@@ -45,18 +51,11 @@ def _draw(canvas: PrintCanvas, sheet: DrawingSheet) -> None:
         canvas.setLineWidth(LINE_WIDTHS[kind])  # type: ignore[index]
         canvas.setDash(list(LINE_DASHES.get(kind, ())))  # type: ignore[call-overload]
         canvas.setLineCap(0 if kind in LINE_DASHES else 1)
-        through = canvas.beginPath()
-        for line in lines:
-            _trace(through, line)
-        canvas.drawPath(through, stroke=1, fill=0)
-    heads = canvas.beginPath()
-    for tip, direction in (arrow for one in sheet.dimensions for arrow in one.arrows):
-        corners = arrowhead(tip, direction)
-        heads.moveTo(corners[0].real, corners[0].imag)
-        for corner in corners[1:]:
-            heads.lineTo(corner.real, corner.imag)
-        heads.close()
-    canvas.drawPath(heads, stroke=0, fill=1)
+        canvas.drawPath(_path(lines), stroke=1, fill=0)
+    arrows = (arrowhead(*arrow) for one in sheet.dimensions for arrow in one.arrows)
+    heads = [SheetLine(LineKind.DIMENSION, np.array(corners), closed=True) for corners in arrows]
+    if heads:
+        canvas.drawPath(_path(heads), stroke=0, fill=1)
     for text in (*sheet.texts, *(one.text for one in sheet.dimensions)):
         _write(canvas, text)
 
@@ -73,14 +72,26 @@ def _write(canvas: PrintCanvas, text: SheetText) -> None:
     canvas.restoreState()
 
 
-def _trace(through: PDFPathObject, line: SheetLine) -> None:
+def _path(lines: Sequence[SheetLine]) -> PDFPathObject:
+    """Lines as a path: its operators are written at once, many times as quickly as one by one by the library."""
+    operators, points = ["n"], list[complex]()
+    for line in lines:
+        _trace(line, operators, points)
+    numbers = np.array(points, dtype=complex).view(float).round(DECIMALS) + 0.0
+    return PDFPathObject([" ".join(operators) % tuple(numbers.tolist())])
+
+
+def _trace(line: SheetLine, operators: list[str], drawn: list[complex]) -> None:
+    """Add the operators of a line, and the points that they draw to."""
     points = line.points.tolist()
-    through.moveTo(points[0].real, points[0].imag)
     ends = [*points[1:], points[0]] if line.closed else points[1:]
     bulges = [0.0] * len(ends) if line.bulges is None else line.bulges.tolist()
+    operators.append(_MOVE)
+    drawn.append(points[0])
     for start, end, bulge in zip(points, ends, bulges, strict=False):
         if abs(bulge) < STRAIGHT:
-            through.lineTo(end.real, end.imag)
+            operators.append(_DRAW)
+            drawn.append(end)
             continue
         centre, sweep = arc_centre(start, end, bulge), 4 * math.atan(bulge)
         pieces = math.ceil(abs(sweep) / (math.pi / 2) - 1e-9)
@@ -90,8 +101,8 @@ def _trace(through: PDFPathObject, line: SheetLine) -> None:
         arm = start - centre
         for _ in range(pieces):
             after = arm * turn
-            first, second, last = centre + arm * (1 + 1j * handle), centre + after * (1 - 1j * handle), centre + after
-            through.curveTo(first.real, first.imag, second.real, second.imag, last.real, last.imag)
+            operators.append(_CURVE)
+            drawn += (centre + arm * (1 + 1j * handle), centre + after * (1 - 1j * handle), centre + after)
             arm = after
     if line.closed:
-        through.close()
+        operators.append("h")

@@ -11,8 +11,8 @@ It is never lower than its housings are wide, nor does it reach to the reducer o
 
 A shaft comes with its bearings on it, from the side away from the column: there its bore is a slot to the plate's edge.
 Each of the two arms beside the slot bears half of the bearing's force, at the farther screw, and is bent as above, d
-from that screw to the shaft's axis. The bore of a bearing that slides with the cams is closed: its screws' slots would
-be cut.
+from that screw to the shaft's axis. The slot of a bearing that slides with the cams is open upwards; a cap closes it
+when the shaft is in.
 Side view: complex, x to the front, y up from the fell [m].
 The back rest lies on a beam from bracket to bracket, which bears the warps' pull P down and to the back, sqrt(2) P.
 """
@@ -34,12 +34,12 @@ from ilmek.machines.shedding.tree import bearing_inner, reducer
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.part import catalogue
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism
+from ilmek.part.shapes import Prism, rectangle
 from ilmek.plane.contours import circle, rounded_hull, slotted
 from ilmek.plane.curves import hull
 from ilmek.records import record
 from ilmek.report import Check, Contour, at_least, at_most
-from ilmek.units import mm
+from ilmek.units import mm, um
 
 BACK_REST_SAG = 2e-3
 """Deflection of the back rest's beam over its width, as that of the compensator's; assumed by this project."""
@@ -47,6 +47,9 @@ BACK_REST_SAG = 2e-3
 
 _STEP = 5 * mm
 """Heights of brackets are multiples of this [m]."""
+
+CAP = 20 * mm
+"""Height of the cap over the slot of a bearing that slides [m]; assumed by this project."""
 
 _CORNER = 5 * mm
 """Radius of the corners of a bracket with a slot [m]."""
@@ -64,6 +67,7 @@ class Bracket:
     bores         through it beside the shaft's [m]
     seat, axis    of the bearing on it, of its shaft in the side view [m]
     opening       direction in which the shaft's bore is open; None: it is closed
+    root          where the slot of that begins in the side view [m]: at the axis, or at the end of its travel
     load, moment  sum of the forces [N], and of their moments about the column's axis in its plane, out of it [N m]
     """
 
@@ -77,6 +81,7 @@ class Bracket:
     seat: BearingSeat
     axis: complex
     opening: complex | None
+    root: complex
     load: float
     moment: tuple[float, float]
 
@@ -90,14 +95,23 @@ class Bracket:
         """The plate in the side view, from z = 0."""
         outline = rounded_hull(self.nodes, self.radius)
         if self.opening is not None:
-            outline = slotted(outline, self.axis, self.opening, self.seat.bore / 2)
+            outline = slotted(outline, self.root, self.opening, self.seat.bore / 2)
         return Prism(Profile(outline, self.bores), BRACKET)
 
     @property
+    def cap(self) -> tuple[Prism, complex] | None:
+        """The plate across the slot of a bearing that slides, and its middle in the side view [m]; None of others."""
+        if self.opening is None or self.root == self.axis:
+            return None
+        edge = self.axis + 1j * (float(self.nodes.imag.max()) + self.radius + CAP / 2 - self.axis.imag)
+        return Prism(Profile(rectangle(self.seat.side, CAP)), BRACKET), edge
+
+    @property
     def stress(self) -> float:
-        """Greatest stress at the column, or beside the slot [Pa]."""
+        """Greatest stress at the column, or beside the slot [Pa]; a cap makes a slot a closed one."""
         at_column = 6 * self.moment[0] / (BRACKET * self.depth**2) + 6 * self.moment[1] / (self.depth * BRACKET**2)
-        return at_column if self.opening is None else max(at_column, arm_stress(self.seat, self.radius))
+        closed = self.opening is None or self.cap is not None
+        return at_column if closed else max(at_column, arm_stress(self.seat, self.radius))
 
     @property
     def depth(self) -> float:
@@ -206,6 +220,7 @@ def _upper(
         seat,
         at,
         complex(at.real - column),
+        at,
         sum(load for load, *_ in loads),
         moment,
     )
@@ -258,12 +273,14 @@ def _of_seat(  # noqa: PLR0917
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
     outer = moved_ends + math.copysign(beyond, at.real - loom.side.column)
     nodes = np.concatenate([outer, loom.side.column + 1j * moved_ends.imag])
-    bores = (
-        screw_bores(seat, moved) if shift is None else (rounded_hull(moved, seat.bore / 2), *screw_bores(seat, moved))
-    )
-    opening = complex(at.real - loom.side.column) if shift is None else None
-    inner = far + seat.bearing.width
-    return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, force, moment)
+    bores, inner = screw_bores(seat, moved), far + seat.bearing.width
+    opening: complex | None = complex(at.real - loom.side.column)
+    root = complex(moved[np.argmin(moved.imag)])
+    if shift is not None and np.ptp(moved.real) > um:
+        bores, opening = (rounded_hull(moved, seat.bore / 2), *bores), None
+    elif shift is not None:
+        opening = 1j
+    return Bracket(name, title, inner, nodes, ends, radius, bores, seat, at, opening, root, force, moment)
 
 
 def screw_bores(seat: BearingSeat, moved: ComplexArray) -> tuple[Contour, ...]:

@@ -5,12 +5,15 @@ Axes of the scene: x along the width, 0 in the middle of the cloth, y up from th
 
 import cmath
 import math
+from collections.abc import Iterator
 
+from ilmek.elements.columns import STEEL
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RAIL as RAIL_ROOM
 from ilmek.machines.arrangement.side_view import RETREAT
+from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
@@ -22,8 +25,8 @@ from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supp
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import ALONG_WIDTH, placement
+from ilmek.part.part import LASER_CUT, Bought, Part, bought_part
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, placement
 from ilmek.part.shapes import box, shape_box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
@@ -37,8 +40,28 @@ RETREAT_MOTOR, RETREAT_BRAKE = part_id("retreat-motor"), part_id("retreat-brake"
 
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
-    """What the frame carries beside the machines: axes and motors of the rail's retreat."""
-    return Tree((_retreat(loom, frame),) if loom.heads else ())
+    """What the frame carries beside the machines: caps of its brackets, axes and motors of the rail's retreat."""
+    caps = tuple(_caps(loom))
+    bodies = (RigidBody(part_id("bracket-caps"), caps),) if caps else ()
+    return Tree((*bodies, _retreat(loom, frame)) if loom.heads else bodies)
+
+
+def _caps(loom: LoomDesign) -> Iterator[Occurrence]:
+    """The caps of brackets in which bearings slide, on both sides."""
+    for bracket in brackets_of(loom).plates:
+        if bracket.cap is not None:
+            shape, middle = bracket.cap
+            part = Part(
+                part_id(f"{bracket.name}-cap"),
+                f"cap of the {bracket.title}",
+                LASER_CUT,
+                "",
+                shape,
+                STEEL,
+                machined=True,
+            )
+            positions = (placement(x, middle.imag, middle.real) for x in (-bracket.inner, bracket.outer))
+            yield Occurrence(part, tuple(own.after(IN_SIDE_VIEW) for own in positions))
 
 
 def mass_of_rail(loom: LoomDesign, frame: LoomFrame) -> float:

@@ -10,6 +10,7 @@ Axes of both parts: those of the side view, x from the fell to the front, y up, 
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from scipy.optimize import brentq
@@ -112,6 +113,7 @@ def beater_of(params: BeatUpParams, warps: int, arm: float) -> Beater:
     front = travel.bar_distance
     corners = rectangle(-travel.reach / 2, front, 0.0, TOOTH)
     tooth = across("beat-up/tooth", "tooth of the beater", "laser-cut part", corners, thickness)
+    tooth = replace(tooth, joins=("beat-up/beater-bar",))
     mass = params.beater_mass
     side = rectangle(front, front + PLATE_WIDTH * params.width, -params.width / 2, PLATE_HEIGHT * params.width)
     plate = across("beat-up/beater-plate", "plate of the beater", "laser-cut part", side, GAP * params.thickness)

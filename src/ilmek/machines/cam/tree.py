@@ -25,7 +25,7 @@ from ilmek.machines.cam.round_cams import flanked, solid_plate
 from ilmek.part.part import CUTTER, PITCH, ZERO, Bought, CamMaking, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, disc, tube
+from ilmek.part.shapes import Placed, Prism, Sum, bar, box, disc, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import area, circle, polygon
 from ilmek.report import Plate, WorkPiece
@@ -218,15 +218,21 @@ def _starts(design: CamDesign) -> ComplexArray:
 
 
 def _on_follower(design: CamDesign, middles: ComplexArray) -> Iterator[Occurrence]:
-    """Rollers of the table at their middles [m], in the follower's frame, and the room of its stem or arm."""
+    """Rollers of the table at their middles [m], in the follower's frame, with their studs up to the stem or arm, and
+    the room of that.
+    """
     row, apart, weighed = design.roller, (1 + BETWEEN) * design.face_width, 0.0
+    side = max(STEM, row.stud if row else 0.0)
     places = [_roller_place(design, complex(middle), at * apart) for at, middle in enumerate(middles)]
     if row is not None:
-        shape, bought = tube(row.diameter, (row.diameter - row.stud) / 2, row.width), Bought(row.name, row.mass)
+        ring, bought = tube(row.diameter, (row.diameter - row.stud) / 2, row.width), Bought(row.name, row.mass)
+        end = 1.5 * design.face_width - side / 2 if _around(design) else row.width
+        begin = 0.0 if _around(design) else -side / 2
+        stud = Placed(bar(row.stud, max(end, row.width) - begin), (placement(z=begin),))
+        shape = Sum((Placed(ring), stud))
         roller = bought_part("cam/roller", "roller of the follower", "bearing", shape, bought, size=row.name)
         weighed = row.mass * len(places)
         yield Occurrence(roller, tuple(places))
-    side = max(STEM, row.stud if row else 0.0)
     length = abs(complex(middles[0])) if swings(design) else 2 * design.params.lift + 4 * side
     mass = max(design.params.mass - weighed, 0.0)
     stem = bought_part(

@@ -44,9 +44,10 @@ def comb_parts(params: HandBeatParams, leaf: float, number: int) -> tuple[Occurr
     wide = max((number - 1) * params.cloth.warp_pitch + leaf, HANDLE[0])
     size = f"{in_mm(high)} x {in_mm(deep)}"
     head = Part(part_id("comb-head"), "head of the comb", "machined link", size, box(wide, high, deep), STEEL)
-    plate = box(leaf, tall, params.reach)
-    blade = Part(part_id("comb-leaf"), "leaf of the comb", "laser-cut part", in_mm(leaf), plate, STEEL)
-    grip = Part(part_id("comb-handle"), "handle of the comb", "turned part", in_mm(HANDLE[0]), tube(*HANDLE), STEEL)
+    plate, joins = box(leaf, tall, params.reach), (head.id,)
+    blade = Part(part_id("comb-leaf"), "leaf of the comb", "laser-cut part", in_mm(leaf), plate, STEEL, joins=joins)
+    title, size, shape = "handle of the comb", in_mm(HANDLE[0]), tube(*HANDLE)
+    grip = Part(part_id("comb-handle"), title, "turned part", size, shape, STEEL, joins=joins)
     along = (np.arange(number) - (number - 1) / 2) * params.cloth.warp_pitch
     return (
         Occurrence(head, (placement(0.0, high / 2, HANDLE[2]),)),

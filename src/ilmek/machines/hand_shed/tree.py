@@ -216,7 +216,8 @@ def _across(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:
         shell = tube(own.outer, own.wall, 2 * cloth)
         turns = own is SHAFT
         shell = bored_ends(shell, turned_bore(own.inner_radius), INSIDE) if turns else shell
-        part = replace(_part(name, title, "steel tube", f"tube {own.name} mm", shell), machined=turns)
+        joins = () if turns else (part_id("arm"),)
+        part = replace(_part(name, title, "steel tube", f"tube {own.name} mm", shell), machined=turns, joins=joins)
         yield Occurrence(part, (placement(-cloth, at.imag, at.real).after(ALONG_WIDTH),))
     spigot = 2 * turned_bore(SHAFT.inner_radius), INSIDE
     journal = stepped(spigot, (PIVOT, half_width(shed) - cloth + SIDE_PLATE))
@@ -235,7 +236,8 @@ def _strings(shed: HandShed, down: complex) -> Occurrence:
     """A string for every other warp, stretched as when it pulls its warp level to the front; down: to the bar [m]."""
     twine, long = Bought("cotton twine 1 mm", 0.2e-3), format_quantity(shed.string, "mm")
     loop = bar(STRING, shed.string)
-    string = Part(part_id("string-heddle"), "string heddle", "string heddle", f"loop of {long}", loop, purchase=twine)
+    size, fixing = f"loop of {long}", "its loop lies round the bar"
+    string = Part(part_id("string-heddle"), "string heddle", "string heddle", size, loop, purchase=twine, fixing=fixing)
     begin = down - shed.bar.outer_radius * cmath.exp(-1j * shed.lift_angle)
     along = warps_across(shed)[::2][: shed.pulled_warps]
     tilt = turn / 2 + float(shed.lift_angle)

@@ -58,9 +58,10 @@ EDGE = 3 * mm
 STEEL, ALUMINIUM = MATERIALS["heat-treatable steel"], MATERIALS["aluminium alloy"]
 
 NAME = "knotting-dyad"
-SLEEVE, SHAFT, ELBOW_HUB, ELBOW_PULLEY, ARM_PLATE = (
+SLEEVE, SHAFT, SHAFT_PULLEY, ELBOW_HUB, ELBOW_PULLEY, ARM_PLATE = (
     f"{NAME}/sleeve",
     f"{NAME}/elbow-shaft",
+    f"{NAME}/shaft-pulley",
     f"{NAME}/elbow-hub",
     f"{NAME}/elbow-pulley",
     f"{NAME}/frame",
@@ -129,12 +130,15 @@ def sleeve(levels: DriveLevels, hole: float) -> Occurrence:
     return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)), outer)
 
 
-def shaft(levels: DriveLevels, hole: float) -> Occurrence:
-    """The shaft of a second link with its pulleys, about the pivot."""
-    long = levels.elbow + BELT - levels.second
-    members = [Placed(bar(hole, long), (placement(z=levels.second),))]
-    members.append(Placed(_pulley(hole), (placement(z=levels.second), placement(z=levels.elbow))))
-    return _made(SHAFT, "shaft of a second link, with its pulleys", Sum(tuple(members)), hole)
+def shaft(levels: DriveLevels, hole: float) -> tuple[Occurrence, Occurrence]:
+    """The shaft of a second link with the pulley at the elbow's belt, about the pivot, and the other pulley, which is
+    pressed on when the shaft is in its sleeve.
+    """
+    rod = Placed(bar(hole, levels.elbow + BELT - levels.second), (placement(z=levels.second),))
+    ring = Placed(_pulley(hole), (placement(z=levels.elbow),))
+    made = _made(SHAFT, "shaft of a second link, with its pulley", Sum((rod, ring)), hole)
+    pulley = _made(SHAFT_PULLEY, "pulley on the shaft of a second link", _pulley(hole), 2 * RADIUS)
+    return made, Occurrence(pulley.part, (placement(z=levels.second),))
 
 
 def elbow_hub(levels: DriveLevels, hole: float, around: float, belted: bool) -> Iterator[Occurrence]:
@@ -159,13 +163,15 @@ def elbow_belt(levels: DriveLevels, length: float) -> Occurrence:
 
 
 def standing_drives(
-    params: KnottingDyadParams, head: Head, levels: DriveLevels, motion: "HeadMotion"
+    params: KnottingDyadParams, head: Head, levels: DriveLevels, motion: "HeadMotion", rear: float
 ) -> Iterator[Occurrence]:
     """The plate of the arms, the belts from the servos, and the servos' shafts with their pulleys.
 
     Where the second servos are in the elbows, the first alone.
+
+    rear  where the centre gripper's axis ends, from the warps' axes [m]
     """
-    yield _plate(params, head, levels, motion.hole)
+    yield _plate(params, head, levels, motion, rear)
     pivot, middle = head.arm.pivot, head.section.middle
     rows = list(zip(SERVO_BELTS, (levels.first, levels.second), strict=True))[: standing_servos(params)]
     for number, (name, z) in enumerate(rows):
@@ -204,13 +210,22 @@ def both(head: Head, at: complex) -> tuple[complex, complex]:
     return at, complex(2 * head.section.middle - at.real, at.imag)
 
 
-def _plate(params: KnottingDyadParams, head: Head, levels: DriveLevels, hole: float) -> Occurrence:
-    """The plate in front of the face, with the bores of the sleeves."""
-    outer, pivot, middle = hole + 2 * WALL, head.arm.pivot, head.section.middle
-    near, far = pivot.imag - outer / 2 - EDGE, params.room.face or behind(head) + EDGE
+def _plate(
+    params: KnottingDyadParams, head: Head, levels: DriveLevels, motion: "HeadMotion", rear: float
+) -> Occurrence:
+    """The plate in front of the face, with the bores of the sleeves; where there is no face, it carries the servos and
+    the centre gripper's axis too.
+    """
+    outer, pivot, middle = motion.hole + 2 * WALL, head.arm.pivot, head.section.middle
+    near, far = pivot.imag - outer / 2 - EDGE, params.room.face
     half = middle - pivot.real + outer / 2 + EDGE
-    outline = polygon(rectangle(2 * half, far - near).points + complex(middle, (near + far) / 2))
     bores = [Hole(at, outer / 2) for at in both(head, pivot)]
+    if far is None:
+        servos, room = range(standing_servos(params)), servo_face(motion) / 2 + EDGE
+        axes = [at for number in servos for at in both(head, servo_axis(params, head, motion, number))]
+        bores += [Hole(at, SERVO_SHAFT / 2 + ROOM) for at in axes]
+        far, half = max(rear, room + max(at.imag for at in axes)), max(half, params.room.aside + room)
+    outline = polygon(rectangle(2 * half, far - near).points + complex(middle, (near + far) / 2))
     size = f"{in_mm(PLATE)} thick"
     part = Part(ARM_PLATE, "plate of the arms", "machined link", size, Prism(drilled(outline, bores), PLATE), ALUMINIUM)
     return Occurrence(part, (placement(z=levels.covered),))

@@ -144,26 +144,31 @@ def rod_part(jaws: Jaws, length: float, centre: bool) -> Part:
 
 
 def drive_of(jaws: Jaws, on: Placement) -> Iterator[Occurrence]:
-    """Neck, spring and solenoid of a finger, from where they begin on a rod's axis."""
-    neck, solenoid, *spring = _drive_parts(jaws)
+    """Neck with its cap, spring and solenoid of a finger, from where they begin on a rod's axis."""
+    neck, cap, solenoid, *spring = _drive_parts(jaws)
     yield Occurrence(neck, (on,))
+    yield Occurrence(cap, (on.after(placement(z=jaws.cup - COLLAR)),))
     yield from (Occurrence(part, (on.after(placement(z=COLLAR)),)) for part in spring)
     yield Occurrence(solenoid, (on.after(placement(z=jaws.neck)),))
 
 
 @lru_cache(maxsize=8)
 def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
-    """Neck, solenoid, and the spring where one fits."""
+    """Neck, the cap that is pressed into it when rod and spring are in it, solenoid, and the spring where one fits."""
     bore, row, spring = jaws.rod, jaws.solenoid, jaws.spring
-    end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR), (placement(), placement(z=jaws.cup - COLLAR)))
-    about = Placed(tube(jaws.around, CUP, jaws.cup - 2 * COLLAR), (placement(z=COLLAR),))
-    stem = Placed(tube(bore + 2 * CUP, CUP, jaws.neck - jaws.cup), (placement(z=jaws.cup),))
-    neck = _made("neck", "neck of a solenoid", "turned part", in_mm(jaws.around), Sum((end, about, stem)))
+    inner, stem = jaws.around - 2 * CUP, bore + 2 * CUP
+    end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR))
+    about = Placed(tube(jaws.around, CUP, jaws.cup - COLLAR), (placement(z=COLLAR),))
+    neck = _made("neck", "neck of a solenoid", "turned part", in_mm(jaws.around), Sum((end, about)))
+    within = Placed(tube(inner, (inner - bore) / 2, COLLAR))
+    beyond = Placed(tube(stem, CUP, jaws.neck - jaws.cup), (placement(z=COLLAR),))
+    cap = _made("neck-cap", "cap of a neck", "turned part", in_mm(inner), Sum((within, beyond)))
     bought = Bought(row.designation, row.mass, power=row.power, drives=1)
     solenoid = bought_part(SOLENOID, "solenoid of a finger", "solenoid", bar(row.diameter, row.length), bought)
     if spring is None:
-        return neck, solenoid
-    return neck, solenoid, spring_part(f"{NAME}/finger-spring", "spring of a finger", spring, jaws.on_rod - jaws.stroke)
+        return neck, cap, solenoid
+    wound = spring_part(f"{NAME}/finger-spring", "spring of a finger", spring, jaws.on_rod - jaws.stroke)
+    return neck, cap, solenoid, wound
 
 
 def finger_at(jaws: Jaws) -> Placement:

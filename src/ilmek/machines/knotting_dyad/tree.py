@@ -92,7 +92,9 @@ def tree(dyad: KnottingDyad) -> Tree:
         **{other(body): occurrences for body, occurrences in loads.items()},
         CENTRE: centre,
         GROUND: (
-            *standing_drives(params, head, levels, motion),
+            *standing_drives(
+                params, head, levels, motion, _depth(params, head, motion.jaws) + head.centre_stroke + HANGER
+            ),
             *_servos(dyad, head, motion, levels.plate),
             *_axis(dyad, head, motion.jaws, centre, levels.plate),
         ),
@@ -107,7 +109,7 @@ def tree(dyad: KnottingDyad) -> Tree:
     return linkage if params.elbow_drive == "direct" else _with_shafts(linkage, shaft(levels, motion.hole), moving)
 
 
-def _with_shafts(linkage: Tree, made: Occurrence, moving: Motion) -> Tree:
+def _with_shafts(linkage: Tree, made: tuple[Occurrence, ...], moving: Motion) -> Tree:
     """The linkage with the shafts in its pivots, which take their servos' motion to the second links."""
     shafts, belts = [], []
     for named in (str, other):
@@ -121,7 +123,7 @@ def _with_shafts(linkage: Tree, made: Occurrence, moving: Motion) -> Tree:
         own = f"{SHAFT}{second.id.removeprefix(body_id(NAME, 'link 2'))}"
         joint = Joint(JointKind.PIN, motion=turned, motor=SERVOS[1])
         place = (placement(*first.positions[0].origin[:2]),)
-        shafts.append(RigidBody(own, (made,), first.parent, joint, place))
+        shafts.append(RigidBody(own, made, first.parent, joint, place))
         belts.append(Closure(JointKind.TRANSMISSION, (own, second.id), kept_by=(ELBOW_BELT,)))
     return replace(linkage, bodies=(*linkage.bodies, *shafts), closures=(*linkage.closures, *belts))
 

@@ -149,7 +149,8 @@ def _bed(laid: TuftingLayout) -> Iterator[Occurrence]:
     thick = presser_thickness(params)
     outline = np.array([-BED + 1j * first, BED + 1j * first, BED + 1j * last, -BED + 1j * last])
     shape = Prism(Profile(polygon(outline), tuple(_slots(laid))), thick)
-    bed = Part(f"{NAME}/bed-plate", "bed plate", "laser-cut part", in_mm(thick), shape, STEEL)
+    joins = f"{NAME}/end-plate", f"{NAME}/post"
+    bed = Part(f"{NAME}/bed-plate", "bed plate", "laser-cut part", in_mm(thick), shape, STEEL, joins=joins)
     yield Occurrence(bed, (placement(laid.line, laid.under).after(DOWN),))
     post = box(30 * mm, laid.under - thick - laid.low, POST)
     middle, low = _post_at(laid), (laid.under - thick + laid.low) / 2
@@ -159,7 +160,8 @@ def _bed(laid: TuftingLayout) -> Iterator[Occurrence]:
         yield Occurrence(part, tuple(places))
     level = laid.under + params.backing_thickness
     strip = box(PRESSER, thick, last - first)
-    presser = Part(f"{NAME}/presser", "presser", "steel bar", f"{in_mm(PRESSER)} x {in_mm(thick)}", strip, STEEL)
+    size = f"{in_mm(PRESSER)} x {in_mm(thick)}"
+    presser = Part(f"{NAME}/presser", "presser", "steel bar", size, strip, STEEL, joins=joins)
     beside = SLOT + PRESSER / 2
     yield Occurrence(presser, tuple(placement(laid.line + side * beside, level + thick / 2, first) for side in (-1, 1)))
 

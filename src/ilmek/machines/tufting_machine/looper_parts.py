@@ -142,4 +142,5 @@ def _hook(params: TuftingMachineParams, sense: int) -> Part:
     outline = polygon(corners if sense > 0 else -np.conj(corners))
     size = f"{in_mm(looper.thickness)}, {in_mm(BEAK)} x {in_mm(looper.stem)}"
     title = "looper with its knife's edge" if params.pile == "cut" else "looper"
-    return Part(LOOPER, title, "laser-cut part", size, Prism(Profile(outline), looper.thickness), STEEL)
+    shape = Prism(Profile(outline), looper.thickness)
+    return Part(LOOPER, title, "laser-cut part", size, shape, STEEL, joins=(LOOPER_BAR,))

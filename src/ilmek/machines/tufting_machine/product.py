@@ -20,6 +20,7 @@ from ilmek.elements.yarns import yarn_diameter
 from ilmek.machines.tufting_machine.params import TuftedCarpetParams
 from ilmek.records import computed, record
 from ilmek.units import turn
+from ilmek.weaving.tufts import tuft_yarn
 
 
 @record
@@ -60,9 +61,8 @@ class TuftedCarpet:
         """Mean length of yarn of a stitch [m]."""
         params = self.params
         height = params.pile_height - params.low_share * (params.pile_height - self.low)
-        return 2 * (height + params.backing_thickness) + params.back_stitch * math.hypot(
-            params.stitch, params.shift * params.gauge
-        )
+        step = math.hypot(params.stitch, params.shift * params.gauge)
+        return float(tuft_yarn(height, params.backing_thickness, step, params.back_stitch))
 
     @property
     def area_rate(self) -> float:

@@ -51,7 +51,7 @@ PLATE, PLAY = 3 * mm, 2 * mm
 AXLE, HUB_WALL, UNDER_MOTOR = 8 * mm, 4.5 * mm, 0.5 * mm
 """Diameter of the rollers' axles, wall of the pulley's hub, and its room under the motor [m]."""
 
-BLOCK, BEHIND = (10 * mm, 12 * mm), 22 * mm
+BLOCK, BEHIND = (20 * mm, 12 * mm), 22 * mm
 """Width and depth of a block under the plate, and from the pulley's axis back to its middle [m]."""
 
 PLATE_BEGIN = PULLEY_AT - BEHIND - BLOCK[1] / 2
@@ -133,7 +133,10 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     back = about.after(placement(z=-BEHIND))
     block = box(BLOCK[1], BLOCK[0], tall)
     yield _made(
-        part_id("drive-block"), "block under that plate", block, *_upright_pair(back, RAIL_AXIS / 2, 1.5 * BLOCK[0])
+        part_id("drive-block"),
+        "block under that plate",
+        block,
+        *_upright_pair(back, RAIL_AXIS / 2, half - BLOCK[0] / 2),
     )
     yield Occurrence(_pulley(drive), (_upright(about, drive.low - catalogue.BESIDE),))
     aside = _upright_pair(about, drive.low, ASIDE)

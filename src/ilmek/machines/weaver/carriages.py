@@ -17,6 +17,7 @@ from ilmek.machines.weaver.head_shape import (
     BAR,
     DRAWBAR,
     LOWER_PLATE,
+    OPENER_FOOT,
     PARTITION,
     SLEY_BLOCK,
     SLEY_HEIGHT,
@@ -37,6 +38,7 @@ from ilmek.machines.weaver.motions import (
     SLEY,
 )
 from ilmek.machines.weaver.opener import STEEL
+from ilmek.machines.weaver.outlines import bored
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part
 from ilmek.machines.weaver.stations import sheet, station
 from ilmek.machines.weaver.tool_parts import (
@@ -46,8 +48,10 @@ from ilmek.machines.weaver.tool_parts import (
     LEFT,
     PLATES,
     RIGHT,
+    SIDE_GRIPPER,
     SLEY_ARM,
     SLEY_BODY,
+    SLEY_LUG,
     part_id,
 )
 from ilmek.machines.weaver.turning import pivot
@@ -55,7 +59,7 @@ from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import UPRIGHT, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, bar, rectangle, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
@@ -69,8 +73,8 @@ RODS, BELOW_TOP, HIGH = (-9.5 * mm, 9.5 * mm), 3 * mm, 3.8 * mm
 """The side carriage's rods from its middle and below the opener's top, and half the width of the centre gripper's
 carriage between them [m]."""
 
-SEAT = 12 * mm
-"""Diameter of the seat of the centre gripper's spring [m]."""
+SEAT, SPIGOT = 12 * mm, 8 * mm
+"""Diameters of the seat of the centre gripper's spring, and of its spigot in the partition [m]."""
 
 LUG_END = 4.3 * mm
 """From a side gripper's rod to the outer side of the lug beside it [m]."""
@@ -78,8 +82,14 @@ LUG_END = 4.3 * mm
 SCREW, NUT, IN_NUT = 4 * mm, 1 * mm, 0.2 * mm
 """Side of the twisted bars, thickness of their nut and room in it [m]."""
 
-SUPPORT = 6 * mm
-"""Thickness of the support of the sley's rod [m]."""
+EAR = (7 * mm, 9 * mm, 4 * mm)
+"""Width, height and thickness of the ears by which the nut is screwed [m]."""
+
+ROD_WELD = 0.7 * mm
+"""Throat of the weld of a twisted bar on the rod of its gripper [m]."""
+
+SUPPORT, LEAST_WALL = 6 * mm, 1 * mm
+"""Thickness of the support of the sley's rod, and its wall about that at least [m]."""
 
 
 def opener_track(weaver: Weaver) -> str:
@@ -133,16 +143,21 @@ def _side_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     holes: tuple[complex, ...] = ()
     if not weaver.params.with_arms:
         holes = tuple(complex(hand * by.axis, weaver.tool_bodies.tied + hand * by.lift / 2) for hand in (-1, 1))
-    yield _at(_cross_bar(weaver, track, holes), 0j, shape.carriage)
-    yield from drawbar(weaver, track, shape.carriage + BAR)
+    cheeks, pin = drawbar(weaver, track, shape.carriage + BAR)
+    if weaver.params.with_arms:  # beside the opener, for its feet
+        (bottom, top), (_, wide, high) = _levels(weaver), OPENER_FOOT
+        levels = (bottom - high / 2, top + high / 2)
+        cut = *cheeks, Placed(box(wide, high, BAR), tuple(placement(y=y, z=shape.carriage) for y in levels))
+    else:
+        cut = *cheeks, lugs(weaver, SIDE_GRASP, shape.carriage, (station(weaver, track), by.axis + LUG_END))
+    yield _with(_at(_cross_bar(weaver, track, holes), 0j, shape.carriage), cut)
+    yield pin
     behind = shape.partition + PARTITION + longest(weaver, track) - weaver.tool_bodies.tools.back
     rods, begin = _rods(weaver), shape.carriage + BAR
     yield _several(_made("carriage-rod", "rod of the side carriage", bar(ROD, behind + COLLAR - begin)), rods, begin)
     ring = tube(2.2 * ROD, 0.6 * ROD, COLLAR)
     yield _several(_made("carriage-collar", "collar of a carriage's rod", ring), rods, behind)
     if not weaver.params.with_arms:
-        left, right = station(weaver, track), by.axis + LUG_END
-        yield lugs(weaver, SIDE_GRASP, shape.carriage, (left, right))
         yield from jaw_springs(weaver, SIDE_GRASP)
 
 
@@ -186,12 +201,13 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
     bore = polygon(rectangle(finger, finger).points + 1j * height)
     section = Profile(polygon(np.array(corners)), (bore,))
     block = _plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR)
-    yield _at(replace(block, notes=(Sentence("sheet.bonded"),)), 0j, front)
-    yield from drawbar(weaver, CENTRE_MOTION, front)
+    cheeks, pin = drawbar(weaver, CENTRE_MOTION, front)
+    cut = *cheeks, lugs(weaver, CENTRE_GRASP, front, (-LUG, 1.5 * LUG))
+    yield _with(_at(replace(block, notes=(Sentence("sheet.bonded"),)), 0j, front), cut)
+    yield pin
     begin = weaver.shape.partition - NUT
     rod = _made("centre-rod", "rod of the centre gripper's carriage", bar(ROD, front - begin))
     yield _at(rod, 1j * (height + ABOVE_CENTRE), begin)
-    yield lugs(weaver, CENTRE_GRASP, front, (-LUG, 1.5 * LUG))
     yield from jaw_springs(weaver, CENTRE_GRASP)
 
 
@@ -213,6 +229,8 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
         f"square {in_mm(SCREW)}",
         TwistedBar(SCREW, stations, (0.0, 0.0, -hand * by.turn, -hand * by.turn)),
         STEEL,
+        joins=(SIDE_GRIPPER,),
+        throat=ROD_WELD,
     )
     return Occurrence(part, (placement(z=begin - weaver.tool_bodies.tip(name)),))
 
@@ -223,9 +241,12 @@ def _nut(weaver: Weaver) -> Occurrence:
     holes = [complex(hand * by.axis, tied + hand * by.lift / 2) for hand in (-1, 1)]
     squares = apart([_around(hole, side / 2) for hole in holes])
     outline = rectangle(2 * by.axis + side + 4 * mm, by.lift + side + 3 * mm).points + 1j * tied
-    part = _made(
-        "nut", "nut of the twisted bars", Prism(Profile(polygon(outline), tuple(each.contour for each in squares)), NUT)
+    plate = Prism(Profile(polygon(outline), tuple(each.contour for each in squares)), NUT)
+    (wide, high, thick), half = EAR, float(outline.real.max())
+    ears = (
+        Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2)
     )
+    part = _made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears)))
     return _at(part, 0j, weaver.shape.partition + PARTITION)
 
 
@@ -259,7 +280,7 @@ def _partition(weaver: Weaver) -> Occurrence:
                 complex(-by.axis - room, tied - by.lift / 2 - room), complex(by.axis + room, tied + by.lift / 2 + room)
             ),
             _around(1j * height, weaver.params.finger / 2),
-            _around(1j * (height + ABOVE_CENTRE), ROD / 2, round_=True),
+            _around(1j * (height + ABOVE_CENTRE), (SPIGOT if _has_seat(weaver) else ROD) / 2, round_=True),
         ]
     plate = GuideHole(complex(beside, low), complex(inner, top))
     within = [guide for guide in apart(guides) if guide.within(plate) or guide.round]
@@ -268,35 +289,40 @@ def _partition(weaver: Weaver) -> Occurrence:
 
 
 def _sley_block(weaver: Weaver) -> Iterator[Occurrence]:
-    """The block behind the sley's arm on its rod, and the cheeks of its lever's pin."""
+    """The block on the sley's rod, with a lug to which the arm is screwed, and the cheeks of its lever's pin."""
     tool, plane, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), weaver.params.cam_thickness / 2, station(weaver, SLEY)
-    arm = -weaver.tool_bodies.sley_arm
-    room = max(plane, 0.7 * ROD)
-    left, right = min(side - room, arm), max(side + room, arm + SLEY_ARM)
+    room, (before, lap, wide) = max(plane, 0.7 * ROD), SLEY_LUG
+    arm = -weaver.tool_bodies.sley_arm + SLEY_ARM / 2
+    hand = 1 if arm < side else -1  # of the lug beside the arm: where the rod is
+    beside, edge = hand * arm + SLEY_ARM / 2, max(hand * side + room, hand * arm + SLEY_ARM / 2 + wide)
+    far = min(hand * side - room, hand * arm - SLEY_ARM / 2)
     end = (tool.corner + tool.size).real
-    outline = rectangle(SLEY_BLOCK, right - left).points + complex(SLEY_BLOCK / 2, (left + right) / 2)
-    section = Profile(polygon(outline), (circle(complex(SLEY_BLOCK / 2, side), ROD / 2),))
+    lug = [complex(lap, beside), complex(-before, beside), complex(-before, edge)]
+    corners = np.array([complex(SLEY_BLOCK, far), complex(SLEY_BLOCK, edge), *reversed(lug), complex(lap, far)])
+    outline = polygon(corners if hand > 0 else np.conj(corners)[::-1])
+    section = Profile(outline, (circle(complex(SLEY_BLOCK / 2, side), ROD / 2),))
     part = _plate("sley-block", "block of the sley", section, SLEY_HEIGHT)
-    yield Occurrence(part, (placement(0.0, tool.corner.imag, end).after(UPRIGHT),))
     pin = complex(end + SLEY_BLOCK + SLEY_PIN, tool.corner.imag + SLEY_HEIGHT / 2)
-    yield from pinned(weaver, SLEY, pin, -SLEY_PIN)
+    cheeks, in_lever = pinned(weaver, SLEY, pin, -SLEY_PIN)
+    yield _with(Occurrence(part, (placement(0.0, tool.corner.imag, end).after(UPRIGHT),)), cheeks)
+    yield in_lever
 
 
 def _sley_rod(weaver: Weaver) -> Iterator[Occurrence]:
-    """The rod of the sley's block, from its support on the left side plate to the upper plate, and its spring."""
+    """The rod of the sley's block, pressed into its support on the left side plate, to the upper plate; its spring."""
     tool, side = weaver.tool_bodies.tools.tool(SLEY_TOOL), station(weaver, SLEY)
-    inner = stack_width(weaver.params) / 2
+    inner, wall = stack_width(weaver.params) / 2, ROD / 2 + LEAST_WALL
     depth = (tool.corner + tool.size).real + SLEY_BLOCK / 2
     foot = tool.corner.imag - longest(weaver, SLEY)
     top = (weaver.shape.body + weaver.shape.size).imag - sheet(weaver)
-    yield Occurrence(
-        _made("sley-rod", "rod of the sley", bar(ROD, top - foot)),
-        (placement(side, foot, depth).after(UPRIGHT),),
-    )
-    right = side + weaver.params.cam_thickness / 2
-    support = _plate(
-        "sley-support", "support of the sley's rod", Profile(rectangle(SLEY_BLOCK, right + inner)), SUPPORT
-    )
+    right = side + max(weaver.params.cam_thickness / 2, wall)
+    pressed = side + inner > wall  # else it stands on the support
+    begin = foot - SUPPORT if pressed else foot
+    rod = _made("sley-rod", "rod of the sley", bar(ROD, top - begin))
+    yield Occurrence(rod, (placement(side, begin, depth).after(UPRIGHT),))
+    seat = (circle(1j * (side - (right - inner) / 2), ROD / 2),) if pressed else ()
+    section = Profile(rectangle(SLEY_BLOCK, right + inner), seat)
+    support = _plate("sley-support", "support of the sley's rod", section, SUPPORT)
     yield Occurrence(support, (placement((right - inner) / 2, foot - SUPPORT, depth).after(UPRIGHT),))
     if (spring := spring_part(weaver, SLEY)) is not None:
         yield Occurrence(spring, (placement(side, foot, depth).after(UPRIGHT),))
@@ -311,13 +337,28 @@ def _springs(weaver: Weaver) -> Iterator[Occurrence]:
         under = (weaver.shape.body + weaver.shape.size).imag - sheet(weaver) - shortest(weaver, HANDLER)
         line = weaver.shape.axis.real
         yield Occurrence(spring, (placement(station(weaver, HANDLER), under, line).after(UPRIGHT),))
-    if weaver.params.with_arms or (spring := spring_part(weaver, CENTRE_MOTION)) is None:
+    if not _has_seat(weaver) or (spring := spring_part(weaver, CENTRE_MOTION)) is None:
         return
     end = weaver.tool_bodies.tools.centre_carriage - longest(weaver, CENTRE_MOTION)
-    seat = _made("spring-seat", "seat of the centre gripper's spring", tube(SEAT, (SEAT - ROD) / 2, end - behind))
+    seat = _made(
+        "spring-seat", "seat of the centre gripper's spring", bored(ROD, (SPIGOT, PARTITION), (SEAT, end - behind))
+    )
     axis = 1j * (_centre_height(weaver) + ABOVE_CENTRE)
-    yield _at(seat, axis, behind)
+    yield _at(seat, axis, behind - PARTITION)
     yield _at(spring, axis, end)
+
+
+def _has_seat(weaver: Weaver) -> bool:
+    """Whether the centre gripper's spring stands on a seat, which then guides the rod through the partition."""
+    return not weaver.params.with_arms and spring_part(weaver, CENTRE_MOTION) is not None
+
+
+def _with(stands: Occurrence, cut: tuple[Placed, ...]) -> Occurrence:
+    """A part at its one position, with what is cut from the same piece, in the axes of the head."""
+    back, shape = stands.positions[0].inverse, stands.part.shape
+    assert shape is not None
+    others = (Placed(each.shape, tuple(back.after(position) for position in each.positions)) for each in cut)
+    return replace(stands, part=replace(stands.part, shape=Sum((Placed(shape), *others))))
 
 
 def _around(at: complex, half: float, *, round_: bool = False) -> GuideHole:

@@ -45,6 +45,11 @@ EDGE, WEB = 6 * mm, 0.3 * mm
 BRACKET_WALL = 5 * mm
 """Wall of the bracket [m]; assumed by this project."""
 
+BRACKET_ENDS = (20 * mm, 6 * mm, 8 * mm)
+"""Height and thickness of the bracket's flange on the side plates, thickness of its plate on the carriage [m]; assumed
+by this project.
+"""
+
 
 def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     """Face, plates across and bracket of a head that has side plates."""
@@ -65,8 +70,14 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
     inner = rectangle(wide - 2 * wall, RAIL_AXIS - 2 * wall)
-    tube = Prism(Profile(rectangle(wide, RAIL_AXIS), (inner,)), shape.front - high.real)
-    bracket = _made(BRACKET, "bracket of the head on its carriage", tube, wall)
+    long, (up, flange, end) = shape.front - high.real, BRACKET_ENDS
+    section = Profile(rectangle(wide, RAIL_AXIS), (inner,))
+    members = (
+        Placed(Prism(section, long - end)),
+        Placed(box(wide, up, flange), (placement(y=(RAIL_AXIS + up) / 2),)),
+        Placed(box(wide, RAIL_AXIS, end), (placement(z=long - end),)),
+    )
+    bracket = _made(BRACKET, "bracket of the head on its carriage", Sum(members), wall)
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
 
 

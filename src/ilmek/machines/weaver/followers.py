@@ -9,6 +9,7 @@ runs wherever its carriage is, or with a rack.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -64,7 +65,8 @@ def follower_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         parts = _follower(weaver, cam)
         if cam.name == HANDLER:
             upright = rack_at(weaver, rack_top(weaver) + float(cam.motion.s[0]))
-            parts = *parts, Occurrence(rack(weaver), (position.after(_DOWN).inverse.after(upright),))
+            welded = replace(rack(weaver), joins=(follower_id(cam.name),))
+            parts = *parts, Occurrence(welded, (position.after(_DOWN).inverse.after(upright),))
         yield RigidBody(
             follower_id(cam.name), parts, parent, Joint(JointKind.CAM, (1.0, 0.0, 0.0)), (position.after(_DOWN),)
         )

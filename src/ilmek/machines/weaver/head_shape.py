@@ -63,6 +63,11 @@ SLEY_HEIGHT, SLEY_TAIL = 15 * mm, 14 * mm
 BELL_CRANKS = (SIDE_MOTION, OPENER, CENTRE_MOTION)
 """Tracks whose levers are bell cranks, on one axle."""
 
+OPENER_FOOT = 6 * mm, 7 * mm, 12 * mm
+"""Depth of the feet of an opener's plate on its carriage, width and height of two, height of one where the plate is
+narrow [m]; assumed by this project.
+"""
+
 HANDLER_ARM, RACK_BELOW = (5 * mm, 4 * mm), 6.6
 """Radius of the pile handler's arm and its thickness [m], and how far its rack reaches below its axis, over the radius
 of the pinion [1]: teeth for a turn and three more, one over the pinion; assumed by this project."""
@@ -210,7 +215,10 @@ def _with_arms(params: WeaverParams, drawn: float) -> HeadTools:
     arms, radius, standoff = params.arms, params.warp / 2, params.standoff
     face = max(max(params.opening + radius, arms.stroke + radius, drawn / 2) + standoff, arms.back)
     rest, out = arms.rest - radius, params.opening - radius - standoff
-    carriage, above = face + SHEET + APART + params.opening, params.opener.front_span + params.opener.height
+    carriage, above = (
+        face + SHEET + APART + OPENER_FOOT[0] + params.opening,
+        params.opener.front_span + params.opener.height,
+    )
     size = complex(face - rest + arms.stroke, arms.breadth)
     corner = complex(rest, params.opener.front_span + (params.opener.height - arms.breadth) / 2)
     tools = (

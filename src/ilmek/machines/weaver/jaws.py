@@ -12,7 +12,9 @@ finger opens by the jaw's width.
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
@@ -24,14 +26,26 @@ from ilmek.machines.weaver.opener import STEEL
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
 from ilmek.machines.weaver.stations import station
-from ilmek.machines.weaver.tool_parts import CENTRE, JAW, LEFT, PLATES, RIGHT, TO_THE_TIP, part_id, wire_of
+from ilmek.machines.weaver.tool_parts import (
+    CENTRE,
+    CENTRE_GRIPPER,
+    JAW,
+    LEFT,
+    PLATES,
+    RIGHT,
+    SIDE_GRIPPER,
+    TO_THE_TIP,
+    part_id,
+    wire_of,
+)
 from ilmek.part.part import Part
-from ilmek.part.placement import IN_SIDE_VIEW, placement
+from ilmek.part.placement import IN_SIDE_VIEW, UPRIGHT, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, shape_box, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
+from ilmek.report import Contour
 from ilmek.units import in_mm, mm, round_size, turn
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
@@ -46,6 +60,9 @@ PIN, PIN_HEAD, HEAD = 3 * mm, 5 * mm, 1 * mm
 
 APART = 0.3 * mm
 """From a spring, or a collar in the middle of its stroke, to what it must not touch [m]."""
+
+PLAY, BRAZED = 0.1 * mm, 0.1 * mm
+"""Room of a wire's peg in the gripper's slot, and throat of the peg's brazing [m]."""
 
 HUB, FLANGE, GROOVE, WALL = 4 * mm, 7 * mm, 2.8 * mm, 0.8 * mm
 """Diameters of a collar's hub and flanges, width of its groove and thickness of its flanges [m]."""
@@ -125,16 +142,15 @@ def rail_of(weaver: Weaver, track: str) -> Rail:
     return Rail(roller - forward - ROLLER / 2, roller + back + ROLLER / 2, top)
 
 
-def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Occurrence:
-    """Plates on a carriage's front that hold its rocker's axle, by the x of their right faces [m]."""
+def lugs(weaver: Weaver, track: str, front: float, sides: tuple[float, ...]) -> Placed:
+    """Lugs of a carriage on its front that hold its rocker's axle, in the head's axes, by the x of their right faces
+    [m].
+    """
     axle = rocker(weaver, track).axle
     deep = front - axle.real
     corners = np.array([-EYE - 1j * EYE, deep - 1j * EYE, deep + 1j * EYE, -EYE + 1j * EYE])
     section = Profile(polygon(corners), (circle(0j, AXLE / 2),))
-    name = "side" if track == SIDE_GRASP else "centre"
-    title = f"lug of the {name} jaws' rocker"
-    part = Part(part_id(f"{name}-lug"), title, "machined link", in_mm(LUG), Prism(section, LUG), STEEL)
-    return Occurrence(part, tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
+    return Placed(Prism(section, LUG), tuple(placement(x, axle.imag, axle.real).after(IN_SIDE_VIEW) for x in sides))
 
 
 def rocker_id(track: str) -> str:
@@ -221,16 +237,21 @@ _PIN_PART = Part(
 
 
 def _collar(weaver: Weaver, by: Rocker, name: str, along: float) -> RigidBody:
-    """A collar with its wire in a gripper's frame; along: where its middle is [m from the warps]."""
-    collar, wire = _collar_parts(weaver, by.track)
-    begin = along - GROOVE / 2 - WALL - weaver.tool_bodies.tip(name)
-    parts = Occurrence(collar, (placement(z=begin),)), Occurrence(wire, (placement(z=JAW if name == CENTRE else 0.0),))
+    """A collar with its peg and wire in a gripper's frame; along: where its middle is [m from the warps]."""
+    collar, peg, wire = _collar_parts(weaver, by.track)
+    middle = along - weaver.tool_bodies.tip(name)
+    about = placement(z=middle, about=(0.0, 0.0, 1.0), angle=turn / 2 if name == LEFT else 0.0)
+    parts = (
+        Occurrence(collar, (placement(z=middle - GROOVE / 2 - WALL),)),
+        Occurrence(peg, (about.after(placement(y=wire_of(weaver.params) / 2)).after(UPRIGHT),)),
+        Occurrence(wire, (placement(z=JAW if name == CENTRE else 0.0),)),
+    )
     return RigidBody(collar_body(name), parts, name, Joint(JointKind.SLIDE))
 
 
 @lru_cache(maxsize=8)
-def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
-    """The collar on a gripper, and the wire that it pulls, from the gripper's tip to it."""
+def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part, Part]:
+    """The collar on a gripper, the wire that it pulls, from the gripper's tip to it, and the peg brazed to both."""
     params, side = weaver.params, track == SIDE_GRASP
     kind = "side" if side else "centre"
     bore = circle(0j, params.finger / 2) if side else rectangle(params.finger, params.finger)
@@ -238,12 +259,55 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part]:
     flanges = Placed(Prism(flange, WALL), (placement(), placement(z=GROOVE + WALL)))
     ring = Sum((flanges, Placed(Prism(hub, GROOVE), (placement(z=WALL),))))
     begin = weaver.tool_bodies.tip(LEFT) if side else weaver.tool_bodies.tip(CENTRE) + JAW
-    wire, long = wire_of(params), rocker(weaver, track).axle.real - begin
-    title = f"collar of the {kind} jaws"
-    return (
-        Part(part_id(f"{kind}-collar"), title, "turned part", in_mm(FLANGE), ring, STEEL),
-        Part(wire_id(track), f"wire of the {kind} jaws", "pin or bush", in_mm(wire), bar(wire, long), STEEL),
-    )
+    diameter, long = wire_of(params), rocker(weaver, track).axle.real + HUB / 2 - begin
+    collar = Part(part_id(f"{kind}-collar"), f"collar of the {kind} jaws", "turned part", in_mm(FLANGE), ring, STEEL)
+    title, shape = f"wire of the {kind} jaws", bar(diameter, long)
+    wire = Part(wire_id(track), title, "pin or bush", round_size(diameter), shape, STEEL)
+    title, shape = f"peg of the {kind} jaws' wire", bar(diameter - PLAY, (params.finger - diameter) / 2)
+    joins = collar.id, wire.id
+    peg = Part(part_id(f"{kind}-peg"), title, "pin or bush", "", shape, STEEL, joins=joins, throat=BRAZED)
+    return collar, peg, wire
+
+
+def slotted(weaver: Weaver, gripper: Occurrence) -> Occurrence:
+    """A gripper with the slot in its bar in which the peg of the jaws' wire moves; another tool as it is."""
+    track = {SIDE_GRIPPER: SIDE_GRASP, CENTRE_GRIPPER: CENTRE_GRASP}.get(gripper.part.id)
+    return gripper if track is None else replace(gripper, part=_slotted(weaver, track, gripper.part))
+
+
+@lru_cache(maxsize=8)
+def _slotted(weaver: Weaver, track: str, gripper: Part) -> Part:
+    """The bar, the first member, of three lengths, the second open above its bore over the collar's motion."""
+    names = (LEFT, RIGHT) if track == SIDE_GRASP else (CENTRE,)
+    middle, half, lifts = rocker(weaver, track).axle.real, wire_of(weaver.params) / 2, (0.0, weaver.cam(track).lift)
+    ends = [
+        middle + float(drawn(weaver, track, number, lift)) - weaver.tool_bodies.tip(name)
+        for number, name in enumerate(names)
+        for lift in lifts
+    ]
+    outer, shape = weaver.params.finger / 2, gripper.shape
+    assert isinstance(shape, Sum)
+    rod, *others = shape.members
+    begin = float(rod.positions[0].origin[2])
+    end = begin + float(shape_box(rod.shape)[1][2])
+    if track == SIDE_GRASP:
+        lean = math.asin(half / outer)
+        points = outer * np.exp(1j * np.array([turn / 4 + lean, turn / 2, -turn / 4, 0.0, turn / 4 - lean]))
+        rise, quarter = math.tan((turn / 4 - lean) / 4), math.tan(turn / 16)
+        bulges = [rise, quarter, quarter, rise]
+    else:
+        points = outer * np.array([1j - half / outer, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j, 1j + half / outer])
+        bulges = [0.0] * 5
+    below = half * np.array([1.0, -1j, -1.0])
+    slot = Contour(np.concatenate([points, below]), np.array([*bulges, 0.0, *[-math.tan(turn / 16)] * 2, 0.0]))
+    marks = [begin, min(ends) - half - PLAY, max(ends) + half + PLAY, end]
+    square = Profile(rectangle(2 * outer, 2 * outer), (circle(0j, half),))
+    lengths = [high - low for low, high in pairwise(marks)]
+    round_ = track == SIDE_GRASP
+    bars = [tube(2 * outer, outer - half, long) if round_ else Prism(square, long) for long in lengths]
+    bars[1] = Prism(Profile(slot), lengths[1])
+    placed = (Placed(own, (placement(z=low),)) for own, low in zip(bars, marks, strict=False))
+    return replace(gripper, shape=Sum((*placed, *others)))
 
 
 def opened(weaver: Weaver, track: str, lift: RealField) -> FloatArray:

@@ -56,7 +56,7 @@ BLADE_BODY, ECCENTRIC_BODY = part_id("sliding knife"), part_id("turning eccentri
 EDGE, LAND = 3 * mm, 5 * mm
 """Width of the blade beside its slot, and from that to its edge [m]; assumed by this project, as all sizes here."""
 
-STRIP, LIP = 4 * mm, 1.5 * mm
+STRIP, LIP = 6 * mm, 1.5 * mm
 """Width of a guide beside the blade; width and thickness of its lip over it [m]."""
 
 WALL, PLAY, APART = 1.5 * mm, 0.03 * mm, 2 * mm

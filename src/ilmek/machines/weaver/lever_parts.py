@@ -15,7 +15,7 @@ from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, bar, rectangle
+from ilmek.part.shapes import Placed, Prism, bar, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, strip
 from ilmek.report import Contour
@@ -83,25 +83,23 @@ def axles(weaver: Weaver) -> Iterator[Occurrence]:
         yield Occurrence(part, (placement(-inner, lever.pivot.imag, lever.pivot.real).after(ALONG_WIDTH),))
 
 
-def drawbar(weaver: Weaver, track: str, carriage: float) -> tuple[Occurrence, ...]:
-    """Two plates from a carriage's face to the pin of its lever, and the pin, at rest; carriage: of the face [m]."""
+def drawbar(weaver: Weaver, track: str, carriage: float) -> tuple[tuple[Placed, ...], Occurrence]:
+    """Two cheeks from a carriage's face to the pin of its lever, and the pin, at rest; carriage: of the face [m]."""
     lever, start = weaver.shape.levers[track], float(weaver.cam(track).motion.s[0])
     pin = lever.pin.real - lever.ratio * (start - lever.lift / 2)
     return pinned(weaver, track, complex(pin, lever.pin.imag), carriage - pin)
 
 
-def pinned(weaver: Weaver, track: str, pin: complex, beyond: float) -> tuple[Occurrence, ...]:
-    """Two cheeks about the pin of a lever, and the pin.
+def pinned(weaver: Weaver, track: str, pin: complex, beyond: float) -> tuple[tuple[Placed, ...], Occurrence]:
+    """Two cheeks of a carriage about the pin of a lever, in the head's axes, and the pin.
 
-    pin  z + i y      beyond  how far they reach to what they are on, to the front [m]
+    pin  z + i y      beyond  how far they reach to the carriage's face, to the front [m]
     """
     thick, plane = cheek(weaver), weaver.params.cam_thickness
     low, high = min(-OVER, beyond), max(OVER, beyond)
     middle = (low + high) / 2
     outline = polygon(rectangle(high - low, 2 * DRAWBAR).points + middle)
-    name = f"{track.replace(' ', '-')}-drawbar"
-    shape = Prism(Profile(outline, (circle(0j, PIN / 2),)), thick)
-    plate = Part(part_id(name), f"drawbar of the {track}", "machined link", f"{in_mm(thick)} thick", shape, STEEL)
     at = placement(station(weaver, track) + plane / 2, pin.imag, pin.real).after(IN_SIDE_VIEW)
+    cheeks = Prism(Profile(outline, (circle(0j, PIN / 2),)), thick)
     places = tuple(at.after(placement(z=z)) for z in (0.0, plane - thick))
-    return Occurrence(plate, places), Occurrence(lever_pin(weaver), (at,))
+    return (Placed(cheeks, places),), Occurrence(lever_pin(weaver), (at,))

@@ -5,21 +5,25 @@ A flag under the carrier passes over a sensor, from which the motor's steps coun
 
 import cmath
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
 from ilmek.machines.weaver.carriage_drive import PLATE_BEGIN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import AXLE, RAIL_AXIS
-from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER
+from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER, tubes_radius
+from ilmek.machines.weaver.outlines import bored
 from ilmek.machines.weaver.parts import TUBE
 from ilmek.machines.weaver.selector import selector_of
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.part import catalogue
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, placement
-from ilmek.part.shapes import bar, box, shape_box, tube
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, bar, box, rectangle, shape_box, stepped, tube
 from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import circle
 from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, round_size, turn
 
@@ -30,11 +34,16 @@ INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
 FLAG, SENSING = (4 * mm, 2 * mm), 1 * mm
 """Width and thickness of the flag, and from it to the sensor [m]; assumed by this project."""
 
-BESIDE_INDEX = 1 * mm
+BESIDE_INDEX = 2.5 * mm
 """Between the index sensor and a motor [m]; assumed by this project."""
 
-AXLE_WALL, OVER_MOTOR = 4.5 * mm, 0.5 * mm
-"""Wall of the axle under the carrier about the motor's shaft, and from it to the motor [m]; assumed by this project."""
+CLAMPED, ASIDE_INDEX, STAND_ROOM = 5 * mm, 10 * mm, 0.5 * mm
+"""Length of the index sensor in its stand, half the width of that, and room to the motor [m]; assumed by this project.
+"""
+
+AXLE_WALL, SPIGOT_WALL, OVER_MOTOR = 4.5 * mm, 1 * mm, 0.5 * mm
+"""Wall of the axle under the carrier about the motor's shaft, least wall of its spigot and of the drum about
+that, and from it to the motor [m]; assumed by this project."""
 
 
 def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
@@ -59,28 +68,37 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(part, positions)
     kind = "drum" if magazine.kind == DRUM else "slide"
     plate, size = magazine.carrier, f"{in_mm(CARRIER)} thick"
+    flange = shape.magazine.imag - CARRIER - AXLE
+    axle, spigot = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR)
+    begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
+    if spigot > 0:  # pressed into the drum
+        section = plate.section
+        plate = replace(plate, section=Profile(section.outline, (*section.holes, circle(0j, spigot / 2))))
     carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", size, plate, ALUMINIUM)
     lying = UPRIGHT.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 4))
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
-    flange = shape.magazine.imag - CARRIER - AXLE
-    axle = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR)
     yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
-    begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
     size = f"{in_mm(FLAG[1])} thick"
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL)
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL, joins=(TUBE_AXLE,))
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
 
 
-def _axle(weaver: Weaver, kind: str, length: float) -> Part:
-    """The axle of a length [m] on its motor's shaft; of several tiers without a bore, as that is beside it."""
-    bore = catalogue.motor_shaft(selector_of(weaver.params, weaver.magazine).stepper)
+def _axle(weaver: Weaver, kind: str, length: float) -> tuple[Part, float]:
+    """The axle of a length [m] on its motor's shaft; of several tiers without a bore, as that is beside it.
+
+    Its spigot in the drum, of the diameter that is returned [m], keeps off the tubes; 0: there is no room for one.
+    """
+    magazine, beside = weaver.magazine, weaver.magazine.tiers > 1
+    bore = catalogue.motor_shaft(selector_of(weaver.params, magazine).stepper)
     outer = bore + 2 * AXLE_WALL
-    beside = weaver.magazine.tiers > 1
-    shape = bar(outer, length) if beside else tube(outer, AXLE_WALL, length)
-    notes = () if beside else (Sentence("sheet.bonded"),)
-    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", round_size(outer), shape, STEEL, notes=notes)
+    spigot = min(outer, 2 * (tubes_radius(magazine) - SPIGOT_WALL) - TUBE_BORE * magazine.pitch)
+    if spigot < bore + 2 * SPIGOT_WALL:
+        spigot = 0.0
+    steps = (outer, length), *(((spigot, CARRIER),) if spigot > 0 else ())
+    shape, notes = (stepped(*steps), ()) if beside else (bored(bore, *steps), (Sentence("sheet.bonded"),))
+    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", round_size(outer), shape, STEEL, notes=notes), spigot
 
 
 def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
@@ -91,7 +109,11 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
     bought = Bought(INDUCTIVE.name, INDUCTIVE.mass)
     sensor = bought_part(INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, bar(side, long), bought)
     yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
-    stand = Part(INDEX_STAND, "stand of the tubes' index", "pin or bush", "", bar(side, begin - foot), STEEL)
+    beside = BESIDE_INDEX - STAND_ROOM + side / 2
+    block = Profile(rectangle(2 * beside, 2 * ASIDE_INDEX), (circle(0j, side / 2),))
+    high, size = begin + CLAMPED - foot, f"{in_mm(2 * ASIDE_INDEX)} x {in_mm(2 * beside)}"
+    title = "stand of the tubes' index"
+    stand = Part(INDEX_STAND, title, "machined link", size, Prism(block, high), ALUMINIUM)
     yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))
 
 

@@ -20,6 +20,7 @@ from ilmek.machines.weaver.hub_keys import STACK_KEY, cam_key, groove_half, groo
 from ilmek.machines.weaver.stations import belt_station, sheet, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import case_width
+from ilmek.machines.weaver.yarn_lead import STEM, guide_at
 from ilmek.part import catalogue
 from ilmek.part.part import CUTTER, PITCH, CamMaking, Part
 from ilmek.part.placement import placement
@@ -87,9 +88,10 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         middle = shape.body + (shape.size + flat) / 2 - shape.axis
         deep, high = shape.size.real - flat, shape.size.imag
         hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
+        eye = circle(guide_at(weaver) - shape.axis, STEM / 2)
         outline = polygon(rectangle(deep, high).points + middle)
         size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {in_mm(plate)}"
-        section = Profile(outline, hole)
+        section = Profile(outline, (*hole, eye))
         part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, Prism(section, plate), ALUMINIUM)
         yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:

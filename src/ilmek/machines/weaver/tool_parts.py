@@ -9,7 +9,7 @@ to where the tools work (`opener`); beyond it teeth of the width of `wall` hold 
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -22,6 +22,7 @@ from ilmek.machines.weaver.head_shape import (
     COLLARS,
     HANDLER_ARM,
     LOWER_PLATE,
+    OPENER_FOOT,
     SLEY_TOOL,
     UPPER_PLATE,
     HeadTool,
@@ -51,6 +52,11 @@ JAW, WIRE = 8 * mm, 0.9 * mm
 SLEY_FOOT, SLEY_ARM, BESIDE_SLEY = 6 * mm, 3 * mm, 3 * mm
 """Depth of the sley's foot over the pair, at most, width of its arm, and from the opener to it [m]; assumed by this
 project."""
+
+SLEY_LUG = 5 * mm, 2 * mm, 6 * mm
+"""How far the lug of the sley's block beside the arm reaches before and behind its front, and its width [m]; assumed by
+this project.
+"""
 
 CARRIED = 0.1
 """Mass of carriage, lever and follower beside a tool for which a cam is designed [kg]; a check compares it."""
@@ -173,17 +179,28 @@ class ToolBodies:
         return CENTRE_MOTION, _sliding(CENTRE, parts, parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
-        """Both plates, alike."""
+        """Both plates, alike, with feet on their carriage."""
         low, high = self.tools.tool(LOWER_PLATE), self.tools.tool(UPPER_PLATE)
         thick = low.size.imag
         part = _made(
             OPENER_PLATE,
             "plate of the warp opener",
             "machined link",
-            Prism(self._comb(low), thick),
+            Sum((Placed(Prism(self._comb(low), thick)), *self._feet(low))),
             f"{in_mm(thick)} thick",
         )
-        return (Occurrence(part, tuple(_upright(tool) for tool in (low, high))),)
+        over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
+        return (Occurrence(part, (_upright(low), over)),)
+
+    def _feet(self, plate: HeadTool) -> Iterator[Placed]:
+        """One at each side of a plate towards the other; under one that is narrow, for arms, one on its outer side."""
+        deep, wide, high = OPENER_FOOT
+        back, aside = plate.size.real - deep / 2, self.opener_half - wide / 2
+        if self.params.with_arms:
+            yield Placed(box(deep, min(wide, 2 * self.opener_half), high), (placement(back, 0.0, -high),))
+            return
+        for y in (-aside, aside):
+            yield Placed(box(deep, wide, wide), (placement(back, y, plate.size.imag),))
 
     def _comb(self, tool: HeadTool) -> Profile:
         """A plate in plan, its x to the front from the points, its y along the row; of grippers open at its end."""
@@ -223,7 +240,8 @@ class ToolBodies:
             rest = min(rest, self.params.arms.rest - self.params.arms.grip)
         foot = min(max(rest - tool.corner.real - self.params.clearance, self.params.finger), SLEY_FOOT)
         inner = outer - SLEY_ARM
-        corners = [1j * half, foot + 1j * half, foot - 1j * inner, deep - 1j * inner, deep - 1j * outer, -1j * outer]
+        end = deep + SLEY_LUG[1]
+        corners = [1j * half, foot + 1j * half, foot - 1j * inner, end - 1j * inner, end - 1j * outer, -1j * outer]
         size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
         part = _made(SLEY_BAR, "sley", "machined link", shape, size)

@@ -17,7 +17,7 @@ from ilmek.machines.weaver.case import closing_parts
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.drive_parts import COLOUR_MOTOR, TIER_MOTOR, cam_drive, colour_motors, shaft_pulley
 from ilmek.machines.weaver.followers import follower_bodies, guide
-from ilmek.machines.weaver.jaws import jaw_bodies
+from ilmek.machines.weaver.jaws import jaw_bodies, slotted
 from ilmek.machines.weaver.knife import KNIFE_CLOSURE, knife_bodies, knife_stands
 from ilmek.machines.weaver.lever_parts import axles, lever_bodies
 from ilmek.machines.weaver.magazine_parts import index_sensor, magazine_parts
@@ -89,7 +89,7 @@ def _without_guide(weaver: Weaver) -> Tree:
     )
     upright, carried = placement(about=(0.0, 0.0, 1.0), angle=turn / 4), carried_parts(weaver)
     tools = (
-        replace(body, occurrences=(*body.occurrences, *carried.get(body.id, ())))
+        replace(body, occurrences=(*(slotted(weaver, own) for own in body.occurrences), *carried.get(body.id, ())))
         for _, body in weaver.tool_bodies.bodies(HEAD)
     )
     return Tree(

@@ -14,7 +14,6 @@ from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import BELL_CRANKS
 from ilmek.machines.weaver.knife import eye_at
-from ilmek.machines.weaver.parts import case_plates
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Part
@@ -51,6 +50,12 @@ def yarn_line(weaver: Weaver) -> Float[np.ndarray, "3 3"]:
     )
 
 
+def guide_at(weaver: Weaver) -> complex:
+    """Where the guide's stem is in the side plate, in the side view: z from the warps + i y [m]."""
+    _, (_, y, z), _ = yarn_line(weaver)
+    return complex(z, y)
+
+
 def yarn_wraps(weaver: Weaver) -> tuple[float, float, float]:
     """Wrap of the yarn at tube, guide and eye [rad]: it comes up in its tube and is drawn across before the eye."""
     legs = np.diff(yarn_line(weaver), axis=0)
@@ -62,11 +67,14 @@ def yarn_wraps(weaver: Weaver) -> tuple[float, float, float]:
 
 
 def yarn_guide(weaver: Weaver) -> Iterator[Occurrence]:
-    """The guide on its stem at the side plate."""
-    if not case_plates(weaver):
+    """The guide; its stem is pressed into the side plate."""
+    if weaver.params.side_plate <= 0:
         return
     outer, wall, long = RING
-    stem = Placed(bar(STEM, INSIDE - outer / 2), (ALONG_WIDTH.after(placement(y=long / 2, z=outer / 2)),))
+    stem = Placed(
+        bar(STEM, INSIDE - outer / 2 + weaver.params.side_plate),
+        (ALONG_WIDTH.after(placement(y=long / 2, z=outer / 2)),),
+    )
     ring = Sum((Placed(tube(outer, wall, long)), stem))
     _, (x, y, z), _ = yarn_line(weaver)
     part = Part(YARN_GUIDE, "guide of the pile yarn", "pin or bush", "", ring, STEEL)

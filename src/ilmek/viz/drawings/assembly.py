@@ -20,6 +20,7 @@ from ilmek.part.assemblies import (
     items_of,
     pieces_of_assembly,
 )
+from ilmek.part.blanks import sold_as
 from ilmek.part.exploded import Block, exploded
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
@@ -301,7 +302,7 @@ def _cells(item: AssemblyItem) -> Cells:
     if own.purchase is not None:
         return item.name, str(item.quantity), title, own.purchase.row or own.process, "—", mass
     assert own.material is not None
-    return item.name, str(item.quantity), title, own.material.designation, own.id, mass
+    return item.name, str(item.quantity), title, sold_as(own), own.id, mass
 
 
 def _overall(first: complex, second: complex, out: complex, length: float) -> SheetDimension:

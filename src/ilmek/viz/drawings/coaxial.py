@@ -17,8 +17,9 @@ from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.viz.drawings.features import SAME, distinct
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import keyed_contour, keyway
+from ilmek.viz.drawings.flat import keyed_contour
 from ilmek.viz.drawings.joined import Member
+from ilmek.viz.drawings.keyways import keyway
 from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import DrawnView
 

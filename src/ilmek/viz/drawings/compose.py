@@ -3,28 +3,23 @@
 First-angle projection (ISO 5456-2): the view from the left stands right of the front view, that from above below it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from typing import cast
 
-from ilmek.part.folding import folded_sheet
 from ilmek.part.shapes import Prism, Shape, Turned, shape_box
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.sentences import Sentence
-from ilmek.viz.drawings.bends import bent_pictures
-from ilmek.viz.drawings.cam import cam_circles, cam_notes, is_cam, mark_cam, radius_tables
+from ilmek.viz.drawings.cam import cam_notes, is_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
 from ilmek.viz.drawings.drawn_part import DrawnPart
-from ilmek.viz.drawings.drilled import drilled_table
-from ilmek.viz.drawings.edge import edge_view
-from ilmek.viz.drawings.face_notes import FRONT, X, Y, Z, face_notes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import flat_part, outline_view
 from ilmek.viz.drawings.joined import joined_views, members_of
-from ilmek.viz.drawings.long import bar_view, is_long, turned_view
+from ilmek.viz.drawings.long import is_long, turned_view
+from ilmek.viz.drawings.packing import BETWEEN, PAD, packed, top_left
 from ilmek.viz.drawings.paper import (
     BLOCK_HEIGHT,
     BLOCK_WIDTH,
@@ -38,30 +33,40 @@ from ilmek.viz.drawings.paper import (
     table,
     title_block,
 )
-from ilmek.viz.drawings.picture import SheetPicture, joined_box, millimetres
+from ilmek.viz.drawings.picture import Box, SheetPicture, joined_box, millimetres
+from ilmek.viz.drawings.prism import edge_below, flat_foot, prism_views
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
-from ilmek.viz.drawings.weld_symbols import Foot, cut_list, weld_symbols, weld_table
+from ilmek.viz.drawings.weld_symbols import cut_list, weld_symbols, weld_table
 
-_BETWEEN, _PAD = 14.0, 6.0
-"""Least distance of two views, and of anything from the frame [mm]."""
+_SPARE = 1.0
+"""What the quick look allows for chords of arcs [mm]."""
 
-LEAST_SIZE = {"A4": 70.0, "A3": 80.0}
+LEAST_SIZE = {"A4": 70.0, "A3": 80.0, "A2": 110.0, "A1": 150.0}
 """Least greatest extent of a part on a paper [mm]: below it, the next paper is taken."""
 
 MOST_CROWDED = 12.0
 """Greatest shift of a running dimension from its point [mm]; beyond it, the next paper is taken."""
 
-MOST_ENLARGED = 90.0
-"""Greatest extent of a section that is drawn larger than it is [mm of the paper]."""
+_SMALL = ("A4", "A3")
+"""Papers that are left where running dimensions crowd."""
+
+MOST_ENLARGED, _CLEARED = 90.0, 300.0
+"""Greatest extent of a section that is drawn larger than it is, and of one whose dimensions are crowded at full size
+[mm of the paper]."""
 
 
 @record
 class Arrangement:
-    """Views by where they stand: `front`, `right` of it, `below` it; and tables."""
+    """Views by where they stand: `front`, `left` or `right` of it, `below` it; and tables."""
 
     views: dict[str, DrawnView]
     tables: tuple[SheetPicture, ...] = ()
+
+    @property
+    def crowded(self) -> bool:
+        """Whether running dimensions stand far from their points."""
+        return max(view.crowding for view in self.views.values()) > MOST_CROWDED
 
 
 def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrangement | None:
@@ -69,15 +74,13 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     fits, shape = Fits(part.features, part.stated.roughness if part.stated else None), part.shape
     fit_table = fits.table()
     tables = () if fit_table is None else (fit_table,)
-    holes = drilled_table(shape, part.features)
-    tables = tables if holes is None else (*tables, holes)
     if part.cut is not None:
         tables = (*tables, cut_list(part.cut, part.pieces))
+    if isinstance(shape, Prism):
+        views, more = prism_views(part, shape, fits, scale)
+        return Arrangement(views, (*tables, *more))
     if part.welds:
         tables = (*tables, weld_table(part.welds, shape_box(cast(Shape, shape))[0], part.pieces))
-    if isinstance(shape, Prism):
-        views, more = _prism_views(part, shape, fits, scale)
-        return Arrangement(views, (*tables, *more))
     if isinstance(shape, Turned):
         front = turned_view(shape.profile, scale, fits)
         detail = step_detail(front, shape.profile.outline)
@@ -92,49 +95,8 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
     if project is None:
         return None
     views, more = joined_views(shape, scale, project, fits)
-    weld_symbols(views["front"], part.welds, _flat_foot(scale))
+    weld_symbols(views["front"], part.welds, flat_foot(scale))
     return Arrangement(views, (*tables, *more))
-
-
-def _prism_views(
-    part: DrawnPart, shape: Prism, fits: Fits, scale: float
-) -> tuple[dict[str, DrawnView], tuple[SheetPicture, ...]]:
-    """A bar from its side with its section, or a plate with its edge; and the table of its holes."""
-    if is_long(shape.section, shape.length):
-        flat = flat_part(shape.section, fits)
-        section, tables = outline_view(flat, scale, fits)
-        face_notes(section, fits, *FRONT)
-        return {"front": bar_view(flat, shape.length, scale, part.welds), "right": section}, tables
-    sheet = folded_sheet(part.bent)
-    scribed = () if sheet is None else tuple(1j * bend.middle for bend in sheet.bends)
-    flat = flat_part(shape.section, fits, smooth=part.smooth, scribed=scribed)
-    circles = cam_circles(part) if is_cam(part) else None
-    front, tables = outline_view(flat, scale, fits, paths=part.paths, marks=part.marks, circles=circles)
-    if is_cam(part):
-        mark_cam(front, part)
-    if sheet is not None and part.bent is not None:
-        tables = (*tables, *bent_pictures(part.bent, sheet))
-    low, high = bounds(flat.outline)
-    below = (high - low).real > (high - low).imag * 1.2
-    edge = edge_view(flat, shape.length, scale, below=below)
-    face_notes(front, fits, *FRONT)
-    face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
-    ends = [weld for weld in part.welds if weld.all_round]
-    weld_symbols(front, [weld for weld in part.welds if not weld.all_round], _flat_foot(scale))
-    weld_symbols(edge, ends, _edge_foot(high, scale, below=below))
-    return {"front": front, "below" if below else "right": edge}, tables
-
-
-def _edge_foot(high: complex, scale: float, *, below: bool) -> Foot:
-    """Where welds round the ends are in the view on the edge of a plate; high  its upper right corner."""
-    if below:
-        return lambda weld: complex(high.real, -float(weld.middle[2])) * scale
-    return lambda weld: complex(float(weld.middle[2]), high.imag) * scale
-
-
-def _flat_foot(scale: float) -> Foot:
-    """Where welds are in the front view of a plate."""
-    return lambda weld: complex(float(weld.middle[0]), float(weld.middle[1])) * scale
 
 
 def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple[DrawingSheet, ...]:
@@ -148,14 +110,14 @@ def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple
 def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
     """The second sheet of a cam: its radii at each degree."""
     listed = merged(radius_tables(part))
-    wide = listed.box[2] + LEFT + EDGE + _PAD
+    wide = listed.box[2] + LEFT + EDGE + PAD
     paper, height = next((name, tall) for name, (across, tall) in PAPERS.items() if wide <= across)
     radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment)) if part.cam else ("", "")
     within = Sentence("sheet.radii-within", tolerance=radius, increment=step) if part.cam else ""
     words = Sentence("sheet.radii", within=within)
-    caption = SheetText(complex(LEFT + _PAD, height - EDGE - 8.0), words, 2.5, bold=True)
-    corner = complex(LEFT + _PAD, height - EDGE - 11.0)
-    laid = merged([_top_left(listed, corner), SheetPicture((), (caption,), ())])
+    caption = SheetText(complex(LEFT + PAD, height - EDGE - 8.0), words, 2.5, bold=True)
+    corner = complex(LEFT + PAD, height - EDGE - 11.0)
+    laid = merged([top_left(listed, corner), SheetPicture((), (caption,), ())])
     return _sheet(part, issue, paper, 1.0, laid, 2)
 
 
@@ -165,15 +127,16 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
     drawn = cache(lambda scale: arranged(part, 1e3 / scale, project))  # the same on every paper
     for paper in PAPERS:
         for scale in SCALES:
-            arrangement = drawn(scale) if _may_fit(part, paper, scale) else None
+            most = _CLEARED if paper not in _SMALL and _is_crowded(drawn) else MOST_ENLARGED
+            arrangement = drawn(scale) if _may_fit(part, paper, scale, most) else None
             if arrangement is None:
                 continue
             laid = _laid(arrangement, part, paper)
             if laid is None:
                 continue
             body = arrangement.views["front"].body
-            crowded = max(view.crowding for view in arrangement.views.values()) > MOST_CROWDED and paper in LEAST_SIZE
-            if crowded or (scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)):
+            small = scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)
+            if small or (arrangement.crowded and paper in _SMALL):
                 break
             return _sheet(part, issue, paper, scale, laid)
     if project is None and arranged(part, 1.0, None) is None:
@@ -181,79 +144,86 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
     raise ValueError(f"{part.number} fits no sheet")
 
 
-def _may_fit(part: DrawnPart, paper: str, scale: float) -> bool:
-    """Whether a part's section could have room: a quick look, before anything is drawn."""
-    extent = _extent(part.shape)
-    if scale < 1 and extent * 1e3 / scale > MOST_ENLARGED:
+def _is_crowded(drawn: Callable[[float], Arrangement | None]) -> bool:
+    """Whether running dimensions are crowded at full size."""
+    arrangement = drawn(1.0)
+    return arrangement is not None and arrangement.crowded
+
+
+def _may_fit(part: DrawnPart, paper: str, scale: float, most: float) -> bool:
+    """Whether a part's section, and the edge of a plate, could have room: a quick look, before anything is drawn.
+
+    most  extent on the paper if enlarged [mm]
+    """
+    size, edge = _extent(part.shape)
+    if scale < 1 and max(size.real, size.imag) * 1e3 / scale > most:
         return False
-    width, height = PAPERS[paper]
-    return extent * 1e3 / scale < max(width, height)
+    low_x, low_y, high_x, high_y = _area(paper)
+    needed = size * 1e3 / scale
+    if edge:
+        beside = edge * 1e3 / scale + BETWEEN
+        needed += 1j * beside if edge_below(size) else beside
+    return needed.real < high_x - low_x + _SPARE and needed.imag < high_y - low_y + _SPARE
 
 
-def _extent(shape: object) -> float:
-    """A length that no view of a shape falls below [m]; long parts are interrupted."""
+def _extent(shape: object) -> tuple[complex, float]:
+    """Width and height that no front or section view of a shape falls below, and the thickness of a plate [m]."""
     if isinstance(shape, Prism):
         low, high = bounds(shape.section.outline)
-        return max((high - low).real, (high - low).imag)
-    if isinstance(shape, Turned):
-        return 2 * shape.outer_radius
-    return 0.0
+        return high - low, 0.0 if is_long(shape.section, shape.length) else shape.length
+    return complex(0.0, 2 * shape.outer_radius if isinstance(shape, Turned) else 0.0), 0.0
+
+
+def _area(paper: str) -> Box:
+    """The room of the views on a paper."""
+    width, height = PAPERS[paper]
+    return LEFT + PAD, EDGE + BLOCK_HEIGHT + PAD, width - EDGE - PAD, height - EDGE - PAD
 
 
 def _laid(arrangement: Arrangement, part: DrawnPart, paper: str) -> SheetPicture | None:
     """All pictures at their positions on the paper; None: they have no room."""
-    width, height = PAPERS[paper]
-    area = (LEFT + _PAD, EDGE + BLOCK_HEIGHT + _PAD, width - EDGE - _PAD, height - EDGE - _PAD)
+    width, area = PAPERS[paper][0], _area(paper)
     views = _projected(arrangement.views)
     box = joined_box([view.box for view in views])
     notes = _notes(part)
-    beside = (LEFT + _PAD, EDGE + _PAD, width - EDGE - BLOCK_WIDTH - _PAD, EDGE + BLOCK_HEIGHT + _PAD)
-    tables = list(arrangement.tables)
+    beside = (LEFT + PAD, EDGE + PAD, width - EDGE - BLOCK_WIDTH - PAD, EDGE + BLOCK_HEIGHT + PAD)
     placed: list[SheetPicture] = []
     if notes is not None:
         tall, wide = notes.box[3] - notes.box[1], notes.box[2] - notes.box[0]
         if wide <= beside[2] - beside[0] and tall <= beside[3] - beside[1]:
-            placed.append(_top_left(notes, complex(beside[0], beside[3] - _PAD)))
+            placed.append(top_left(notes, complex(beside[0], beside[3] - PAD)))
         else:
             placed.append(notes.moved(complex(area[0] - notes.box[0], area[1] - notes.box[1])))
-            area = (area[0], area[1] + tall + _PAD, area[2], area[3])
-    for picture in tables:
-        wide, tall = picture.box[2] - picture.box[0], picture.box[3] - picture.box[1]
-        right = area[2] - wide - _BETWEEN - area[0] >= box[2] - box[0] and tall <= area[3] - area[1]
-        if right:
-            placed.append(_top_left(picture, complex(area[2] - wide, area[3])))
-            area = (area[0], area[1], area[2] - wide - _BETWEEN, area[3])
-        elif wide <= area[2] - area[0]:
-            placed.append(_top_left(picture, complex(area[0], area[1] + tall)))
-            area = (area[0], area[1] + tall + _PAD, area[2], area[3])
-        else:
-            return None
+            area = (area[0], area[1] + tall + PAD, area[2], area[3])
+    beside_views = packed(arrangement.tables, area, complex(box[2] - box[0], box[3] - box[1]))
+    if beside_views is None:
+        return None
+    tables, area = beside_views
     free = complex(area[2] - area[0] - box[2] + box[0], area[3] - area[1] - box[3] + box[1])
-    if free.real < 0 or free.imag < 0:
+    if min(free.real, free.imag) < 0:
         return None
     by = complex(area[0] - box[0], area[1] - box[1]) + free / 2
-    return merged([*(view.moved(by) for view in views), *placed])
-
-
-def _top_left(picture: SheetPicture, corner: complex) -> SheetPicture:
-    return picture.moved(corner - complex(picture.box[0], picture.box[3]))
+    return merged([*(view.moved(by) for view in views), *placed, *tables])
 
 
 def _projected(views: dict[str, DrawnView]) -> list[SheetPicture]:
     """The views about the front view, aligned with it."""
     front = views["front"].picture
     pictures = [front]
+    if "left" in views:
+        view = views["left"]
+        pictures.append(view.picture.moved(front.box[0] - BETWEEN - view.picture.box[2]))
     if "right" in views:
         view = views["right"]
-        pictures.append(view.picture.moved(front.box[2] + _BETWEEN - view.picture.box[0]))
+        pictures.append(view.picture.moved(front.box[2] + BETWEEN - view.picture.box[0]))
     if "below" in views:
         view = views["below"]
-        pictures.append(view.picture.moved(1j * (front.box[1] - _BETWEEN - view.picture.box[3])))
+        pictures.append(view.picture.moved(1j * (front.box[1] - BETWEEN - view.picture.box[3])))
     if "corner" in views:
         view, box = views["corner"], joined_box([one.box for one in pictures])
-        left = pictures[1].box[0] if "right" in views else box[2] + _BETWEEN
-        top = min(front.box[1], pictures[1].box[1] if "right" in views else box[1]) - _PAD
-        pictures.append(_top_left(view.picture, complex(left, top)))
+        left = pictures[1].box[0] if "right" in views else box[2] + BETWEEN
+        top = min(front.box[1], pictures[1].box[1] if "right" in views else box[1]) - PAD
+        pictures.append(top_left(view.picture, complex(left, top)))
     return pictures
 
 

@@ -21,7 +21,7 @@ from ilmek.viz.drawings.view import DrawnView, MeasuredLength
 LEAST, CLEAR, WIDEST = 2.0, 5.0, 90.0
 """Width below which a feature has a detail, its least width there, and the greatest diameter of a detail [mm]."""
 
-_NEAR, _AROUND = 25.0, 5.0
+_NEAR, _AROUND = 20.0, 5.0
 """Distance of features that share a detail, and room about them, on the main view [mm]."""
 
 _LETTERS = "ZYXWVUTS"
@@ -46,7 +46,7 @@ def details_for(features: Sequence[tuple[complex, float]], scale: float) -> tupl
     groups: list[list[tuple[complex, float]]] = []
     for at, width in features:
         if width * scale < LEAST:
-            near = next((own for own in groups if any(abs(at - other) * scale < _NEAR for other, _ in own)), None)
+            near = next((own for own in groups if abs(at - own[0][0]) * scale < _NEAR), None)
             if near is None:
                 groups.append([(at, width)])
             else:

@@ -8,9 +8,10 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
-from ilmek.part.blanks import blanks_of, size_of
+from ilmek.part.blanks import blanks_of, size_of, sold_as
 from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
+from ilmek.part.hole_kinds import HoleKinds, hole_kinds
 from ilmek.part.part import WELDED, CamMaking, Part
 from ilmek.part.plates import FLAT
 from ilmek.part.profile import Profile
@@ -40,6 +41,7 @@ class DrawnPart:
     stated   what holds for the part as a whole; None: not known        cam  how a disc cam is cut; None: it is none
     welds    of the part to others       cut  section of stock, and length that it is cut to [m]; None: of no bar
     bent     the part of which `shape` is the flat pattern; None: of none
+    kinds    of its pieces by their holes; None: all have the same
     """
 
     number: str
@@ -63,6 +65,7 @@ class DrawnPart:
     welds: tuple[Weld, ...] = ()
     cut: tuple[str, float] | None = None
     bent: Prism | None = None
+    kinds: HoleKinds | None = None
 
     @property
     def mass(self) -> float:
@@ -142,7 +145,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume,
         (*plate.notes, *_row(part, plate.tree)),
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
-        _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent,
+        _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent, kinds=_kinds(part, plate.tree),
     )  # fmt: skip
 
 
@@ -153,7 +156,7 @@ def drawn_piece(piece: WorkPiece, machine: str, name: str) -> DrawnPart:
         part.id if part else f"{machine}/{name}", name, piece.title.capitalize(), piece.material, _density(part),
         part.process if part else "", piece.size, piece.number, piece.shape, piece.volume,
         (*(part.notes if part else ()), *_row(part, piece.tree)), features=_features(piece.features),
-        stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part),
+        stated=_stated(part), welds=_welds(part, piece.tree), cut=_cut(part), kinds=_kinds(part, piece.tree),
     )  # fmt: skip
 
 
@@ -188,12 +191,16 @@ def _welds(part: Part | None, tree: object) -> tuple[Weld, ...]:
     return welds_of(tree).get(part.id, ()) if part and isinstance(tree, Tree) else ()
 
 
+def _kinds(part: Part | None, tree: object) -> HoleKinds | None:
+    return hole_kinds(tree).get(part.id) if part and isinstance(tree, Tree) else None
+
+
 def _density(part: Part | None) -> float:
     return math.nan if part is None or part.material is None else part.material.density
 
 
 def _designation(part: Part | None) -> str:
-    return "" if part is None or part.material is None else part.material.designation
+    return "" if part is None else sold_as(part)
 
 
 def _stated(part: Part | None) -> PartSpecification | None:

@@ -4,11 +4,12 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.plane.contours import along, bounds, polygon
 from ilmek.report.sheet import LineKind
 from ilmek.viz.drawings.features import SAME, distinct
 from ilmek.viz.drawings.flat import FlatPart
-from ilmek.viz.drawings.view import DrawnView, MeasuredLength, coordinate
+from ilmek.viz.drawings.view import DrawnView, MeasuredLength
 
 
 def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) -> DrawnView:
@@ -18,6 +19,9 @@ def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) ->
     def turn(level: float, depth: float) -> complex:
         return complex(level, -depth) if below else complex(depth, level)
 
+    if flat.marked:
+        datum = flat.datum.real if below else flat.datum.imag
+        view.datum_mark(turn(datum, 0.0), {"X": 1.0, "Z": -1j} if below else {"Z": 1.0, "Y": 1j})
     low, high = bounds(flat.outline)
     start, end = (low.real, high.real) if below else (low.imag, high.imag)
     corners = [turn(start, 0.0), turn(end, 0.0), turn(end, thickness), turn(start, thickness)]
@@ -39,13 +43,16 @@ def edge_view(flat: FlatPart, thickness: float, scale: float, *, below: bool) ->
 
 def edge_levels(flat: FlatPart, *, below: bool = False) -> Iterator[float]:
     """Levels of corners that nothing hides: on the side of the outline from which it is seen."""
+    return levels_seen(flat, *((1j, 1.0) if below else (-1.0, 1j)))
+
+
+def levels_seen(flat: FlatPart, eye: complex, up: complex) -> Iterator[float]:
+    """Coordinates along `up` of corners of an outline that nothing hides from an eye; both are units, across."""
     if not flat.dimensioned:
         return
-    points = along(flat.outline, 1e-5)
-    points = -points.imag + 1j * points.real if below else points  # depth from the eye, and level on the paper
+    points = _seen(along(flat.outline, 1e-5), eye, up)
     after = np.roll(points, -1)
-    for corner in flat.features.corners:
-        level, depth = coordinate(corner, not below), (-corner.imag if below else corner.real)
+    for depth, level in ((seen.real, seen.imag) for seen in _seen(np.array(flat.features.corners), eye, up).tolist()):
         hidden = False
         for offset in (-1e-6, 1e-6):
             crossed = (points.imag > level + offset) != (after.imag > level + offset)
@@ -54,3 +61,8 @@ def edge_levels(flat: FlatPart, *, below: bool = False) -> Iterator[float]:
             hidden = hidden or bool(np.any(before < depth - 1e-5))
         if not hidden:
             yield level
+
+
+def _seen(points: ComplexArray, eye: complex, up: complex) -> ComplexArray:
+    """Points by their depth from an eye, and their coordinate along `up` as imaginary part."""
+    return np.asarray(-(points * np.conj(eye)).real + 1j * (points * np.conj(up)).real)

@@ -45,7 +45,7 @@ class Fits:
         centre  of a bore in the section of a plate; None: anywhere
         """
         there = (one for one in self.features if one.kind is kind and abs(one.nominal - size) < 2 * SAME)
-        return self._note(
+        return self.joined(
             [one for one in there if centre is None or abs(complex(*one.position.origin[:2]) - centre) < 2 * SAME]
         )
 
@@ -54,10 +54,11 @@ class Fits:
         notes: dict[FeatureNote, list[Span]] = {}
         for one in self.features:
             if one.kind is kind and abs(one.nominal - size) < 2 * SAME:
-                notes.setdefault(self._note([one]), []).append(span_of(one))
+                notes.setdefault(self.joined([one]), []).append(span_of(one))
         return notes
 
-    def _note(self, alike: Sequence[ToleratedFeature]) -> FeatureNote:
+    def joined(self, alike: Sequence[ToleratedFeature]) -> FeatureNote:
+        """What alike features must hold, as one note."""
         words = dict.fromkeys(f" {one.tolerance}{limits(one.lower, one.upper)}" for one in alike)
         frames = dict.fromkeys(_frame(limit) for one in alike for limit in one.geometric)
         rough = {f"Ra {one.roughness / um:g}" for one in alike if one.roughness != self.general}

@@ -1,6 +1,5 @@
 """Views of a part cut from flat stock: its outline with all holes, and its edge."""
 
-import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
@@ -11,6 +10,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind
 from ilmek.plane.biarcs import as_contour
 from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds, keyed_bore
+from ilmek.plane.vectors import following
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.sheet import DimensionKind, LineKind
@@ -29,7 +29,8 @@ from ilmek.viz.drawings.features import (
     square_of,
 )
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.paper import table
+from ilmek.viz.drawings.holes import NamedHole, draw_hole, mark_holes, thread_words
+from ilmek.viz.drawings.keyways import keyway
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength, coordinate
 
@@ -44,8 +45,8 @@ _ARCS = 1e-6
 
 @record
 class FlatPart:
-    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, the datum, and points of lines
-    to scribe.
+    """A section as it is drawn: outline, round holes, bores with keyways, other cutouts, the datum, points of lines to
+    scribe, centres of the holes that only a table describes, and whether its datum is marked.
     """
 
     outline: Contour
@@ -57,6 +58,8 @@ class FlatPart:
     datum: complex
     smooth: bool
     scribed: tuple[complex, ...] = ()
+    listed: tuple[complex, ...] = ()
+    marked: bool = False
 
     @property
     def holes(self) -> tuple[Hole, ...]:
@@ -77,24 +80,39 @@ class FlatPart:
 
     @property
     def small(self) -> Iterator[tuple[complex, float]]:
-        """What may be too small on its paper: middle and width of holes and cutouts [m]."""
-        yield from ((hole.at, 2 * hole.radius) for hole in self.holes)
+        """What may be too small on its paper: middle and width of holes, but those of a table, and of cutouts [m]."""
+        shown = (group for group in self.groups if not self.has_row(group))
+        yield from ((hole.at, 2 * hole.radius) for group in shown for hole in group.holes)
         for low, high in map(bounds, self.cutouts):
             yield (low + high) / 2, min((high - low).real, (high - low).imag)
+        for start, end in self.edges:
+            yield (start + end) / 2, abs(end - start)
+
+    @property
+    def edges(self) -> Iterator[tuple[complex, complex]]:
+        """Ends of the pieces of an outline that is dimensioned by its corners [m]."""
+        if self.dimensioned and self.round_outline is None and as_keyed(self.outline) is None:
+            yield from zip(self.outline.points.tolist(), following(self.outline.points).tolist(), strict=True)
 
     @property
     def dimensioned(self) -> bool:
         """Whether its outline is dimensioned by corners and arcs."""
         return not self.smooth and self.features.fully
 
-    @property
-    def tabled(self) -> bool:
-        """Whether its holes stand in a table."""
-        return sum(len(group.holes) for group in self.groups if not group.pitch) >= TABLE_FROM
+    def has_row(self, group: HoleGroup) -> bool:
+        """Whether the holes of a group stand in a table."""
+        if any(abs(group.holes[0].at - own) < SAME for own in self.listed):
+            return True
+        return not group.pitch and sum(len(own.holes) for own in self.groups if not own.pitch) >= TABLE_FROM
 
 
 def flat_part(
-    section: Profile, fits: Fits = NO_FITS, *, smooth: bool = False, scribed: tuple[complex, ...] = ()
+    section: Profile,
+    fits: Fits = NO_FITS,
+    *,
+    smooth: bool = False,
+    scribed: tuple[complex, ...] = (),
+    listed: tuple[complex, ...] = (),
 ) -> FlatPart:
     """The features of a section; a smooth outline is a curve, with no corners to dimension."""
     holes, cuts = split_holes(section.holes)
@@ -113,8 +131,8 @@ def flat_part(
     features = contour_features(outline)
     datum = _datum(features, bounds(outline)[0], centres, [*holes])
     curve = smooth or section.smooth
-    groups = hole_groups(holes, lambda hole: bore_note(fits, hole))
-    return FlatPart(outline, features, ring, groups, bores, others, datum, curve, scribed)
+    groups = hole_groups(holes, lambda hole: (bore_note(fits, hole), any(abs(hole.at - own) < SAME for own in listed)))
+    return FlatPart(outline, features, ring, groups, bores, others, datum, curve, scribed, listed)
 
 
 def _datum(features: ContourFeatures, corner: complex, centres: list[complex], holes: list[Hole]) -> complex:
@@ -129,11 +147,11 @@ def _datum(features: ContourFeatures, corner: complex, centres: list[complex], h
 
 
 def bore_note(fits: Fits, hole: Hole) -> FeatureNote:
-    """What a round hole must hold, its words with the diameter, or the thread: `⌀12 H7 (+0.018/0)`, `M12 6H`."""
+    """What a round hole must hold, its words with the diameter, or the thread: `⌀12 H7 (+0.018/0)`, `M12 - 6H`."""
     size = millimetres(2 * hole.radius)
     thread = fits.note(2 * hole.radius, FeatureKind.THREAD, hole.at)
     if thread.words:
-        return thread._replace(words=f"M{size}{thread.words}")
+        return thread._replace(words=thread_words(2 * hole.radius, thread.words))
     fit = fits.note(2 * hole.radius, FeatureKind.BORE, hole.at)
     return fit._replace(words=f"⌀{size}{fit.words}")
 
@@ -146,17 +164,18 @@ def outline_view(
     paths: Mapping[str, ComplexArray | Contour] | None = None,
     marks: Mapping[str, ComplexArray] | None = None,
     circles: Mapping[str, float] | None = None,
+    named: Sequence[NamedHole] = (),
 ) -> tuple[DrawnView, tuple[SheetPicture, ...]]:
-    """The view on the outline with its dimensions, and its hole table where it has one.
+    """The view on the outline with its dimensions, and its details.
 
+    named    holes with names, seen from the front
     circles  about the origin to draw and to label: radii [m] by the keys of their words
     """
     view = DrawnView(scale)
+    if flat.marked:
+        view.datum_mark(flat.datum, {"X": 1.0, "Y": 1j})
     details = details_for([*flat.small], scale)
-    for contour in flat.contours:
-        view.contour(LineKind.VISIBLE, contour)
-    for hole in flat.holes:
-        view.cross(hole.at, hole.radius)
+    _holes(view, flat, fits, named)
     shaft = as_keyed(flat.outline)
     for bore in (*flat.bores, *([shaft] if shaft else [])):
         view.cross(bore.centre, max(bore.floor, bore.radius))
@@ -176,11 +195,22 @@ def outline_view(
         _diameter(view, Sentence(name, size=millimetres(2 * radius)), 0j, radius)
     for detail in details:
         mark_detail(view, detail)
-    tables = (_hole_table(view, flat, fits),) if flat.tabled else ()
-    return view, (*tables, *(_enlarged(detail, flat, fits).picture for detail in details))
+    mark_holes(view, [own for own in named if not any(detail.has(own.centre) for detail in details)])
+    return view, tuple(_enlarged(detail, flat, fits, named).picture for detail in details)
 
 
-def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits) -> DrawnView:
+def _holes(view: DrawnView, flat: FlatPart, fits: Fits, named: Sequence[NamedHole]) -> None:
+    """The outline with all cutouts and holes."""
+    for contour in flat.contours[: len(flat.contours) - len(flat.holes)]:
+        view.contour(LineKind.VISIBLE, contour)
+    for group in flat.groups:
+        for hole in group.holes:
+            draw_hole(view, hole.at, (2 * hole.radius,), threaded=bore_note(fits, hole).words.startswith("M"))
+    for own in named:
+        draw_hole(view, own.centre, own.diameters, threaded=own.threaded)
+
+
+def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits, named: Sequence[NamedHole]) -> DrawnView:
     """A detail with the labels of the holes and squares that are all in it."""
     view = detail_view(detail, flat.contours)
     for group in flat.groups:
@@ -191,6 +221,14 @@ def _enlarged(detail: DetailCircle, flat: FlatPart, fits: Fits) -> DrawnView:
     for centre, side in flat.squares:
         if detail.has(centre):
             square(view, centre - detail.centre, side, fits)
+    ends = [end for edge in flat.edges if all(map(detail.has, edge)) for end in edge]
+    for across in (False, True) if ends else ():
+        low = min(ends, key=lambda point: coordinate(point, across))
+        values = distinct([coordinate(point - low, across) for point in ends])
+        feet = [(_foot(ends, coordinate(low, across) + value, across) - detail.centre) * view.scale for value in values]
+        spans = [MeasuredLength(feet[0], foot, value) for foot, value in zip(feet[1:], values[1:], strict=True)]
+        view.rows(spans, across=across)
+    mark_holes(view, [own for own in named if detail.has(own.centre)], detail.centre)
     return view
 
 
@@ -209,8 +247,9 @@ def _coordinates(flat: FlatPart) -> tuple[complex, ...]:
     """Points whose coordinates a drawing needs: corners, centres of arcs and of holes that no table has."""
     by_circle = flat.round_outline is not None or as_keyed(flat.outline) is not None
     own = flat.features.points if flat.dimensioned and not by_circle else ()
-    holes = () if flat.tabled else tuple(h.at for group in flat.groups if not group.pitch for h in group.holes)
-    centres = tuple(group.centre for group in flat.groups if group.pitch)
+    unlisted = [group for group in flat.groups if not flat.has_row(group)]
+    holes = tuple(hole.at for group in unlisted if not group.pitch for hole in group.holes)
+    centres = tuple(group.centre for group in unlisted if group.pitch)
     cuts = tuple(point for cut in flat.cutouts for point in _corners_of(cut, flat))
     return (*own, *holes, *centres, *(bore.centre for bore in flat.bores), *cuts, *flat.scribed)
 
@@ -300,7 +339,7 @@ def _labels(view: DrawnView, flat: FlatPart, fits: Fits, details: Sequence[Detai
 
 def _hole_label(view: DrawnView, flat: FlatPart, group: HoleGroup, fits: Fits, origin: complex = 0j) -> None:
     """The diameter of a group of holes, unless a table has it, in a view about an origin [m]."""
-    if flat.tabled and not group.pitch:
+    if flat.has_row(group):
         return
     count = len(group.holes)
     hole = max(group.holes, key=lambda one: (one.at.real + one.at.imag, one.at.real))
@@ -324,37 +363,6 @@ def square(view: DrawnView, centre: complex, side: complex, fits: Fits) -> None:
     view.leader(words, ends[0], 0.0, kind=DimensionKind.ALIGNED, value=size, measured=ends, note=note)
 
 
-_KEYWAYS = {FeatureKind.BORE: FeatureKind.HUB_KEYWAY, FeatureKind.JOURNAL: FeatureKind.SHAFT_KEYWAY}
-
-
-def keyway(
-    view: DrawnView, bore: KeyedCircle, fits: Fits, kind: FeatureKind, seat: tuple[float, float] | None = None
-) -> None:
-    """Width of the keyways, with their angle from +x, and the distance of their floor from the opposite side.
-
-    seat  of a shaft: from its end on the left to the keyway, and the length of that [m]; None: all through
-    """
-    turn = bore.directions[0]
-    corners = [bore.centre + turn * complex(bore.floor, side * bore.width / 2) for side in (-1, 1)]
-    count = len(bore.directions)
-    times = f"{count}× " if count > 1 else ""
-    at = ", ".join(f"{round(math.degrees(cmath.phase(direction)), 3) + 0.0:.4g}°" for direction in bore.directions)
-    ends = (corners[0] * view.scale, corners[1] * view.scale)
-    note = fits.note(bore.width, _KEYWAYS[kind])
-    width = Sentence("sheet.keyway", times=times, size=f"{millimetres(bore.width)}{note.words}", at=at)
-    if seat is not None:
-        begin, length = map(millimetres, seat)
-        width = Sentence("sheet.keyway-seat", keyway=width, length=length, begin=begin)
-    view.leader(
-        width, ends[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.width, count=count, measured=ends, note=note
-    )  # fmt: skip
-    across = ((bore.centre - turn * bore.radius) * view.scale, (bore.centre + turn * bore.floor) * view.scale)
-    floor = Sentence("sheet.floor", size=f"{millimetres(bore.radius + bore.floor)}{fits.depth(bore.width)}")
-    view.leader(
-        floor, across[1], 0.0, kind=DimensionKind.ALIGNED, value=bore.radius + bore.floor, measured=across
-    )  # fmt: skip
-
-
 def _diameter(  # noqa: PLR0917
     view: DrawnView, words: str, centre: complex, radius: float, count: int = 1, note: FeatureNote = NO_NOTE
 ) -> None:
@@ -373,20 +381,3 @@ def _radii(view: DrawnView, arcs: tuple[ArcFeature, ...]) -> None:
             words, arc.centre * view.scale, radius * view.scale, kind=DimensionKind.RADIUS, value=radius,
             count=len(equal), sector=ends,
         )  # fmt: skip
-
-
-def _hole_table(view: DrawnView, flat: FlatPart, fits: Fits) -> SheetPicture:
-    """Tags at the holes, and the table of their positions from the datum."""
-    rows = []
-    for letter, group in zip("ABCDEFGHJKLMNPQRSTUVWXYZ" * 4, (g for g in flat.groups if not g.pitch), strict=False):
-        ordered = sorted(group.holes, key=lambda hole: (round(hole.at.imag, 7), hole.at.real))
-        for number, hole in enumerate(ordered, 1):
-            tag = f"{letter}{number}" if len(ordered) > 1 else letter
-            view.tag(tag, hole.at * view.scale, hole.radius * view.scale)
-            at, note = hole.at - flat.datum, bore_note(fits, hole)
-            rows.append((tag, millimetres(at.real), millimetres(at.imag), note.words))
-        if not note.is_bare:
-            hole = ordered[-1]
-            words = f"{len(ordered)}× {letter}" if len(ordered) > 1 else letter
-            view.leader(words, hole.at * view.scale, hole.radius * view.scale, kind=None, note=note)
-    return table((Sentence("sheet.hole"), "X", "Y", Sentence("sheet.dimension")), rows, Sentence("sheet.holes"))

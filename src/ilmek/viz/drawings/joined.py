@@ -21,7 +21,8 @@ from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
-from ilmek.viz.drawings.flat import PARALLEL, keyway, square
+from ilmek.viz.drawings.flat import PARALLEL, square
+from ilmek.viz.drawings.keyways import keyway
 from ilmek.viz.drawings.paper import table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Axis, Projector

@@ -1,11 +1,12 @@
 """Views of turned parts, in half section, and of bars and tubes of stock with their section; long ones interrupted."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.elements.machine_screws import core_of
 from ilmek.part.profile import Profile
 from ilmek.part.tolerances import FeatureKind, groove_tolerance
 from ilmek.part.welds import Weld
@@ -19,6 +20,7 @@ from ilmek.viz.drawings.feature_note import FeatureNote
 from ilmek.viz.drawings.features import SAME, ContourFeatures, contour_features, distinct
 from ilmek.viz.drawings.fits import Fits, Span, span_of
 from ilmek.viz.drawings.flat import PARALLEL, FlatPart
+from ilmek.viz.drawings.holes import thread_words
 from ilmek.viz.drawings.picture import millimetres
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView, MeasuredLength
 from ilmek.viz.drawings.weld_symbols import weld_symbols
@@ -108,7 +110,8 @@ def turned_view(
     levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *held) for z in ends[:2])])
     cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
     gap = 1.2 / scale
-    points = along(contour, 0.01 / scale)
+    drilled = with_cores(contour, fits)
+    points = along(drilled, 0.01 / scale)
     after = np.roll(points, -1)
     outer = _outer(points, after)
     hollow = len(points) <= FINE and bool(np.any(~outer & (np.minimum(points.imag, after.imag) > SAME)))
@@ -120,16 +123,20 @@ def turned_view(
                 view.line(LineKind.VISIBLE, piece)
             if outside:
                 view.line(LineKind.VISIBLE, piece.conj())
-    for corner in corners if features.fully else (low, complex(high.real, low.imag)):
-        _edge_lines(view, cut, corner, contour, bored)
+    edges = contour_features(drilled).corners
+    for corner in edges if features.fully else (low, complex(high.real, low.imag)):
+        _edge_lines(view, cut, corner, drilled, bored)
     if bored:
-        loops = (contour, *profile.holes)
+        for radius, span in threads_of(fits):
+            view.line(LineKind.DIMENSION, cut.drawn(np.array(span)) + 1j * radius)
+        loops = (drilled, *profile.holes)
         view.hatch([_drawn_loop(cut, along(loop, 0.01 / scale)) for loop in loops])
         for hole in profile.holes:
             view.contour(LineKind.VISIBLE, Contour(_drawn_loop(cut, hole.points), hole.bulges))
     for start, end, floor in grooves:
         floor_ends = cut.drawn(np.array([start, end])) + 1j * floor
         view.line(LineKind.HIDDEN, floor_ends)
+    _seat_ends(view, cut, fits, levels=[corner.real for corner in corners])
     _break_lines(view, cut, high.imag)
     over = 3.0 / scale
     ends = cut.drawn(np.array([low.real, high.real]))
@@ -137,6 +144,37 @@ def turned_view(
     _lengths(view, cut, levels, low, high, features)
     _diameters(view, cut, features, contour, fits, squares)
     return view
+
+
+def _seat_ends(view: DrawnView, cut: Shortening, fits: Fits, *, levels: Sequence[float]) -> None:
+    """Thin lines where a seat ends on a diameter that goes on."""
+    for one in fits.features:
+        if one.kind is FeatureKind.JOURNAL:
+            for end in (z for z in span_of(one) if all(abs(z - level) > SAME for level in levels)):
+                half = one.nominal / 2 * 1j
+                view.line(LineKind.DIMENSION, float(cut.drawn(end)) + np.array([-half, half]), body=False)
+
+
+def threads_of(fits: Fits) -> Iterator[tuple[float, Span]]:
+    """Radius, begin and end along the axis of the threads of a turned part [m]."""
+    yield from ((one.nominal / 2, span_of(one)) for one in fits.features if one.kind is FeatureKind.THREAD)
+
+
+def with_cores(contour: Contour, fits: Fits) -> Contour:
+    """A profile with the cores of its threads, as they are drilled: narrower than the thread, and deeper."""
+    points = contour.points.copy()
+    for radius, ends in threads_of(fits):
+        core = core_of(2 * radius)
+        if core is None:
+            continue
+        for end, sense in zip(ends, (-1, 1), strict=True):
+            at_end = np.abs(contour.points.real - end) < SAME
+            if (at_end & (contour.points.imag < SAME)).any():  # its floor
+                points[at_end & (contour.points.imag < radius + SAME)] += sense * core[1]
+        own = (contour.points.real > ends[0] - SAME) & (contour.points.real < ends[1] + SAME)
+        own &= np.abs(contour.points.imag - radius) < SAME
+        points[own] -= 1j * (radius - core[0] / 2)
+    return Contour(points, contour.bulges)
 
 
 def _drawn_loop(cut: Shortening, points: ComplexArray) -> ComplexArray:
@@ -216,9 +254,10 @@ def _diameters(  # noqa: PLR0917
             inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
             kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
             own = (min(start.real, end.real), max(start.real, end.real))
+            threads = fits.along(2 * radius, FeatureKind.THREAD) if inner else {}
             there = {
                 note: [span for span in spans if own[0] - SAME < sum(span) / 2 < own[1] + SAME]
-                for note, spans in fits.along(2 * radius, kind).items()
+                for note, spans in (threads or fits.along(2 * radius, kind)).items()
             }
             for note, spans in there.items() if any(there.values()) else [(NO_NOTE, [own])]:
                 if spans:
@@ -237,7 +276,7 @@ def _diameters(  # noqa: PLR0917
                     radius,
                     spans,
                     note,
-                    "□" if square else "⌀",
+                    "□" if square else "M" if threads else "⌀",
                     None if radius == radii[-1] else bounds(contour)[0].real,
                 )
 
@@ -265,7 +304,9 @@ def _diameter(  # noqa: PLR0917
     starts = distinct([span[0] for span in spans])
     count = len(starts)
     times = f"{count}× " if count > 1 and datum is not None else ""
-    size = f"{times}{sign}{millimetres(2 * radius)}{note.words}"
+    deep = round(spans[0][1] - spans[0][0], 9)
+    own = thread_words(2 * radius, note.words, deep) if sign == "M" else f"{sign}{millimetres(2 * radius)}{note.words}"
+    size = f"{times}{own}"
     if count > MOST_DIAMETERS and datum is not None:
         pitch = float(np.median(np.diff(starts)))
         wide = float(np.median(np.diff(spans)))
@@ -290,6 +331,8 @@ def _diameter(  # noqa: PLR0917
 def bar_view(flat: FlatPart, length: float, scale: float, welds: Sequence[Weld] = ()) -> DrawnView:
     """A bar or tube of stock from the side, its length horizontal; hollows as hidden lines; welds at its ends."""
     view = DrawnView(scale)
+    if flat.marked:
+        view.datum_mark(1j * flat.datum.imag, {"Z": 1.0, "Y": 1j})
     low, high = bounds(flat.outline)
     cut = shortening([0.0, length], (high - low).imag)
     gap = 1.2 / scale

@@ -1,9 +1,11 @@
 """Spots for texts: directions of leaders to try, room below a text, positions that keep apart."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray, Float
 from ilmek.viz.drawings.picture import Box
 
 TURNS = np.deg2rad(
@@ -11,6 +13,10 @@ TURNS = np.deg2rad(
         "45 60 30 120 135 150 75 15 105 165 -30 -45 -60 -135 -120 -150 0 180 90 -90 52 22 112 142 -15 -52 -112", sep=" "
     )
 )
+
+
+PAD = 0.8
+"""Distance of texts from each other, at least [mm]."""
 
 
 def box_below(box: Box, hanging: Box, anchor: str) -> Box:
@@ -40,3 +46,37 @@ def spread(positions: np.ndarray, least: float) -> np.ndarray:
             blocks[-1] = [(blocks[-1][0] * blocks[-1][1] + mean * count) / total, total]
     level = np.concatenate([np.full(int(count), mean) for mean, count in blocks])
     return np.asarray(level + least * np.arange(len(positions)))
+
+
+@dataclass(frozen=True, eq=False)
+class TakenRoom:
+    """What a text must keep off: boxes of others, and points of lines in the order of their x."""
+
+    boxes: Float[np.ndarray, "boxes 4"]
+    samples: ComplexArray
+
+    def fault(self, box: Box, tip: complex, elbow: complex, least: float = np.inf) -> float:
+        """How bad a spot for a text is: 0 where it is free, 1000 for each text that it or its line covers.
+
+        least  from which on it need not be exact
+        """
+        low_x, low_y, high_x, high_y = self.boxes.T
+        over = (box[0] < high_x + PAD) & (low_x < box[2] + PAD) & (box[1] < high_y + PAD) & (low_y < box[3] + PAD)
+        fault = 1000.0 * np.count_nonzero(over)
+        across = self.samples.real
+        first, last = np.searchsorted(across, box[0] - 0.5, "right"), np.searchsorted(across, box[2] + 0.5)
+        heights = self.samples.imag[first:last]
+        fault += float(np.count_nonzero((heights > box[1] - 0.5) & (heights < box[3] + 0.5)))
+        if tip != elbow and fault < least:
+            shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
+            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])[:, None]
+            beside = (path.real > low_x - 0.4) & (path.real < high_x + 0.4)
+            inside = beside & (path.imag > low_y - 0.4) & (path.imag < high_y + 0.4)
+            fault += 1000.0 * np.count_nonzero(inside.any(axis=0))
+        return fault
+
+
+def within(points: ComplexArray, box: Box) -> np.ndarray:
+    """Which points are in a box, or very near."""
+    beside = (points.real > box[0] - 0.4) & (points.real < box[2] + 0.4)
+    return np.asarray(beside & (points.imag > box[1] - 0.4) & (points.imag < box[3] + 0.4))

@@ -6,12 +6,12 @@ running dimensions from the datum. Leaders search a free spot around what they p
 """
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, Float
+from ilmek.arrays import ComplexArray
+from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Contour
 from ilmek.report.sheet import DimensionKind, LineKind, SheetDimension, SheetLine, SheetText, arrowhead
@@ -28,13 +28,16 @@ from ilmek.viz.drawings.picture import (
     text_box,
     words_width,
 )
-from ilmek.viz.drawings.spots import TURNS, box_below, spread, turns_from
+from ilmek.viz.drawings.spots import PAD, TURNS, TakenRoom, box_below, spread, turns_from, within
 from ilmek.viz.font import text_width
 
 GAP, ROW = 9.0, 7.5
 """Distance of the first row of dimensions from the view, and of a row from the next [mm]."""
 
-_PAD, _STEP, _ARROWS = 0.8, 0.6, 8.0
+_STEP, _ARROWS = 0.6, 8.0
+
+_ON_TEXT = 1000.0
+"""Fault of a spot for a text from which on it covers another."""
 
 NO_NOTE = FeatureNote()
 """Of a feature that must hold nothing but its size."""
@@ -93,7 +96,7 @@ class DrawnView:
     def cross(self, centre: complex, radius: float) -> None:
         """The centre lines of a circle [m], a little beyond it."""
         for arm in (1.0, 1j):
-            reach = arm * (radius + 2.5 / self.scale)
+            reach = arm * (radius + min(2.5, 0.7 + radius * self.scale) / self.scale)
             self.line(LineKind.CENTRE, np.array([centre - reach, centre + reach]), body=False)
 
     def hatch(self, contours: Sequence[ComplexArray], spacing: float = 2.5) -> None:
@@ -136,7 +139,7 @@ class DrawnView:
                     taken.append([])
                 free = all(interval[1] <= one[0] + 1e-6 or interval[0] >= one[1] - 1e-6 for one in taken[row])
                 room = text_box(text)
-                if free and not any(overlap(room, box, _PAD) for box in self._boxes):
+                if free and not any(overlap(room, box, PAD) for box in self._boxes):
                     break
             taken[row].append(interval)
             self._boxes.append(room)
@@ -194,7 +197,7 @@ class DrawnView:
                 for point, position in zip(ordered, positions.tolist(), strict=True)
             ]
             rooms = [text_box(text) for text in texts]
-            if not any(overlap(room, box, _PAD) for room in rooms for box in self._boxes):
+            if not any(overlap(room, box, PAD) for room in rooms for box in self._boxes):
                 break
         self._boxes += rooms
         for point, position, text in zip(ordered, positions.tolist(), texts, strict=True):
@@ -276,6 +279,8 @@ class DrawnView:
                 box = text_box(text)
                 box = box if hung is None else joined_box([box, box_below(box, hung, text.anchor)])
                 fault = taken.fault(box, tip, elbow, np.inf if best is None else best[0])
+                if not fault:
+                    return tip, elbow, text
                 if best is None or fault < best[0] - 1e-9:
                     best = fault, tip, elbow, text
             if best is not None and best[0] < 3:
@@ -306,12 +311,28 @@ class DrawnView:
                 at = centre + (radius + distance) * direction - 0.5j * LETTER
                 text = SheetText(at, words, LETTER, "left" if direction.real > 0 else "right")
                 candidates.append((taken.fault(text_box(text), at, at), text))
-        _, text = min(candidates, key=lambda one: one[0])
-        self.text(text)
+        fault, text = min(candidates, key=lambda one: one[0])
+        if fault < _ON_TEXT:
+            self.text(text)
+        else:
+            self.leader(words, centre, radius, kind=None)
 
-    def _taken(self) -> "_TakenRoom":
+    def datum_mark(self, at: complex, axes: Mapping[str, complex]) -> None:
+        """The datum of coordinates [m] with arrows along their axes, by name and direction on the paper."""
+        origin = at * self.scale
+        ring = circle(origin, 1.2)
+        self._add(SheetLine(LineKind.DATUM, ring.points, ring.bulges, closed=True), body=False)
+        for name, along in axes.items():
+            tip = origin + 10.0 * along
+            self._add(SheetLine(LineKind.DATUM, np.array([origin, tip])), body=False)
+            self._add(SheetLine(LineKind.DATUM, np.array(arrowhead(tip, along)), closed=True), body=False)
+            aside = -2.6 * sum(other for other in axes.values() if other != along)
+            self.text(SheetText(tip + aside - 1j * LETTER / 2, name, LETTER, "center", bold=True))
+
+    def _taken(self) -> TakenRoom:
         samples = np.concatenate([np.zeros(0, complex), *self._samples])
-        return _TakenRoom(np.array(self._boxes, dtype=float).reshape(-1, 4), samples[np.argsort(samples.real)])
+        self._samples = [samples[np.argsort(samples.real, kind="stable")]]  # quick where most are in order
+        return TakenRoom(np.array(self._boxes, dtype=float).reshape(-1, 4), self._samples[0])
 
     def _clear_pieces(self, start: complex, end: complex) -> list[ComplexArray]:
         """A straight line, interrupted where texts lie."""
@@ -320,7 +341,7 @@ class DrawnView:
             return []
         samples = np.linspace(0.0, 1.0, max(2, int(length / 0.2)))
         points = start + samples * (end - start)
-        free = ~np.any([_within(points, box) for box in self._boxes] or [np.zeros(len(points), bool)], axis=0)
+        free = ~np.any([within(points, box) for box in self._boxes] or [np.zeros(len(points), bool)], axis=0)
         starts = np.flatnonzero(free & ~np.append(False, free[:-1]))
         ends = np.flatnonzero(free & ~np.append(free[1:], False))
         return [points[[first, last]] for first, last in zip(starts, ends, strict=True) if last > first]
@@ -340,48 +361,18 @@ class DrawnView:
         points = line_points(line, 0.1)
         steps = np.abs(np.diff(points))
         total = float(steps.sum())
-        if total > 0:
+        count = max(2, int(total / _STEP) + 1)
+        if total > 0 and len(points) == 2:
+            self._samples.append(np.linspace(points[0], points[1], count))
+        elif total > 0:
             length = np.concatenate([[0.0], np.cumsum(steps)])
-            marks = np.linspace(0.0, total, max(2, int(total / _STEP) + 1))
+            marks = np.linspace(0.0, total, count)
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
-
-
-@dataclass(frozen=True, eq=False)
-class _TakenRoom:
-    """What a text must keep off: boxes of others, and points of lines in the order of their x."""
-
-    boxes: Float[np.ndarray, "boxes 4"]
-    samples: ComplexArray
-
-    def fault(self, box: Box, tip: complex, elbow: complex, least: float = np.inf) -> float:
-        """How bad a spot for a text is: 0 where it is free, 1000 for each text that it or its line covers.
-
-        least  from which on it need not be exact
-        """
-        low_x, low_y, high_x, high_y = self.boxes.T
-        over = (box[0] < high_x + _PAD) & (low_x < box[2] + _PAD) & (box[1] < high_y + _PAD) & (low_y < box[3] + _PAD)
-        fault = 1000.0 * np.count_nonzero(over)
-        across = self.samples.real
-        first, last = np.searchsorted(across, box[0] - 0.5, "right"), np.searchsorted(across, box[2] + 0.5)
-        heights = self.samples.imag[first:last]
-        fault += float(np.count_nonzero((heights > box[1] - 0.5) & (heights < box[3] + 0.5)))
-        if tip != elbow and fault < least:
-            shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
-            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])[:, None]
-            beside = (path.real > low_x - 0.4) & (path.real < high_x + 0.4)
-            inside = beside & (path.imag > low_y - 0.4) & (path.imag < high_y + 0.4)
-            fault += 1000.0 * np.count_nonzero(inside.any(axis=0))
-        return fault
 
 
 def coordinate(point: complex, across: bool) -> float:
     """Its coordinate in the direction that is measured: y where that is across, else x."""
     return point.imag if across else point.real
-
-
-def _within(points: ComplexArray, box: Box) -> np.ndarray:
-    beside = (points.real > box[0] - 0.4) & (points.real < box[2] + 0.4)
-    return np.asarray(beside & (points.imag > box[1] - 0.4) & (points.imag < box[3] + 0.4))
 
 
 def _text_in(low: float, high: float, width: float) -> tuple[float, tuple[float, float]]:

@@ -36,6 +36,9 @@ from ilmek.units import mm, turn
 
 CHAIN_ARM = part_id("chain-arm")
 
+FOOT = 12 * mm
+"""How far the foot of the arm of a head reaches to the back under the bracket [m]; assumed by this project."""
+
 ARM, TOE = (30 * mm, ARM_DEPTH), (8 * mm, 3 * mm)
 """Width and depth of the arm of a head to its chain, under the end of the bracket, and how far and how thick its lower
 end reaches to the front [m]; assumed by this project.
@@ -65,7 +68,8 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     shape, end = loom.weaver.shape, float(trough_box(loom)[0][1]) + WALL + PLAY + energy_chain(loom).loop[0]
     top = shape.rail - RAIL_AXIS / 2
     toe = Placed(box(ARM[0], *TOE), (placement(y=-(ARM[1] + TOE[0]) / 2),))
-    bent = Sum((Placed(box(*ARM, top - end)), toe))
+    foot = Placed(box(ARM[0], FOOT, ARM[1]), (placement(y=(ARM[1] + FOOT) / 2, z=top - end - ARM[1]),))
+    bent = Sum((Placed(box(*ARM, top - end)), toe, foot))
     arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", bent, STEEL)
     # Where the head's drive reaches so far to the front, to the left of it.
     beside = drive_front(loom.weaver) > shape.front - ARM[1] - ROOM

@@ -17,7 +17,7 @@ from ilmek.report import Papers, Report
 
 def papers(loom: LoomDesign, report: Report) -> Papers:
     """The papers of a loom with its report."""
-    manual, reached = assembly_manual(loom)
+    manual, assembled = assembly_manual(loom)
     pages = (
         manual,
         commissioning(loom, report),
@@ -26,5 +26,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         risks(loom, report),
     )
     tree = bolted(loom_tree(loom))
-    checks = (*safety_checks(loom, report), reached, *braking_checks(loom), *making_checks(loom_tree(loom)))
+    checks = (*safety_checks(loom, report), *assembled, *braking_checks(loom), *making_checks(loom_tree(loom)))
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)

@@ -5,7 +5,7 @@ from dataclasses import replace
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.tree_manual import UP, assembly_check, tree_manual
+from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual
 from ilmek.part.bolting import bolted
 from ilmek.part.insertion import insertions
 from ilmek.part.projection import View
@@ -13,12 +13,16 @@ from ilmek.report import Check, Paper, PaperSection
 from ilmek.sentences import Sentence
 
 
-def assembly_manual(loom: LoomDesign) -> tuple[Paper, Check]:
-    """Its manual, and whether every part can reach its seat past what stands: all other bodies come to the frame."""
+def assembly_manual(loom: LoomDesign) -> tuple[Paper, tuple[Check, ...]]:
+    """Its manual, and whether every part can reach its seat past what stands and is fastened there.
+
+    All other bodies come to the frame.
+    """
     tree = loom_tree(loom)
+    whole = bolted(tree)
     steps = insertions(tree, UP, frozenset((part_id("frame"),)))
     manual, then = (
-        tree_manual(tree, steps, View.SIDE, bolted(tree)),
+        tree_manual(tree, steps, View.SIDE, whole),
         PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)),
     )
-    return replace(manual, sections=(*manual.sections, then)), assembly_check(steps)
+    return replace(manual, sections=(*manual.sections, then)), (assembly_check(steps), fastening_check(whole))

@@ -1,0 +1,140 @@
+"""From a carpet picture to the paths of a tufting gun: chart at its resolution, plan, G-code, page and report."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ilmek.carpet.picture_points import hex_colour
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.yarn_plan import parse_count
+from ilmek.errors import ParameterError
+from ilmek.io.chart.formats import format_of
+from ilmek.io.gcode import write_gcode
+from ilmek.io.json_file import write_json
+from ilmek.io.output import Outputs, joined
+from ilmek.jobs.chart import ChartResult, job_json, make_charted
+from ilmek.jobs.deadline import read_deadline
+from ilmek.jobs.order import CarpetOrder
+from ilmek.jobs.yarn_choice import kept_checks
+from ilmek.machines.tufting_gun.design import Cone, TuftedByGun, tufted_by_gun
+from ilmek.machines.tufting_gun.params import TuftingGunParams
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
+from ilmek.report import Check, Json, Result, results_of
+from ilmek.viz.gun_page import gun_page
+from ilmek.weaving.gun.plan import CELLS, gun_plan
+
+PROGRAMME, PAGE, REPORT = "gun.ngc", "report.html", "report.json"
+
+
+@dataclass(frozen=True, slots=True)
+class GunOrder:
+    """What a gun is asked for: its parameters, and the time for the whole carpet [s]."""
+
+    params: TuftingGunParams
+    deadline: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class GunResult:
+    """A carpet by a tufting gun, its results, and the folder of its files."""
+
+    charted: ChartResult
+    order: GunOrder
+    tufted: TuftedByGun
+    results: tuple[Result, ...]
+    folder: Path
+    written: tuple[str, ...] = ()
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """What the chart keeps of the picture, then gun and gantry."""
+        return (*self.tufted.checks, *kept_checks(self.charted.chart, self.charted.order.order))
+
+    @property
+    def files(self) -> list[str]:
+        """The paths of the files."""
+        return [str(self.folder / name) for name in self.written]
+
+
+def read_gun_order(order: CarpetOrder, settings: Mapping[str, Setting], deadline: str | None = None) -> GunOrder:
+    """The order of a gun from texts.
+
+    Raises ParameterError for a parameter that is none or out of its bounds, UnitError, and for a quality: the rows of
+    the gun are the resolution.
+    """
+    if order.quality is not None:
+        given = f"--quality {order.quality} with --technique gun"
+        raise ParameterError(given, allowed="the rows of the gun", do="set --gun row_spacing=3mm instead")
+    if order.plan.yarn_count is not None and "yarn_density" not in settings:
+        count, ply = parse_count(order.plan.yarn_count)
+        settings = {**settings, "yarn_density": f"{ply / count} g/m"}
+    return GunOrder(TuftingGunParams.read(settings), None if deadline is None else read_deadline(deadline))
+
+
+def weave_by_gun(
+    order: CarpetOrder,
+    gun: GunOrder,
+    folder: Path,
+    *,
+    outputs: Outputs | None = None,
+    force: bool = False,
+    progress: Progress = SILENT,
+) -> GunResult:
+    """Plan a carpet for a gun and write its files into a folder; on an error nothing is written.
+
+    The programme is written where every check holds. Other arguments and errors as of `jobs.weave.weave`.
+    """
+    with joined(outputs, force=force, progress=progress) as made:
+        made.expect_folder(folder, "--out")
+        result = plan_by_gun(order, gun, folder, progress.part(0.0, 0.9, "rows"))
+        holds = all(check.ok for check in result.checks)
+        result = replace(result, written=(PAGE, *((PROGRAMME,) if holds else ()), REPORT))
+        title = order.picture.stem
+        with made.folder(folder) as work:
+            if holds:
+                write_gcode(work / PROGRAMME, result.tufted, title)
+            page = gun_page(title, result.tufted, result.results, result.checks, result.written)
+            (work / PAGE).write_text(page, encoding="utf-8")
+            write_json(work / REPORT, gun_json(result))
+    return result
+
+
+def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progress = SILENT) -> GunResult:
+    """The plan of a carpet by a gun; nothing is written."""
+    per_metre = CELLS / gun.params.row_spacing
+    if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
+        order = replace(order, size=make_charted(order, progress.part(0.0, 0.2)).chart.size)
+    order = replace(order, quality=Quality(per_metre, per_metre), pdf=False, files=replace(order.files, rows="none"))
+    charted = make_charted(order, progress.part(0.2, 0.6))
+    chart, carpet = charted.chart, charted.order.order
+    wool = carpet.plan.price("pile", "wool")
+    cones = tuple(
+        Cone(yarn.name, hex_colour(yarn.srgb), wool if yarn.price is None else yarn.price) for yarn in chart.yarns
+    )
+    size = (chart.columns / per_metre, chart.rows / per_metre)
+    params, rows = gun.params, progress.part(0.6, 1.0)
+    least = params.least_coverage
+    plan = gun_plan(chart.knots, size, params.row_spacing, params.feature, least=least, progress=rows)
+    tufted = tufted_by_gun(gun.params, plan, cones, gun.deadline)
+    return GunResult(charted, gun, tufted, results_of(tufted), folder)
+
+
+def gun_json(result: GunResult) -> JsonObject:
+    """The JSON of the job."""
+    results: dict[str, Json] = {
+        "technique": "gun",
+        "tufts": all(check.ok for check in result.checks),
+        "width": result.tufted.plan.width,
+        "length": result.tufted.plan.length,
+        **{one.name: one.value for one in result.results},
+    }
+    return job_json(
+        "weave",
+        {**result.charted.order.as_dict(), "gun": result.order.params.as_dict(), "deadline": result.order.deadline},
+        results,
+        checks=result.checks,
+        notes=list(result.charted.notes),
+        files=result.files,
+    )

@@ -1,0 +1,58 @@
+"""The page of a carpet by a tufting gun: verdict, path in motion, time and yarn of each colour, cost, checks, files."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ilmek.machines.tufting_gun.design import TuftedByGun
+from ilmek.report import Check, Json, Result, reasons
+from ilmek.units import format_quantity, mm
+from ilmek.viz.page import FIRST_CHECKS, render
+from ilmek.viz.sections import PageVerdict, failures_first, judged
+
+_STEP = 0.1 * mm
+"""Step of the points of the picture in motion [m]."""
+
+
+def gun_page(
+    title: str, tufted: TuftedByGun, results: Sequence[Result], checks: Sequence[Check], files: Sequence[str]
+) -> str:
+    """The page as self-contained HTML; results  of `tufted`, declared; files  names of those of the folder."""
+    plan = tufted.plan
+    grouped = ("gun_colours", "gun_cost")
+    return render(
+        "gun.html.j2",
+        title=f"{title}: by the tufting gun",
+        lead=f"{plan.width / mm:.0f} × {plan.length / mm:.0f} mm, rows of {format_quantity(plan.spacing, 'mm')}",
+        verdict=PageVerdict(
+            "The gun tufts this carpet.",
+            "The gun cannot tuft this carpet as it is, and there is no programme.",
+            len(checks),
+            reasons(checks),
+        ),
+        colours=[
+            {**row, "colour": tufted.cones[own.label].colour}
+            for row, own in zip(tufted.gun_colours, plan.colours, strict=True)
+        ],
+        cost=tufted.gun_cost,
+        results=[one for one in results if one.name not in grouped],
+        checks=failures_first(judged(checks, ())),
+        first_checks_shown=FIRST_CHECKS,
+        files=files,
+        data=_data(tufted),
+    )
+
+
+def _data(tufted: TuftedByGun) -> dict[str, Json]:
+    """The strokes with their moments, in steps of _STEP and seconds: colour, begin, end, x and y of each point."""
+    moments = np.round(tufted.clock, 1).tolist()
+    strokes: list[Json] = []
+    for colour in tufted.plan.colours:
+        shown = tufted.cones[colour.label].colour
+        for stroke in colour.strokes:
+            begin, end = moments[2 * len(strokes) : 2 * len(strokes) + 2]
+            points = np.round(np.stack([stroke.real, stroke.imag], axis=1) / _STEP).astype(int)
+            strokes.append([shown, begin, end, points.ravel().tolist()])
+    plan = tufted.plan
+    size = [round(side / _STEP) for side in (plan.width, plan.length, plan.spacing)]
+    return {"strokes": strokes, "size": size, "end": moments[-1]}

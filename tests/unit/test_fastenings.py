@@ -1,0 +1,75 @@
+"""What holds parts: neighbours that let them move in no direction, a stated weld; and what a loom holds by nothing."""
+
+from dataclasses import replace
+
+import pytest
+
+from ilmek.cams.loaded_plate_cam import STEEL
+from ilmek.machines.automated_loom import MACHINE
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.tree_manual import fastening_check
+from ilmek.part.bolting import bolted
+from ilmek.part.fastenings import Means, fastenings
+from ilmek.part.part import Part
+from ilmek.part.placement import placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, tube
+from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.part.welds import welds_of
+from ilmek.plane.contours import circle
+from ilmek.units import mm
+
+PIN, WIDE = 6 * mm, 10 * mm
+
+
+def made(name: str, shape: Shape, z: float = 0.0, *, turning: bool = False) -> Occurrence:
+    return Occurrence(Part(f"test/{name}", name, "pin or bush", "", shape, STEEL), (placement(z=z),), turning)
+
+
+def fork(bore: float, second: float) -> Tree:
+    """A roller of a bore on a pin that is pressed into a cheek; the other one is `second` beyond the roller."""
+    cheek = Prism(Profile(rectangle(30 * mm, 30 * mm), (circle(0j, PIN / 2),)), 5 * mm)
+    bolt, roller = bar(PIN, WIDE + 10 * mm + second), tube(20 * mm, (20 * mm - bore) / 2, WIDE)
+    return Tree(
+        (
+            RigidBody(
+                "test/fork",
+                (
+                    made("cheek", cheek, -5 * mm),
+                    made("other", cheek, WIDE + second),
+                    made("pin", bolt, -5 * mm),
+                    made("roller", roller, turning=True),
+                ),
+            ),
+        )
+    )
+
+
+@pytest.mark.parametrize(("bore", "second", "held"), [(6, 0, True), (6.2, 0.2, True), (6, 3, False), (12, 0, False)])
+def test_a_roller_is_held_between_the_cheeks_of_its_fork(bore: float, second: float, held: bool) -> None:
+    """With play, and not where it can slide along its pin, or off it."""
+    assert ("test/roller" not in fastenings(fork(bore * mm, second * mm)).loose) == held
+
+
+def test_a_part_that_lies_on_another_is_not_held_by_it() -> None:
+    tree = Tree(
+        (RigidBody("test/body", (made("lower", box(0.05, 0.05, 0.01)), made("upper", box(0.01, 0.01, 0.01), 0.01))),)
+    )
+    assert fastenings(tree).loose == ("test/upper",)
+    check = fastening_check(tree)
+    assert not check.ok
+    assert check.value == 1
+    assert "upper" in check.source
+
+
+def test_a_part_is_welded_to_what_it_states() -> None:
+    lower, upper = made("lower", box(0.05, 0.05, 0.01)), made("upper", box(0.01, 0.01, 0.01), 0.01)
+    welded = replace(upper, part=replace(upper.part, joins=(lower.part.id,), throat=3 * mm))
+    tree = Tree((RigidBody("test/body", (lower, welded)),))
+    assert fastenings(tree).contacts == {Means.WELD: 1}
+    assert sum(len(own) for own in welds_of(tree).values()) == 1
+
+
+@pytest.mark.parametrize("settings", [{}, {"weft": "rapier", "heads": "2"}])
+def test_nothing_of_a_loom_with_heads_on_cams_is_without_a_fastening(settings: dict[str, str]) -> None:
+    assert fastening_check(bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))).ok
