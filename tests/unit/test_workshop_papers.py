@@ -25,6 +25,7 @@ from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.eye_bolts import eye_bolt_for, find_eye_bolt
 from ilmek.elements.machine_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.motors import MOTORS
 from ilmek.io.plc.io_list import io_rows
 from ilmek.io.plc.project import plc_project
 from ilmek.io.table_csv import rows_csv
@@ -37,6 +38,7 @@ from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.braking import braking_checks, braking_of
 from ilmek.machines.automated_loom.papers.risks import MovingHazard, measures, safety_checks
 from ilmek.machines.automated_loom.papers.transport import lifting_of
 from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of
@@ -60,6 +62,7 @@ from ilmek.report import Papers, Report, must
 from ilmek.report.scene import SceneMotion
 from ilmek.report.sheet import Schematic
 from ilmek.sentences import in_language, translated
+from ilmek.timing.track import peak_speed
 from ilmek.viz.document_page import printed
 
 
@@ -320,6 +323,32 @@ def test_a_bar_that_turns_has_the_energy_of_its_inertia() -> None:
     inertia, speed = bar.mass * (0.4**2 / 3 + 0.01**2 / 12), math.tau / 0.5
     assert found.energy == pytest.approx(inertia * speed**2 / 2, rel=1e-6)
     assert found.speed == pytest.approx(speed * math.hypot(0.4, 0.005), rel=1e-6)
+
+
+def test_what_swings_gives_its_energy_back_twice_a_turn() -> None:
+    """A bar that swings to and fro by a sine stops at both ends; one that turns evenly gives nothing back."""
+    bar = Part("a/bar", "bar", "steel bar", shape=box(0.02, 0.01, 0.4), material=MATERIALS["structural steel"])
+    turned = np.linspace(0.0, math.tau, 361)
+    for angle, falls in ((0.3 * np.sin(turned), 2.0), (turned, 0.0)):
+        joint = Joint(JointKind.PIN, (1.0, 0.0, 0.0), SceneMotion("turn", turned, np.zeros((361, 3)), angle))
+        own = moving_energies(Tree((RigidBody("a/arm", (Occurrence(bar),), joint=joint),)), {"turn": 0.5})["a/arm"]
+        assert own.returned == pytest.approx(falls * own.energy / 0.5, rel=2e-3, abs=1e-6 * own.energy)
+
+
+def test_what_brakes_is_taken_by_amplifiers() -> None:
+    """Energies by masses and speeds alone; a motor far too large for its amplifier's capacitors fails."""
+    loom = default_design("automated-loom")
+    (carrier,) = (own for own in braking_of(loom) if own.circuit.part.id == "weft/motor")
+    tree = loom_tree(loom)
+    (moved,) = (body for body in tree.bodies if body.joint.motor == "weft/motor")
+    mass = sum(own.part.mass * len(own.positions) for own in moved.occurrences)
+    rotor = next(row for row in MOTORS if row.name == carrier.circuit.part.designation.split(", peak")[0])
+    speed = peak_speed(loom.row_cyclogram.track(loom.row_timing.carrier), loom.row_cyclogram.period)
+    assert carrier.energy == pytest.approx(mass * speed**2 / 2 + rotor.inertia * rotor.speed**2 / 2, rel=0.02)
+    assert carrier.stored == pytest.approx(150e-6 * 4 * (390**2 - 325**2) / 2)
+    assert all(check.ok for check in braking_checks(loom))
+    assert replace(carrier, energy=20.0, power=30.0).share == pytest.approx(20.0 / carrier.stored)
+    assert replace(carrier, energy=40.0, power=30.0).share == pytest.approx(30.0 / 20.0)
 
 
 def figure_texts(page: str, section: int) -> list[str]:

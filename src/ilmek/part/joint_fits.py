@@ -2,7 +2,8 @@
 
 A joint has its fit from a bore and what moves in it, from faces that slide on each other, or from a bought part that
 brings it: a guide, an axis, or a device that moves in itself. A bore with a keyway has its fit for a shaft that is not
-in the tree; an envelope, whose form is not designed, has none. What magnets draw along has no bearing, and what a
+in the tree; an envelope, whose form is not designed, has none; seats that a hand moves in each other have play that
+general tolerances keep. What magnets draw along has no bearing, and what a
 closure fixes to another body moves in the fit of that.
 """
 
@@ -27,6 +28,7 @@ def joints_without_fit(tree: Tree) -> tuple[str, ...]:
     def loose(body: RigidBody) -> bool:
         own = [occurrence.part for occurrence in body.occurrences]
         brought = all(part.purchase is not None or part.envelope for part in own)
+        brought = brought or bool(body.joint.hand and body.joint.seats)
         brought = brought or any(part.id in parts or _keyed(part) for part in own)
         return not (body.joint.kind in STANDING or brought or body.id in fitted or body.id in led)
 

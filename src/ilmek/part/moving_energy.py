@@ -30,10 +30,14 @@ _APART = 1e-5
 
 @record
 class MovingEnergy:
-    """Greatest speed of a point of a body [m/s], and greatest energy of one such body with all that it carries [J]."""
+    """Greatest speed of a point of a body [m/s], and greatest energy of one such body with all that it carries [J].
+
+    returned  mean power of the falls of this energy [W]: what a drive without losses takes back while it brakes
+    """
 
     speed: float
     energy: float
+    returned: float = 0.0
 
 
 def moving_energies(tree: Tree, periods: Mapping[str, float]) -> dict[str, MovingEnergy]:
@@ -50,8 +54,10 @@ def moving_energies(tree: Tree, periods: Mapping[str, float]) -> dict[str, Movin
         for name, (speed, _) in moved.items():
             carried = (counts[own] / counts[name] * moved[own][1] for own in tree.carried_by(name))
             before = most.get(name, MovingEnergy(0.0, 0.0))
-            energy = max(before.energy, float(np.max(sum(carried, np.zeros(1)))))
-            most[name] = MovingEnergy(max(before.speed, speed), energy)
+            whole = sum(carried, np.zeros(1))
+            energy, falls = max(before.energy, float(np.max(whole))), np.maximum(whole - np.roll(whole, -1), 0.0)
+            returned = before.returned + float(np.sum(falls)) / period
+            most[name] = MovingEnergy(max(before.speed, speed), energy, returned)
     return most
 
 

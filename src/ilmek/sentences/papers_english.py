@@ -202,6 +202,13 @@ PAPERS = {
     "electric.fed-by": "fed by",
     "electric.source": "{sign}, {row}: loaded with {load} of {rated}.",
     "electric.braking": "The braking module R1 on the bars of 48 V burns what steppers give back while they brake.",
+    "electric.braking-title": "Braking",
+    "electric.braking-how": "What a motor gives back, with its rotor and without friction: the capacitors of its "
+    "amplifier store it for the next acceleration, or a resistor burns its mean power.",
+    "electric.stop-energy": "energy of a stop",
+    "electric.mean-braking": "mean power",
+    "electric.stored": "stored",
+    "electric.burnt": "resistor",
     "electric.channels": "Inputs of the modules",
     "electric.channels-how": "Each module is on the bus of the motion controller A1, which reports a sensor by its "
     "number in TieFault and EndFault.",

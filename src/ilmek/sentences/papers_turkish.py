@@ -201,6 +201,13 @@ PAPERS = {
     "electric.fed-by": "besleyen",
     "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklüdür.",
     "electric.braking": "48 V baralarındaki frenleme modülü R1, adım motorlarının frenlerken geri verdiğini yakar.",
+    "electric.braking-title": "Frenleme",
+    "electric.braking-how": "Bir motorun rotoruyla ve sürtünmesiz geri verdiği: sürücüsünün kondansatörleri bunu "
+    "sonraki hızlanma için saklar ya da bir direnç ortalama gücünü yakar.",
+    "electric.stop-energy": "bir duruşun enerjisi",
+    "electric.mean-braking": "ortalama güç",
+    "electric.stored": "saklanan",
+    "electric.burnt": "direnç",
     "electric.channels": "Modüllerin girişleri",
     "electric.channels-how": "Her modül, hareket denetleyicisi A1'in veri yolundadır; A1 bir algılayıcıyı TieFault ve "
     "EndFault içinde numarasıyla bildirir.",

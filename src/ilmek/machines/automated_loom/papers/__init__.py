@@ -4,6 +4,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
+from ilmek.machines.automated_loom.papers.braking import braking_checks
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
@@ -25,5 +26,5 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         risks(loom, report),
     )
     tree = bolted(loom_tree(loom))
-    checks = (*safety_checks(loom, report), *assembled, *making_checks(loom_tree(loom)))
+    checks = (*safety_checks(loom, report), *assembled, *braking_checks(loom), *making_checks(loom_tree(loom)))
     return Papers(pages, part_lists(tree, whole_list(loom).prices), checks, tree)

@@ -19,6 +19,7 @@ from ilmek.machines.automated_loom.equipment.signals import signals_of
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.automated_loom.papers.braking import braking_section
 from ilmek.machines.automated_loom.papers.circuit_diagrams import FedRow, MotorRow, safety_circuit, single_line
 from ilmek.machines.automated_loom.papers.safety_functions import safety_functions
 from ilmek.machines.automated_loom.papers.values import value_of
@@ -61,6 +62,7 @@ def electrical(loom: LoomDesign, report: Report) -> Paper:
             _terminals(loom),
             _safety(loom, report),
             _feeds(loom, plan),
+            braking_section(loom),
             *_brakes(loom),
             *_channels(loom),
             _cabinet(loom, plan),
