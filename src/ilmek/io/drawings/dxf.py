@@ -118,7 +118,7 @@ def _pattern(dashes: tuple[float, ...]) -> list[float]:
     return [sum(dashes), *signed] if dashes else []
 
 
-class _Written(DXFGraphic):  # type: ignore[misc]
+class _Written(DXFGraphic):
     """An entity whose tags, but handle and owner, are text already."""
 
     def __init__(self, kind: str, tags: str) -> None:
