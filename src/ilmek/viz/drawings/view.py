@@ -352,7 +352,6 @@ class DrawnView:
             self._samples.append(np.interp(marks, length, points.real) + 1j * np.interp(marks, length, points.imag))
 
 
-
 @dataclass(frozen=True, eq=False)
 class _TakenRoom:
     """What a text must keep off: boxes of others, and points of lines in the order of their x."""
