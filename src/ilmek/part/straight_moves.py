@@ -17,6 +17,7 @@ import fcl
 import numpy as np
 
 from ilmek.arrays import Float, Int
+from ilmek.part.colliders import triangle_tree
 from ilmek.part.placement import Placement
 from ilmek.report.scene import Solid
 from ilmek.units import mm
@@ -88,7 +89,7 @@ class FittedSolid:
     @cached_property
     def still(self) -> fcl.BVHModel:
         """Its triangles."""
-        return _model(self.solid.points, self.solid.triangles)
+        return triangle_tree(self.solid.points, self.solid.triangles)
 
     def bands(self, move: Vector) -> fcl.BVHModel:
         """The bands that its edges sweep by a move [m], but those of no face that looks ahead: where such an edge is,
@@ -102,7 +103,7 @@ class FittedSolid:
             first = np.arange(len(begin))
             second, third, fourth = (first + k * len(begin) for k in (1, 2, 3))
             faces = np.concatenate([np.stack([first, second, third], 1), np.stack([second, fourth, third], 1)])
-            self._bands[key] = _model(np.concatenate([begin, end, begin + move, end + move]), faces)
+            self._bands[key] = triangle_tree(np.concatenate([begin, end, begin + move, end + move]), faces)
         return self._bands[key]
 
 
@@ -110,14 +111,6 @@ def fitted(solid: Solid, by: float) -> FittedSolid:
     """A solid with its faces moved outwards by a length [m]."""
     made = offset(solid, by)
     return FittedSolid(made, *edges_of(made))
-
-
-def _model(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> fcl.BVHModel:
-    model = fcl.BVHModel()
-    model.beginModel(len(triangles), len(points))
-    model.addSubModel(points, triangles)
-    model.endModel()
-    return model
 
 
 @dataclass(frozen=True, eq=False)

@@ -115,7 +115,7 @@ def _prism_views(
     if sheet is not None and part.bent is not None:
         tables = (*tables, *bent_pictures(part.bent, sheet))
     low, high = bounds(flat.outline)
-    below = _edge_below(high - low)
+    below = (high - low).real > (high - low).imag * 1.2
     edge = edge_view(flat, shape.length, scale, below=below)
     face_notes(front, fits, *FRONT)
     face_notes(edge, fits, *((X, -Z) if below else (Z, Y)))
@@ -181,29 +181,19 @@ def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> Drawin
 
 
 def _may_fit(part: DrawnPart, paper: str, scale: float) -> bool:
-    """Whether a part's section, and the edge of a plate, could have room: a quick look, before anything is drawn."""
-    size, edge = _extent(part.shape)
-    if scale < 1 and max(size.real, size.imag) * 1e3 / scale > MOST_ENLARGED:
+    """Whether a part's section could have room: a quick look, before anything is drawn."""
+    size, (low_x, low_y, high_x, high_y) = _extent(part.shape) * 1e3 / scale, _area(paper)
+    if scale < 1 and max(size.real, size.imag) > MOST_ENLARGED:
         return False
-    low_x, low_y, high_x, high_y = _area(paper)
-    needed = size * 1e3 / scale
-    if edge:
-        beside = edge * 1e3 / scale + _BETWEEN
-        needed += 1j * beside if _edge_below(size) else beside
-    return needed.real < high_x - low_x + _SPARE and needed.imag < high_y - low_y + _SPARE
+    return size.real < high_x - low_x + _SPARE and size.imag < high_y - low_y + _SPARE
 
 
-def _extent(shape: object) -> tuple[complex, float]:
-    """Width and height that no front or section view of a shape falls below, and the thickness of a plate [m]."""
+def _extent(shape: object) -> complex:
+    """Width and height that no front or section view of a shape falls below [m]; long parts are interrupted."""
     if isinstance(shape, Prism):
         low, high = bounds(shape.section.outline)
-        return high - low, 0.0 if is_long(shape.section, shape.length) else shape.length
-    return complex(0.0, 2 * shape.outer_radius if isinstance(shape, Turned) else 0.0), 0.0
-
-
-def _edge_below(size: complex) -> bool:
-    """Whether the edge of a plate of a width and height is seen below its front view, not right of it."""
-    return size.real > size.imag * 1.2
+        return high - low
+    return 2j * shape.outer_radius if isinstance(shape, Turned) else 0j
 
 
 def _area(paper: str) -> Box:
