@@ -106,7 +106,7 @@ class Collider:
         corners = self.solid.points[self.solid.triangles]
         within = ((corners.max(1) >= low) & (corners.min(1) <= high)).all(1)
         triangles = self.solid.triangles[within]
-        return fcl.CollisionObject(_triangle_tree(self.solid.points, triangles)) if len(triangles) else None
+        return fcl.CollisionObject(triangle_tree(self.solid.points, triangles)) if len(triangles) else None
 
     @cached_property
     def digest(self) -> bytes:
@@ -129,7 +129,7 @@ class Collider:
         """The solid itself twice, as `outer`."""
         if self.convex:
             return self.outer
-        model = _triangle_tree(self.solid.points, self.solid.triangles)
+        model = triangle_tree(self.solid.points, self.solid.triangles)
         return fcl.CollisionObject(model), fcl.CollisionObject(model)
 
     def manifold(self) -> Manifold:
@@ -137,7 +137,8 @@ class Collider:
         return Manifold(Mesh(self.solid.points.astype(np.float32), self.solid.triangles.astype(np.uint32)))
 
 
-def _triangle_tree(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> fcl.BVHModel:
+def triangle_tree(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> fcl.BVHModel:
+    """The search tree of triangles: numbers of their three points [m]."""
     model = fcl.BVHModel()
     model.beginModel(len(triangles), len(points))
     model.addSubModel(points, triangles)

@@ -18,7 +18,7 @@ from ilmek.part.part import Part
 from ilmek.part.tree import Tree
 from ilmek.report import Table, columns
 from ilmek.sentences import Sentence
-from ilmek.units import format_number, mm
+from ilmek.units import mm
 
 BARS = (6.0, 12.0)
 """Lengths in which bars and tubes are sold [m]: the shorter one, unless a piece is longer."""
@@ -147,7 +147,3 @@ def cut_length(length: float) -> str:
     ('1819.2', '40')
     """
     return f"{length / mm:.1f}".removesuffix(".0")
-
-
-def _mm(length: float) -> str:
-    return format_number(length / mm)

@@ -2,7 +2,7 @@
 
 A solid that moves by v meets another first where an edge passes an edge, a corner a face, or a face a corner. So it
 meets none where the bands that its edges sweep cut no triangle of the other, and the bands that the edges of the other
-sweep by -v cut none of its own.
+sweep by -v cut none of its own; of the edges those that have a face with n . v > 0.
 
 Solids are taken smaller by `FIT`: each corner r moves by u, n . u = -FIT for the normals n of all faces about it [least
 squares]. Parts that touch or fit into each other are then apart, and only what goes in deeper counts.
@@ -17,6 +17,7 @@ import fcl
 import numpy as np
 
 from ilmek.arrays import Float, Int
+from ilmek.part.colliders import triangle_tree
 from ilmek.part.placement import Placement
 from ilmek.report.scene import Solid
 from ilmek.units import mm
@@ -59,17 +60,21 @@ def _normals(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> Float
     return np.asarray(np.where(length > 1e-14, across / np.maximum(length, 1e-14), 0.0))
 
 
-def edges_of(solid: Solid) -> Int[np.ndarray, "edges 2"]:
-    """Numbers of both ends of each edge between faces that do not lie in one plane, once."""
+def edges_of(solid: Solid) -> tuple[Int[np.ndarray, "edges 2"], Float[np.ndarray, "edges 2 3"]]:
+    """Numbers of both ends of each edge between faces that do not lie in one plane, once, and the normals of its two
+    faces; NaN for an edge of another number of faces.
+    """
     ends = np.concatenate([solid.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     normals = np.tile(_normals(solid.points, solid.triangles), (3, 1))
     order = np.lexsort(np.sort(ends, axis=1).T)
     ends, normals = np.sort(ends[order], axis=1), normals[order]
-    same = (ends[1:] == ends[:-1]).all(1)
-    flat = same & (np.abs(normals[1:] - normals[:-1]).max(1) < _FLAT)
-    first = np.concatenate([[True], ~same])
-    first[:-1] &= ~flat
-    return np.asarray(ends[first])
+    same = np.append((ends[1:] == ends[:-1]).all(1), False)
+    after = np.roll(normals, -1, axis=0)
+    flat = same & (np.abs(after - normals).max(1) < _FLAT)
+    first = np.flatnonzero(~np.roll(same, 1) & ~flat)
+    pairs = np.stack([normals, after], axis=1)[first]
+    pairs[~same[first] | np.roll(same, -1)[first]] = np.nan
+    return ends[first], pairs
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,38 +83,34 @@ class FittedSolid:
 
     solid: Solid
     edges: Int[np.ndarray, "edges 2"]
+    normals: Float[np.ndarray, "edges 2 3"]
     _bands: dict[tuple[float, ...], fcl.BVHModel] = field(default_factory=dict)
 
     @cached_property
     def still(self) -> fcl.BVHModel:
         """Its triangles."""
-        return _model(self.solid.points, self.solid.triangles)
+        return triangle_tree(self.solid.points, self.solid.triangles)
 
     def bands(self, move: Vector) -> fcl.BVHModel:
-        """The bands that its edges sweep by a move [m]."""
+        """The bands that its edges sweep by a move [m], but those of no face that looks ahead: where such an edge is,
+        its surface was before.
+        """
         move = move.round(_DIGITS) + 0.0
         key = tuple(move.tolist())
         if key not in self._bands:
-            begin, end = self.solid.points[self.edges].swapaxes(0, 1)
+            behind = (self.normals @ move).max(1) <= _FLAT * np.linalg.norm(move)
+            begin, end = self.solid.points[self.edges[~behind]].swapaxes(0, 1)
             first = np.arange(len(begin))
             second, third, fourth = (first + k * len(begin) for k in (1, 2, 3))
             faces = np.concatenate([np.stack([first, second, third], 1), np.stack([second, fourth, third], 1)])
-            self._bands[key] = _model(np.concatenate([begin, end, begin + move, end + move]), faces)
+            self._bands[key] = triangle_tree(np.concatenate([begin, end, begin + move, end + move]), faces)
         return self._bands[key]
 
 
 def fitted(solid: Solid, by: float) -> FittedSolid:
     """A solid with its faces moved outwards by a length [m]."""
     made = offset(solid, by)
-    return FittedSolid(made, edges_of(made))
-
-
-def _model(points: Points, triangles: Int[np.ndarray, "triangles 3"]) -> fcl.BVHModel:
-    model = fcl.BVHModel()
-    model.beginModel(len(triangles), len(points))
-    model.addSubModel(points, triangles)
-    model.endModel()
-    return model
+    return FittedSolid(made, *edges_of(made))
 
 
 @dataclass(frozen=True, eq=False)

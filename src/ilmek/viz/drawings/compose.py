@@ -19,7 +19,7 @@ from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.hole_tables import face_views, hole_tables, named_holes
 from ilmek.viz.drawings.joined import joined_views, members_of
-from ilmek.viz.drawings.long import is_long, turned_view
+from ilmek.viz.drawings.long import turned_view
 from ilmek.viz.drawings.packing import BETWEEN, PAD, packed, top_left
 from ilmek.viz.drawings.paper import (
     BLOCK_HEIGHT,
@@ -35,7 +35,7 @@ from ilmek.viz.drawings.paper import (
     title_block,
 )
 from ilmek.viz.drawings.picture import Box, SheetPicture, joined_box, millimetres
-from ilmek.viz.drawings.prism import edge_below, flat_foot, prism_views
+from ilmek.viz.drawings.prism import flat_foot, prism_views
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import DrawnView
 from ilmek.viz.drawings.weld_symbols import cut_list, weld_symbols, weld_table
@@ -157,27 +157,22 @@ def _is_crowded(drawn: Callable[[float], Arrangement | None]) -> bool:
 
 
 def _may_fit(part: DrawnPart, paper: str, scale: float, most: float) -> bool:
-    """Whether a part's section, and the edge of a plate, could have room: a quick look, before anything is drawn.
+    """Whether a part's section could have room: a quick look, before anything is drawn.
 
     most  extent on the paper if enlarged [mm]
     """
-    size, edge = _extent(part.shape)
-    if scale < 1 and max(size.real, size.imag) * 1e3 / scale > most:
+    size, (low_x, low_y, high_x, high_y) = _extent(part.shape) * 1e3 / scale, _area(paper)
+    if scale < 1 and max(size.real, size.imag) > most:
         return False
-    low_x, low_y, high_x, high_y = _area(paper)
-    needed = size * 1e3 / scale
-    if edge:
-        beside = edge * 1e3 / scale + BETWEEN
-        needed += 1j * beside if edge_below(size) else beside
-    return needed.real < high_x - low_x + _SPARE and needed.imag < high_y - low_y + _SPARE
+    return size.real < high_x - low_x + _SPARE and size.imag < high_y - low_y + _SPARE
 
 
-def _extent(shape: object) -> tuple[complex, float]:
-    """Width and height that no front or section view of a shape falls below, and the thickness of a plate [m]."""
+def _extent(shape: object) -> complex:
+    """Width and height that no front or section view of a shape falls below [m]; long parts are interrupted."""
     if isinstance(shape, Prism):
         low, high = bounds(shape.section.outline)
-        return high - low, 0.0 if is_long(shape.section, shape.length) else shape.length
-    return complex(0.0, 2 * shape.outer_radius if isinstance(shape, Turned) else 0.0), 0.0
+        return high - low
+    return 2j * shape.outer_radius if isinstance(shape, Turned) else 0j
 
 
 def _area(paper: str) -> Box:
