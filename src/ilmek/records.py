@@ -198,7 +198,7 @@ def computed(unit: str, doc: str, function: Callable[[Any], Any] | None = None, 
 
 def declared_results(*classes: type) -> tuple[DeclaredResult, ...]:
     """The results declared by classes of records, in order, those of their groups included."""
-    return tuple(one for cls in classes for one in _declarations(cls, ""))
+    return tuple(declaration for cls in classes for declaration in _declarations(cls, ""))
 
 
 def _declarations(cls: type, prefix: str) -> Iterator[DeclaredResult]:

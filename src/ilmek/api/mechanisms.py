@@ -223,7 +223,7 @@ def inverse_dynamics(
     rubbing: tuple[JointFriction, ...] = given.sequence(
         "joint_frictions", joint_frictions, (PinFriction, SlideFriction)
     )
-    if not acting and not any(np.any(one.speed) or np.any(one.acceleration) for one in moved.drives.values()):
+    if not acting and not any(np.any(drive.speed) or np.any(drive.acceleration) for drive in moved.drives.values()):
         raise MechanismError(
             "the motion is at rest and no load acts: all forces are 0", do="give solve a speed, or give loads"
         )

@@ -310,13 +310,13 @@ def _neutrals(distinct: Colours, yarns: Sequence[Yarn], kept: tuple[int, ...], a
 
 def _indices(option: str, names: Iterable[str], yarns: Sequence[Yarn]) -> tuple[int, ...]:
     numbers = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
-    found = []
+    indices = []
     for name in names:
         if name.casefold() not in numbers:
             near = did_you_mean(name.casefold(), numbers, otherwise=Sentence("yarn.listed", names=_listed(yarns)))
             raise YarnError(Sentence("yarn.missing", option=option, name=shortened(name)), do=near)
-        found.append(numbers[name.casefold()])
-    return tuple(found)
+        indices.append(numbers[name.casefold()])
+    return tuple(indices)
 
 
 def _listed(yarns: Sequence[Yarn]) -> str:

@@ -199,7 +199,7 @@ def _given_pairs(
     Raises YarnError for a colour that the design does not have.
     """
     numbers = {yarn.name.casefold(): number for number, yarn in enumerate(yarns)}
-    found = []
+    given_pairs = []
     for srgb, name in mapped_colours(rules.mapped):
         difference = delta_e_2000(distinct.labs, srgb_to_lab(np.array(srgb, dtype=np.uint8)))
         of = np.flatnonzero(difference <= (TWIN if drawn else 2 * TWIN))
@@ -209,8 +209,8 @@ def _given_pairs(
                 allowed=f"like {', '.join(_frequent(distinct, difference))}",
                 do="give a colour that the chart's JSON lists under assignment",
             )
-        found.append((of[np.argsort(difference[of], kind="stable")], numbers[name.casefold()]))
-    return found
+        given_pairs.append((of[np.argsort(difference[of], kind="stable")], numbers[name.casefold()]))
+    return given_pairs
 
 
 def _frequent(distinct: Colours, difference: FloatArray) -> list[str]:

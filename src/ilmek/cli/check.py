@@ -42,13 +42,13 @@ def command(file: Path, loom: Path | None, force: bool, json_to: str | None) -> 
     where a rule is broken.
     """
     with call_outputs({"--json": json_to}, force=force, inputs={"FILE": file, "--loom": loom}) as call:
-        found = check_programme(file, loom, progress=call.progress)
-        call.give_json(found.as_json)
+        check_result = check_programme(file, loom, progress=call.progress)
+        call.give_json(check_result.as_json)
     if not call.quiet:
-        show_check(found)
-    elif not found.ok:
-        note(_verdict(found))
-    return 0 if found.ok else CHECK_FAILS
+        show_check(check_result)
+    elif not check_result.ok:
+        note(_verdict(check_result))
+    return 0 if check_result.ok else CHECK_FAILS
 
 
 def show_check(found: CheckResult) -> None:

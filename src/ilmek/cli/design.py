@@ -135,7 +135,7 @@ def command(  # noqa: PLR0917 - click calls it by name
     files = {"--json": json_to, "--report": page_to, "--animation": animation_to, "--to": mechanism_to, **in_space}
     read = {"FILE": order.file, "--rates": rates}
     with call_outputs(files, force=force, inputs=read | setting_files(given)) as call:
-        made = design_machine(
+        design_result = design_machine(
             *(order.machine, order.settings),
             WorkshopOrder(parts_to, tolerance, issue_of(issued)) if parts_to else None,
             outputs=call.outputs,
@@ -143,10 +143,10 @@ def command(  # noqa: PLR0917 - click calls it by name
             illustrated=not call.quiet or page_to is not None or animation_to is not None,
             drawn=page_to is not None or animation_to is not None,
         )
-        shown = () if table is None else tables_named(made.report, table)
-        _give(made, call, motion, mechanism_to, pose)
-    _show(made, call, shown, mechanism_to, parts_to)
-    return exit_code(made.report.all_checks)
+        shown = () if table is None else tables_named(design_result.report, table)
+        _give(design_result, call, motion, mechanism_to, pose)
+    _show(design_result, call, shown, mechanism_to, parts_to)
+    return exit_code(design_result.report.all_checks)
 
 
 def _give(

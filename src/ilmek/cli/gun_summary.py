@@ -41,21 +41,21 @@ def weave_with_gun(
     """Plan the carpet, write its files and print the summary; returns the exit code."""
     folder = out or free_folder(order.picture, "gun")
     with call_outputs({"--json": json_to}, force=force, inputs=files) as call:
-        made = weave_by_gun(order, gun, folder, outputs=call.outputs, force=force, progress=call.progress)
-        call.give_json(lambda: gun_json(made))
+        gun_result = weave_by_gun(order, gun, folder, outputs=call.outputs, force=force, progress=call.progress)
+        call.give_json(lambda: gun_json(gun_result))
     if call.quiet:
-        note_verdict(made.checks)
+        note_verdict(gun_result.checks)
     else:
-        show_verdict(made.checks)
-        show_pairs(gun_pairs(made))
-    for remark in made.charted.notes:
+        show_verdict(gun_result.checks)
+        show_pairs(gun_pairs(gun_result))
+    for remark in gun_result.charted.notes:
         note(remark)
-    return exit_code(made.checks)
+    return exit_code(gun_result.checks)
 
 
 def gun_pairs(made: GunResult) -> list[tuple[str, str]]:
     """The carpet, its rows and travel beside their bounds, yarn, time, cost and the page, one line each."""
-    values = {one.name: result_text(one.value, one.unit) for one in made.results}
+    values = {result.name: result_text(result.value, result.unit) for result in made.results}
     plan, cost = made.tufted.plan, made.tufted.gun_cost["sum"]
     size = " x ".join(format_quantity(side, "cm") for side in (plan.width, plan.length))
     total = "not known" if cost is None else f"{cost:,.2f} EUR"

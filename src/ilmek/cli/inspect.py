@@ -45,11 +45,11 @@ def command(file: Path, number: int | None, force: bool, json_to: str | None) ->
     Rows are counted from 1 at the bottom, knots from 1 at the left, as on the printed chart.
     """
     with call_outputs({"--json": json_to}, force=force, inputs={"FILE": file}) as call:
-        found = inspect_programme(file, number, progress=call.progress)
-        call.give_json(found.as_json)
+        inspection_result = inspect_programme(file, number, progress=call.progress)
+        call.give_json(inspection_result.as_json)
     if not call.quiet:
-        show_programme(found)
-        show_row(found)
+        show_programme(inspection_result)
+        show_row(inspection_result)
 
 
 def show_programme(found: InspectionResult) -> None:
@@ -67,8 +67,8 @@ def show_programme(found: InspectionResult) -> None:
         ]
     )
     bobbins = [
-        (one.yarn, f"{one.rows:,}", f"{one.changes(setup.rows):,}", format_quantity(one.time, "s"))
-        for one in setup.wefts
+        (weft.yarn, f"{weft.rows:,}", f"{weft.changes(setup.rows):,}", format_quantity(weft.time, "s"))
+        for weft in setup.wefts
     ]
     if bobbins:
         show_table(("bobbin", "rows", "changes", "time of one"), bobbins, right=(1, 2, 3))
@@ -90,10 +90,10 @@ def stops_in_words(found: InspectionResult) -> str:
     stops, setup = found.stops, found.programme.setup
     if not stops:
         return "none: no bobbin of weft and no package of pile yarn is changed"
-    rows = ", ".join(str(row + 1) for row in dict.fromkeys(one.row for one in stops[:MOST_STOPS]))
+    rows = ", ".join(str(row + 1) for row in dict.fromkeys(stop.row for stop in stops[:MOST_STOPS]))
     more = f", … {len(stops) - MOST_STOPS:,} more: see --json" if len(stops) > MOST_STOPS else ""
-    spent = sum(stop_duration(one, setup.wefts, setup.times.tube_change) for one in stops)
-    wefts, tubes = sum(len(one.wefts) for one in stops), sum(len(one.tubes) for one in stops)
+    spent = sum(stop_duration(stop, setup.wefts, setup.times.tube_change) for stop in stops)
+    wefts, tubes = sum(len(stop.wefts) for stop in stops), sum(len(stop.tubes) for stop in stops)
     named = ((wefts, "bobbin", "of weft"), (tubes, "package", "of pile yarn"))
     changed = " and ".join(f"{many:,} {one}{'' if many == 1 else 's'} {of}" for many, one, of in named if many)
     return f"{len(stops):,}, {format_quantity(spent, 'min', 3)} in all, to change {changed}; rows {rows}{more}"
@@ -122,7 +122,7 @@ def show_row(found: InspectionResult) -> None:
 def _changed(stop: Stop, setup: LoomSetup) -> str:
     """The changes of a stop, up to MOST_STOPS."""
     wefts = [f"a new bobbin of {setup.wefts[index].yarn}" for index in stop.wefts]
-    tubes = [f"{setup.yarns[one.yarn].name} on tube {one.tube + 1} of head {one.head + 1}" for one in stop.tubes]
+    tubes = [f"{setup.yarns[tube.yarn].name} on tube {tube.tube + 1} of head {tube.head + 1}" for tube in stop.tubes]
     changes = [*wefts, *tubes]
     more = [f"… {len(changes) - MOST_STOPS:,} more: see --json"] if len(changes) > MOST_STOPS else []
     return ", ".join([*changes[:MOST_STOPS], *more])

@@ -15,7 +15,7 @@ def cost_in_words(cost: CarpetCost, yarn: float | None, *, driven: bool) -> str:
     """What a carpet costs, on the loom and, where this is driven, by hand; yarn: price of the yarn to buy."""
     of_yarn = "without yarn" if yarn is None else f"and {yarn:,.2f} of yarn"
     by_hand = f"; tied by hand {cost.hand_cost:,.2f}" if driven else ""
-    steps = ", ".join(f"{one.name} {one.cost:,.2f}" for one in cost.steps)
+    steps = ", ".join(f"{step.name} {step.cost:,.2f}" for step in cost.steps)
     return f"{cost.cost_per_carpet:,.2f} a carpet {of_yarn}{by_hand}; {steps}"
 
 

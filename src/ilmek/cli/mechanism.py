@@ -125,15 +125,15 @@ def command(
         drawn = not (page_to is None and animation_to is None)
         if order is None and space_to is None:
             found = analysis(moved, call.progress)
-            made, shown = None, report(found, drawn=drawn)
+            mechanism, shown = None, report(found, drawn=drawn)
         else:
-            made = made_mechanism(moved, call.progress, drawn=drawn)
-            found, shown = made.analysis, made.report
+            mechanism = made_mechanism(moved, call.progress, drawn=drawn)
+            found, shown = mechanism.analysis, mechanism.report
         workshop = None
-        if write_parts is not None and made is not None:
-            workshop = write_parts(shown, made.papers, progress=call.progress)
+        if write_parts is not None and mechanism is not None:
+            workshop = write_parts(shown, mechanism.papers, progress=call.progress)
             shown = workshop.judged(shown)
-        _give(call, found, shown, made, {} if workshop is None else {"files": workshop.files})
+        _give(call, found, shown, mechanism, {} if workshop is None else {"files": workshop.files})
     _show(call, shown, workshop)
     return exit_code(shown.all_checks)
 

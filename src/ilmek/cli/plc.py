@@ -28,14 +28,14 @@ def command(file: Path, folder: Path, force: bool) -> None:
     gives the program one row at a time, from FILE or rows.csv.
     """
     with call_outputs({}, force=force, inputs={"FILE": file}) as call:
-        made = write_plc(file, folder, outputs=call.outputs, progress=call.progress)
-    for one in made.notes:
+        plc_result = write_plc(file, folder, outputs=call.outputs, progress=call.progress)
+    for one in plc_result.notes:
         note(one)
-    heads = "1 head" if made.setup.heads == 1 else f"{made.setup.heads} heads"
+    heads = "1 head" if plc_result.setup.heads == 1 else f"{plc_result.setup.heads} heads"
     show_pairs(
         [
-            ("loom", f"{heads}, {made.setup.rows:,} rows of {made.setup.columns:,} knots"),
-            ("program", f"{made.units} units, {made.signals} signals with an address"),
-            *((str(folder / name), FILES[name]) for name in made.files),
+            ("loom", f"{heads}, {plc_result.setup.rows:,} rows of {plc_result.setup.columns:,} knots"),
+            ("program", f"{plc_result.units} units, {plc_result.signals} signals with an address"),
+            *((str(folder / name), FILES[name]) for name in plc_result.files),
         ]
     )

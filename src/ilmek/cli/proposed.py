@@ -9,7 +9,7 @@ def show_proposed(chart: Chart) -> None:
     """Print the shades proposed from the picture, if any."""
     if shades := proposed_shades(chart):
         rows = [
-            (one.shade.name, one.shade.hex, f"{one.shade.share:.1%}", one.nearest, f"{one.difference:.1f}")
-            for one in shades
+            (shade.shade.name, shade.shade.hex, f"{shade.shade.share:.1%}", shade.nearest, f"{shade.difference:.1f}")
+            for shade in shades
         ]
         show_table(("proposed", "colour", "share", "nearest wool", "CIEDE2000"), rows, right=(2, 4))

@@ -32,8 +32,8 @@ def command(recording: Path, programme: Path, force: bool, json_to: str | None) 
     """
     inputs = {"RECORDING": recording, "PROGRAMME": programme}
     with call_outputs({"--json": json_to}, force=force, inputs=inputs) as call:
-        found = replay_run(recording, programme, call.progress)
-        call.give_json(found.as_json)
+        replay_result = replay_run(recording, programme, call.progress)
+        call.give_json(replay_result.as_json)
     if not call.quiet:
-        show_pairs(found.in_words())
-    return 0 if found.ok else CHECK_FAILS
+        show_pairs(replay_result.in_words())
+    return 0 if replay_result.ok else CHECK_FAILS

@@ -58,7 +58,7 @@ def show_self_tests(tests: Sequence[Check]) -> None:
 
 def show_choices(choices: Sequence[Choice]) -> None:
     """Print what was chosen of what was left open, and why nothing cheaper was."""
-    rows = [(one.name, one.chosen, one.decided_by, one.next_cheaper, one.failed) for one in choices]
+    rows = [(choice.name, choice.chosen, choice.decided_by, choice.next_cheaper, choice.failed) for choice in choices]
     show_table(("choice", "chosen", "decided by", "next cheaper", "fails"), rows)
 
 

@@ -67,13 +67,14 @@ def drawn(snapshot: Snapshot, yarns: Sequence[Yarn], hint: str, left: str = "") 
     if snapshot.stop:
         parts.append(Text(f"change: {printable(snapshot.stop)}", style="yellow"))
     parts += [
-        Text(f"? {printable(one)} `ilmek resume --answer yes|no`", style="yellow") for one in snapshot.requests[:1]
+        Text(f"? {printable(request)} `ilmek resume --answer yes|no`", style="yellow")
+        for request in snapshot.requests[:1]
     ]
     parts.append(_heads(snapshot.heads, yarns))
-    parts += [_alarm(one) for one in snapshot.alarms[:MOST_ALARMS]]
+    parts += [_alarm(alarm) for alarm in snapshot.alarms[:MOST_ALARMS]]
     if hidden := len(snapshot.alarms) - MOST_ALARMS:
         parts += [Text(f"… {hidden} more alarms")] if hidden > 0 else []
-    if any(one.stops for one in snapshot.alarms):
+    if any(alarm.stops for alarm in snapshot.alarms):
         parts.append(Text("when the cause is removed, `ilmek resume` acknowledges the alarms and goes on"))
     parts.append(Text(printable(hint), style="dim"))
     return Group(*parts)

@@ -18,7 +18,7 @@ class WaitingNotes:
 
     def show(self, snapshot: Snapshot, now: float) -> None:
         """Take the state at a time [s]."""
-        waits = [*(one.cause for one in snapshot.alarms), *(f"asks: {one}" for one in snapshot.requests)]
+        waits = [*(alarm.cause for alarm in snapshot.alarms), *(f"asks: {request}" for request in snapshot.requests)]
         self._since = {text: self._since.get(text, now) for text in waits}
         self._noted &= set(waits)
         for text in waits:

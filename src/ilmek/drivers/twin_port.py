@@ -187,7 +187,7 @@ class TwinPort:
         return self._answer("ended", self._woven.times_ended(row, operation) > 0)
 
     def _answer(self, sensor: str, true: bool) -> bool | None:
-        for one in self._state.condition.faulty:
-            if one.sensor == sensor:
-                return None if one.value is None else bool(one.value)
+        for fault in self._state.condition.faulty:
+            if fault.sensor == sensor:
+                return None if fault.value is None else bool(fault.value)
         return true

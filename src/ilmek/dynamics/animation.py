@@ -70,11 +70,11 @@ def animated(
     if closes is None:
         closes = bool(abs(at[-1] + at[1] - 2 * at[0] - turn) < SAME)
     pivots = _pivots(motion, named)
-    paths = tuple(Stroke(_track(motion, *one), "path", named(one[0]), closed=closes) for one in traces)
+    paths = tuple(Stroke(_track(motion, *trace), "path", named(trace[0]), closed=closes) for trace in traces)
     still = dataclasses.replace(
         drawing, strokes=(*_guides(motion), *paths, *drawing.strokes), dots=(*pivots, *drawing.dots)
     )
-    points = (MovingDot(_track(motion, *one), named(one[1]), "point") for one in traces)
+    points = (MovingDot(_track(motion, *trace), named(trace[1]), "point") for trace in traces)
     first = 0 if start is None else int(np.argmin(np.abs(unit(at) - unit(start)) if closes else np.abs(at - start)))
     bars = (*_wheels(motion, named), *_bars(motion, named, traces))
     dots = (*_blocks(motion, named), *_pins(motion, named, pivots), *points)
@@ -169,18 +169,19 @@ def _wheels(motion: Motion, named: Naming) -> Iterator[MovingStroke]:
     of a pinion |i| [m/rad]. A belt has no pitch circles: only the ratio of its pulleys is known.
     """
     mechanism, drawn = motion.plan.mechanism, set()
-    for one in mechanism.couplings:
+    for coupling in mechanism.couplings:
         middles = [
-            attached(motion, body, mechanism.point(body, point)).position for body, point in (one.first, one.second)
+            attached(motion, body, mechanism.point(body, point)).position
+            for body, point in (coupling.first, coupling.second)
         ]
-        if one.kind == "rack":
-            radii: list[float] = [abs(one.ratio)]
-        elif one.kind == "gears" and one.ratio != 1:
+        if coupling.kind == "rack":
+            radii: list[float] = [abs(coupling.ratio)]
+        elif coupling.kind == "gears" and coupling.ratio != 1:
             apart = float(np.nanmedian(np.abs(middles[1] - middles[0])))
-            radii = [abs(share / (one.ratio - 1)) * apart for share in (one.ratio, 1.0)]
+            radii = [abs(share / (coupling.ratio - 1)) * apart for share in (coupling.ratio, 1.0)]
         else:
             radii = []
-        for (body, point), middle, radius in zip((one.first, one.second), middles, radii, strict=False):
+        for (body, point), middle, radius in zip((coupling.first, coupling.second), middles, radii, strict=False):
             key = (body, point, round(radius / SAME))
             if key not in drawn:
                 drawn.add(key)

@@ -177,7 +177,7 @@ def inverse_run(machine: OwnMachine, motion: Motion, driving: str | None, time: 
 def all_loads(machine: OwnMachine) -> list[Load]:
     """The loads of a machine, gravity included."""
     weight: list[Load] = [Gravity(machine.gravity)] if machine.gravity else []
-    return weight + [one.load for one in machine.loads]
+    return weight + [load.load for load in machine.loads]
 
 
 def friction_power(forces: Forces) -> FloatArray | None:

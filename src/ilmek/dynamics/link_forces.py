@@ -119,7 +119,7 @@ def internal_forces(
         poses = pose_block(forces.motion, known)
         moved = poses.bodies[body]
         back = np.broadcast_to(np.conj(moved.direction), samples)
-        gravity = sum((one.acceleration for one in loads if isinstance(one, Gravity)), 0j)
+        gravity = sum((load.acceleration for load in loads if isinstance(load, Gravity)), 0j)
         here = _Gravity(
             np.broadcast_to(back * (gravity - moved.carry(0j).acceleration), samples),
             np.broadcast_to(1j * moved.alpha - np.square(moved.omega), samples),
@@ -170,7 +170,9 @@ def _frame(mechanism: Mechanism, body: str, acting: Iterable[_Acting], points: I
     size = max((abs(point) for point in own.values()), default=0.0) or 1.0
     nodes: dict[str, complex] = {}
     fixed = [joint.name for joint in mechanism.joints if body in _fixed_on(joint)]
-    wheels = (point for one in mechanism.couplings for who, point in (one.first, one.second) if who == body)
+    wheels = (
+        point for coupling in mechanism.couplings for who, point in (coupling.first, coupling.second) if who == body
+    )
     named = [(name, mechanism.point(body, name)) for name in (*fixed, *wheels, *points)]
     for name, position in (*named, *(end for one in acting if one.name not in fixed for end in _travel(one, size))):
         if all(abs(position - other) > SAME * size for other in nodes.values()):

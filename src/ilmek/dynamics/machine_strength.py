@@ -156,8 +156,8 @@ def machine_strength(machine: OwnMachine, run: InverseRun) -> MachineStrength | 
 
 def _hole(machine: OwnMachine, body: str) -> float:
     """Diameter of the greatest pin of a link [m]; 0 without."""
-    joints = (one for one in machine.mechanism.joints if body in one.bodies and not isinstance(one, Slide))
-    return max((machine.pins[one.name].diameter for one in joints if one.name in machine.pins), default=0.0)
+    joints = (joint for joint in machine.mechanism.joints if body in joint.bodies and not isinstance(joint, Slide))
+    return max((machine.pins[joint.name].diameter for joint in joints if joint.name in machine.pins), default=0.0)
 
 
 def _section(machine: OwnMachine, body: str, member: FlatMember) -> FlatSection:

@@ -88,8 +88,8 @@ class OwnForward:
     @computed("", "events of the forward run: name, time [s], position and speed of the input [SI]", shown=False)
     def forward_events(self) -> list[dict[str, str | float]]:
         return [
-            {"name": one.name, "time": one.time, "position": one.state.position, "speed": one.state.speed}
-            for one in self.run.events
+            {"name": event.name, "time": event.time, "position": event.state.position, "speed": event.state.speed}
+            for event in self.run.events
         ]
 
     @computed("N", "greatest force of each pin in the forward run", shown=False)
@@ -111,7 +111,7 @@ def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForwar
         start,
         task.duration,
         drive=None if task.drive is None else _drive(task.drive),
-        events=[_event(one) for one in task.events],
+        events=[_event(event) for event in task.events],
         every=task.duration / SAMPLES,
         rtol=RTOL,
         most_steps=MOST_STEPS,

@@ -90,7 +90,9 @@ def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
     drive, good = motion.drives[name], np.isfinite(run.forces.effort(name))
     even = (np.arange(SAMPLES) + 0.5) / SAMPLES * time[-1]
     curves = (drive.speed, drive.acceleration, run.forces.effort(name), felt_inertia(machine, run, name))
-    speed, rate, effort, felt = (np.interp(even, time[good], np.broadcast_to(one, time.shape)[good]) for one in curves)
+    speed, rate, effort, felt = (
+        np.interp(even, time[good], np.broadcast_to(curve, time.shape)[good]) for curve in curves
+    )
     inertia = float(np.mean(felt))
     cycle = LoadCycle(speed, rate, effort - inertia * rate, inertia)
     return ServoChoice(cycle, size_motor(cycle, kind=SERVO))

@@ -101,7 +101,7 @@ def speed_study(speeds: Iterable[float], at: AtSpeed) -> StudyOfSpeeds:
         if slow.holds and not fast.holds:
             limit, limited_by = _bisect(slow, fast, at)
             break
-    return StudyOfSpeeds(points, limit, limited_by, any(one.run.turning for one in points))
+    return StudyOfSpeeds(points, limit, limited_by, any(point.run.turning for point in points))
 
 
 def _bisect(slow: SpeedPoint, fast: SpeedPoint, at: AtSpeed) -> tuple[float, str]:

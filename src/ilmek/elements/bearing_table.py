@@ -130,12 +130,12 @@ def _rows(text: str, kind: str) -> list[RollingBearing]:
 
 def _insert(prefix: str) -> list[RollingBearing]:
     """Insert bearings without a housing (UC), or in a square flanged housing (UCF)."""
-    made = []
+    bearings = []
     for name, *rest in (line.split() for line in _INSERT.split("\n") if line):
         *numbers, flanged, side = (float(one) for one in rest)
         one = _bearing(f"{prefix} {name}", INSERT, numbers)
-        made.append(replace(one, mass=flanged, flange=side * mm) if prefix == "UCF" else one)
-    return made
+        bearings.append(replace(one, mass=flanged, flange=side * mm) if prefix == "UCF" else one)
+    return bearings
 
 
 ROLLING_BEARINGS: dict[str, RollingBearing] = {

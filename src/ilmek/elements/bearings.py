@@ -171,5 +171,5 @@ def smallest_bearing(
         carries = one.static >= static_safety * static_load(one, radial, axial)
         return one.bore >= bore * (1 - 1e-9) and one.speed >= speed and carries and lasts
 
-    offered = [one for one in ROLLING_BEARINGS.values() if one.kind == kind and is_sufficient(one)]
+    offered = [bearing for bearing in ROLLING_BEARINGS.values() if bearing.kind == kind and is_sufficient(bearing)]
     return min(offered, key=lambda one: (one.mass, one.bore), default=None)

@@ -67,5 +67,5 @@ def throat_for(force: float, wall: float) -> float:
     >>> throat_for(200e3, 0.01), throat_for(2e6, 0.01)
     (0.003, 0.007)
     """
-    offered = [one for one in THROATS if one <= _OF_WALL * wall + 1e-12] or [THROATS[0]]
+    offered = [throat for throat in THROATS if throat <= _OF_WALL * wall + 1e-12] or [THROATS[0]]
     return next((one for one in offered if force <= STRENGTH * one), offered[-1])

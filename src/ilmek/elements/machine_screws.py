@@ -232,5 +232,7 @@ class FourScrews:
     @property
     def screw(self) -> MachineScrew:
         """The smallest that holds the force, from that for which the plate is drilled; the largest where none does."""
-        offered = [one for one in SCREWS.values() if self.least <= one.diameter < 0.2 * self.side] or [SCREWS["M6"]]
+        offered = [screw for screw in SCREWS.values() if self.least <= screw.diameter < 0.2 * self.side] or [
+            SCREWS["M6"]
+        ]
         return next((one for one in offered if self.holds(one) >= self.force), offered[-1])

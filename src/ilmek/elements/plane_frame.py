@@ -116,7 +116,7 @@ def _assembled(
 ) -> tuple[FloatArray, FloatArray]:
     """Stiffness and mass of all members; nodes between the elements of a member follow those of the frame."""
     size = 3 * (len(nodes) + (ELEMENTS - 1) * len(members))
-    own = np.array([(one.start, one.end, one.area, one.inertia, one.line_mass) for one in members])
+    own = np.array([(member.start, member.end, member.area, member.inertia, member.line_mass) for member in members])
     ends = own[:, :2].astype(int)
     inner = len(nodes) + np.arange((ELEMENTS - 1) * len(members)).reshape(len(members), -1)
     at = np.array(nodes)

@@ -238,9 +238,9 @@ def _bar(least: float) -> float:
 
 def _strongest(bar: float) -> RollingBearing:
     """The insert bearing of greatest load rating that fits a bar [m]; the smallest bore where none fits."""
-    fitting = [one for one in _inserts() if one.bore <= bar]
+    fitting = [insert for insert in _inserts() if insert.bore <= bar]
     return max(fitting, key=lambda one: one.dynamic) if fitting else min(_inserts(), key=lambda one: one.bore)
 
 
 def _inserts() -> list[RollingBearing]:
-    return [one for one in bearings.ROLLING_BEARINGS.values() if one.kind == INSERT]
+    return [bearing for bearing in bearings.ROLLING_BEARINGS.values() if bearing.kind == INSERT]

@@ -89,13 +89,13 @@ def joined_windows(windows: Iterable[Window]) -> tuple[Window, ...]:
     >>> joined_windows([(60, 120), (0, 60), (200, 300), (250, 280)])
     ((0, 120), (200, 300))
     """
-    found: list[Window] = []
+    joined_windows: list[Window] = []
     for start, end in sorted(window for window in windows if window[0] < window[1]):
-        if found and start <= found[-1][1]:
-            found[-1] = found[-1][0], max(found[-1][1], end)
+        if joined_windows and start <= joined_windows[-1][1]:
+            joined_windows[-1] = joined_windows[-1][0], max(joined_windows[-1][1], end)
         else:
-            found.append((start, end))
-    return tuple(found)
+            joined_windows.append((start, end))
+    return tuple(joined_windows)
 
 
 def without(windows: Iterable[Window], breaks: Iterable[Window]) -> tuple[Window, ...]:
@@ -153,8 +153,8 @@ def calendar(shifts: Sequence[Shift], weekday: int, holidays: frozenset[int], *,
     """
     chosen = [shift for shift in shifts if shift.attended or not attended]
     days = range(-1, MOST_DAYS)
-    found = joined_windows(window for shift in chosen for window in shift.windows(days, weekday, holidays))
-    return Calendar(tuple((max(start, 0), end) for start, end in found if end > 0))
+    windows = joined_windows(window for shift in chosen for window in shift.windows(days, weekday, holidays))
+    return Calendar(tuple((max(start, 0), end) for start, end in windows if end > 0))
 
 
 def with_overtime(own: Calendar, minutes: int, until: int) -> Calendar:

@@ -62,7 +62,7 @@ def improved_plan(plan: FactoryPlan, progress: Progress = SILENT, *, tries: int 
     """Move each carpet to the best position of all looms, while that lowers the merit and tries are left."""
     factory = plan.factory
     sequences = sequences_of(plan)
-    floors = waiting_times(factory, [one.job for one in sorted(plan.carpets, key=lambda one: one.start)])
+    floors = waiting_times(factory, [carpet.job for carpet in sorted(plan.carpets, key=lambda one: one.start)])
     merits = [_loom_merit(factory, loom, sequence, floors) for loom, sequence in enumerate(sequences)]
     for turn in range(_ROUNDS):
         progress(turn / _ROUNDS)
@@ -81,10 +81,10 @@ def _worst_first(factory: Factory, sequences: Sequence[Sequence[int]], floors: M
     """The jobs by what they cost beyond their bound, the most expensive first."""
     plan = left_shifted(factory, sequences, floors)
     beyond = {
-        one.job: factory.loom_cost(one.job, one.loom, same=one.same)
-        + factory.jobs[one.job].late_cost(one.end)
-        - lone_cost(factory, one.job)
-        for one in plan.carpets
+        carpet.job: factory.loom_cost(carpet.job, carpet.loom, same=carpet.same)
+        + factory.jobs[carpet.job].late_cost(carpet.end)
+        - lone_cost(factory, carpet.job)
+        for carpet in plan.carpets
     }
     return sorted(beyond, key=lambda job: (-beyond[job], job))
 

@@ -142,12 +142,12 @@ class FactoryPlan:
     @property
     def loom_costs(self) -> int:
         """The cost of all looms' work."""
-        return sum(self.factory.loom_cost(one.job, one.loom, same=one.same) for one in self.carpets)
+        return sum(self.factory.loom_cost(carpet.job, carpet.loom, same=carpet.same) for carpet in self.carpets)
 
     @property
     def late_costs(self) -> int:
         """The cost of all delays."""
-        return sum(self.factory.jobs[one.job].late_cost(one.end) for one in self.carpets)
+        return sum(self.factory.jobs[carpet.job].late_cost(carpet.end) for carpet in self.carpets)
 
     @property
     def cost(self) -> int:
@@ -157,21 +157,21 @@ class FactoryPlan:
     @property
     def late(self) -> frozenset[int]:
         """Jobs that end after their due date."""
-        return frozenset(one.job for one in self.carpets if one.end > self.factory.jobs[one.job].due)
+        return frozenset(carpet.job for carpet in self.carpets if carpet.end > self.factory.jobs[carpet.job].due)
 
     @property
     def end(self) -> int:
         """The end of the last carpet [min]; 0 without carpets."""
-        return max((one.end for one in self.carpets), default=0)
+        return max((carpet.end for carpet in self.carpets), default=0)
 
     @property
     def merit(self) -> tuple[int, int]:
         """What is minimised: the cost, and among plans of one cost the sum of the carpets' ends."""
-        return self.cost, sum(one.end for one in self.carpets)
+        return self.cost, sum(carpet.end for carpet in self.carpets)
 
     def on_loom(self, loom: int) -> list[PlannedCarpet]:
         """The carpets of a loom in the order of time."""
-        return sorted((one for one in self.carpets if one.loom == loom), key=lambda one: (one.start, one.end))
+        return sorted((carpet for carpet in self.carpets if carpet.loom == loom), key=lambda one: (one.start, one.end))
 
 
 def late_hours(end: int, due: int) -> int:
@@ -209,7 +209,7 @@ def left_shifted(factory: Factory, sequences: Sequence[Sequence[int]], floors: M
 
 def sequences_of(plan: FactoryPlan) -> list[list[int]]:
     """The jobs of each loom in the order of time."""
-    return [[one.job for one in plan.on_loom(loom)] for loom in range(len(plan.factory.looms))]
+    return [[carpet.job for carpet in plan.on_loom(loom)] for loom in range(len(plan.factory.looms))]
 
 
 def in_turn(plan: FactoryPlan) -> FactoryPlan:
@@ -220,7 +220,7 @@ def in_turn(plan: FactoryPlan) -> FactoryPlan:
         alike.setdefault(likeness(job), []).append(one)
     carpets: list[PlannedCarpet] = []
     for members in alike.values():
-        numbers = sorted(one.job for one in members)
+        numbers = sorted(member.job for member in members)
         ordered = sorted(members, key=lambda one: (one.start, one.end, one.loom))
         carpets += [replace(one, job=number) for number, one in zip(numbers, ordered, strict=True)]
     return FactoryPlan(plan.factory, tuple(sorted(carpets, key=lambda one: one.job)))

@@ -55,11 +55,11 @@ def rescues(plan: FactoryPlan, jobs: frozenset[int], ended: Callable[[], bool] =
     ended  whether the time is over: then no more measures are tried; default: never
     Where it is enough to put the order before others, measures with a more expensive plan are left out.
     """
-    factory, found = plan.factory, []
+    factory, rescues = plan.factory, []
     until = max(factory.jobs[job].due for job in jobs)
     first = _saved(factory, plan, jobs)
     if first is not None:
-        found.append(Rescue("put first", -1, 0, until, first))
+        rescues.append(Rescue("put first", -1, 0, until, first))
     for attempts in _attempts(factory, plan, jobs, until):
         if ended():
             break
@@ -68,14 +68,14 @@ def rescues(plan: FactoryPlan, jobs: frozenset[int], ended: Callable[[], bool] =
         for kind, loom, hours, changed in attempts:
             made = _saved(changed, plan, jobs)
             if made is not None and (first is None or made.cost < first.cost):
-                found.append(Rescue(kind, loom, _moved(kind, hours, plan, made, jobs), until, made))
+                rescues.append(Rescue(kind, loom, _moved(kind, hours, plan, made, jobs), until, made))
                 break
-    overdue = max(one.end - factory.jobs[one.job].due for one in plan.carpets if one.job in jobs)
+    overdue = max(carpet.end - factory.jobs[carpet.job].due for carpet in plan.carpets if carpet.job in jobs)
     hours = -(-overdue // HOUR)
     later = tuple(replace(job, due=job.due + HOUR * hours) if k in jobs else job for k, job in enumerate(factory.jobs))
     proof = FactoryPlan(replace(factory, jobs=later), plan.carpets)
-    found.append(Rescue("later due date", -1, hours, until, proof))
-    return tuple(found)
+    rescues.append(Rescue("later due date", -1, hours, until, proof))
+    return tuple(rescues)
 
 
 _Attempt = tuple[str, int, int, Factory]
@@ -83,7 +83,7 @@ _Attempt = tuple[str, int, int, Factory]
 
 def _attempts(factory: Factory, plan: FactoryPlan, jobs: frozenset[int], until: int) -> Iterator[list[_Attempt]]:
     """The measures to try, from the smallest on, for each kind and loom."""
-    used = {one.loom for one in plan.carpets if one.job in jobs}
+    used = {carpet.loom for carpet in plan.carpets if carpet.job in jobs}
     able = {loom for job in jobs for loom in factory.jobs[job].weaving}
     looms = sorted(able, key=lambda loom: (loom not in used, loom))[:MOST_LOOMS_TRIED]
     for loom in looms:
@@ -129,7 +129,7 @@ def _saved(changed: Factory, plan: FactoryPlan, jobs: frozenset[int]) -> Factory
         ),
     )
     sequences = [*sequences_of(plan), *([] for _ in range(len(changed.looms) - len(plan.factory.looms)))]
-    order = [one.job for one in sorted(plan.carpets, key=lambda one: one.start)]
+    order = [carpet.job for carpet in sorted(plan.carpets, key=lambda one: one.start)]
     floors = waiting_times(changed, order)
     found = improved_plan(left_shifted(urgent, sequences, floors), tries=TRIES)
     made = left_shifted(changed, sequences_of(found), {**waiting_in(found), **_floors(found, floors)})
@@ -141,12 +141,14 @@ def _saved(changed: Factory, plan: FactoryPlan, jobs: frozenset[int]) -> Factory
 
 
 def _floors(found: FactoryPlan, floors: dict[int, int]) -> dict[int, int]:
-    return {one.job: floors[one.job] for one in found.carpets if one.job in floors}
+    return {carpet.job: floors[carpet.job] for carpet in found.carpets if carpet.job in floors}
 
 
 def _moved(kind: str, hours: int, plan: FactoryPlan, proof: FactoryPlan, jobs: frozenset[int]) -> int:
     """Hours of the measure; of an earlier start those by which the order's first carpet begins before its release."""
     if kind != "earlier start":
         return hours
-    earlier = max(plan.factory.jobs[one.job].earliest - one.start for one in proof.carpets if one.job in jobs)
+    earlier = max(
+        plan.factory.jobs[carpet.job].earliest - carpet.start for carpet in proof.carpets if carpet.job in jobs
+    )
     return max(1, -(-earlier // HOUR))

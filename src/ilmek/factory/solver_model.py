@@ -247,17 +247,17 @@ class FactoryModel:
 
     def _ends(self, job: int, group: int, axes: WorkAxes) -> list[tuple[Any, Any, list[Any]]]:
         """The end of a job by the calendar that it is counted in: of weaving, where nobody doffs it."""
-        timed, found = self.timed[job, group], []
+        timed, ends = self.timed[job, group], []
         looms = [loom for loom in axes.looms if (job, loom) in self.on]
         doffed = [loom for loom in looms if self.factory.looms[loom].doffing > 0]
         if len(doffed) == len(looms):
             return [(timed.end, axes.attended, [timed.present])]
         for loom in looms:
             if loom in doffed:
-                found.append((timed.end, axes.attended, [self.on[job, loom]]))
+                ends.append((timed.end, axes.attended, [self.on[job, loom]]))
             else:
-                found.append((timed.woven_end, axes.weaving, [self.on[job, loom]]))
-        return found
+                ends.append((timed.woven_end, axes.weaving, [self.on[job, loom]]))
+        return ends
 
     def _in_time(self, job: int, group: int, axes: WorkAxes) -> None:
         due = self.factory.jobs[job].due
@@ -320,7 +320,7 @@ class FactoryModel:
     def hint(self, plan: FactoryPlan) -> None:
         """Begin the search at a plan: every variable gets its value there."""
         self.model.clear_hints()
-        where = {one.job: one for one in plan.carpets}
+        where = {carpet.job: carpet for carpet in plan.carpets}
         values = {key: self._values(*key, where[key[0]]) for key in self.timed}
         for (job, loom), on in self.on.items():
             self.model.add_hint(on, where[job].loom == loom)

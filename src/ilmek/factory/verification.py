@@ -15,10 +15,14 @@ def plan_faults(plan: FactoryPlan, cost: int) -> tuple[str, ...]:
     cost  claimed of the whole plan
     """
     factory = plan.factory
-    if sorted(one.job for one in plan.carpets) != list(range(len(factory.jobs))):
+    if sorted(carpet.job for carpet in plan.carpets) != list(range(len(factory.jobs))):
         return ("not every carpet is planned once",)
-    known = [one for one in plan.carpets if 0 <= one.loom < len(factory.looms)]
-    faults = [f"carpet {one.job}: loom {one.loom} cannot weave it" for one in plan.carpets if not _can(factory, one)]
+    known = [carpet for carpet in plan.carpets if 0 <= carpet.loom < len(factory.looms)]
+    faults = [
+        f"carpet {carpet.job}: loom {carpet.loom} cannot weave it"
+        for carpet in plan.carpets
+        if not _can(factory, carpet)
+    ]
     if faults or len(known) < len(plan.carpets):
         return tuple(faults)
     for one in known:
@@ -76,22 +80,22 @@ def _loom_faults(factory: Factory, carpets: Sequence[PlannedCarpet]) -> Iterator
 
 def _stock_faults(plan: FactoryPlan) -> Iterator[str]:
     for index, yarn in enumerate(plan.factory.yarns):
-        used = {one.job: plan.factory.jobs[one.job].yarns.get(index, 0) for one in plan.carpets}
+        used = {carpet.job: plan.factory.jobs[carpet.job].yarns.get(index, 0) for carpet in plan.carpets}
         total = sum(used.values())
-        early = sum(used[one.job] for one in plan.carpets if one.start < yarn.arrives)
+        early = sum(used[carpet.job] for carpet in plan.carpets if carpet.start < yarn.arrives)
         if total > yarn.stock and early > yarn.stock:
             yield f"yarn {yarn.name}: {early} g are needed before the purchase arrives, {yarn.stock} g are in stock"
 
 
 def _cost(plan: FactoryPlan) -> int:
     total = 0
-    for one in plan.carpets:
-        loom, job = plan.factory.looms[one.loom], plan.factory.jobs[one.job]
-        dressing = min(loom.dressing, loom.dressing_same) if one.same else loom.dressing
-        minutes = dressing + job.weaving[one.loom] + loom.doffing
+    for carpet in plan.carpets:
+        loom, job = plan.factory.looms[carpet.loom], plan.factory.jobs[carpet.job]
+        dressing = min(loom.dressing, loom.dressing_same) if carpet.same else loom.dressing
+        minutes = dressing + job.weaving[carpet.loom] + loom.doffing
         whole, rest = divmod(loom.cost * minutes, HOUR)
         total += whole + (2 * rest >= HOUR)
-        overdue = one.end - job.due
+        overdue = carpet.end - job.due
         if overdue > 0:
             total += job.late * (overdue // HOUR + (overdue % HOUR > 0))
     return total

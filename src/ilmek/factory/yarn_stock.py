@@ -51,21 +51,21 @@ def waiting_in(plan: FactoryPlan) -> dict[int, int]:
     """The least starts of the jobs of a plan that start after a purchase of theirs has arrived [min]."""
     factory, floors = plan.factory, {}
     scarce = scarce_yarns(factory)
-    for one in plan.carpets:
-        used = factory.jobs[one.job].yarns
+    for carpet in plan.carpets:
+        used = factory.jobs[carpet.job].yarns
         arrived = [
             factory.yarns[index].arrives
             for index in scarce
-            if used.get(index, 0) and one.start >= factory.yarns[index].arrives
+            if used.get(index, 0) and carpet.start >= factory.yarns[index].arrives
         ]
         if arrived:
-            floors[one.job] = max(arrived)
+            floors[carpet.job] = max(arrived)
     return floors
 
 
 def purchases(plan: FactoryPlan) -> tuple[Purchase, ...]:
     """The yarn to buy for all carpets of a plan together, less the stock."""
-    found = []
+    purchases = []
     for index, yarn in enumerate(plan.factory.yarns):
         used = needed_grams(plan, index)
         total, by = 0, 0
@@ -76,11 +76,11 @@ def purchases(plan: FactoryPlan) -> tuple[Purchase, ...]:
                 break
         needed = sum(grams for _, grams in used)
         if needed > yarn.stock:
-            found.append(Purchase(index, needed, needed - yarn.stock, by))
-    return tuple(found)
+            purchases.append(Purchase(index, needed, needed - yarn.stock, by))
+    return tuple(purchases)
 
 
 def needed_grams(plan: FactoryPlan, yarn: int) -> list[tuple[int, int]]:
     """Start [min] and grams of every carpet that has a yarn."""
-    jobs: Mapping[int, Mapping[int, int]] = {one.job: plan.factory.jobs[one.job].yarns for one in plan.carpets}
-    return [(one.start, jobs[one.job][yarn]) for one in plan.carpets if jobs[one.job].get(yarn, 0)]
+    jobs: Mapping[int, Mapping[int, int]] = {carpet.job: plan.factory.jobs[carpet.job].yarns for carpet in plan.carpets}
+    return [(carpet.start, jobs[carpet.job][yarn]) for carpet in plan.carpets if jobs[carpet.job].get(yarn, 0)]

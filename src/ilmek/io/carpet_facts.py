@@ -84,16 +84,16 @@ def quality_entry(entry: MetaEntry) -> Quality:
 
 def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
     """The yarns, by the rules of a yarn list."""
-    found = []
-    for one in entry.rows(2, MOST_YARNS):
-        given = one.table(*(field.name for field in fields(Yarn) if field.name != "number"), optional=("number",))
+    yarn_entries = []
+    for row in entry.rows(2, MOST_YARNS):
+        given = row.table(*(field.name for field in fields(Yarn) if field.name != "number"), optional=("number",))
         lightness, a, b = (part.number(-200.0, 200.0) for part in given["lab"].rows(3, 3))
         red, green, blue = (part.whole(0, 255) for part in given["srgb"].rows(3, 3))
         price = None if given["price"].value is None else given["price"].number()
         count = None if given["metric_count"].value is None else given["metric_count"].number()
         numbers = count, given["ply"].whole(1, MOST_YARNS), price
         place = None if given["number"].value is None else given["number"].whole(1, MOST_YARNS)
-        found.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers, place))
+        yarn_entries.append(Yarn(given["name"].text(least=1), (red, green, blue), (lightness, a, b), *numbers, place))
     records = [
         {
             "name": yarn.name,
@@ -102,9 +102,9 @@ def yarn_entries(entry: MetaEntry) -> tuple[Yarn, ...]:
             "ply": None if yarn.metric_count is None and yarn.ply == 1 else yarn.ply,
             "price": yarn.price,
         }
-        for yarn in found
+        for yarn in yarn_entries
     ]
-    for yarn, read in zip(found, yarns_from_records(records), strict=True):
+    for yarn, read in zip(yarn_entries, yarns_from_records(records), strict=True):
         if replace(read, lab=yarn.lab, number=yarn.number) != yarn:
             raise LoomError(f"the yarn {yarn.name!r} has spaces round its name")
-    return tuple(found)
+    return tuple(yarn_entries)

@@ -182,7 +182,7 @@ def _cyclogram(root: CyclogramEntry) -> Cyclogram:
 def _check_counts(root: CyclogramEntry, tracks: Sequence[Track], exclusions: Sequence[Exclusion]) -> None:
     motions = {track.name: len(track.segments) for track in tracks}
     presences = [one for exclusion in exclusions for one in (exclusion.first, exclusion.second)]
-    zones = [one.track for one in presences if isinstance(one, Zone)]
+    zones = [presence.track for presence in presences if isinstance(presence, Zone)]
     counts = (
         ("tracks", len(tracks), MOST_TRACKS, "tracks"),
         ("tracks", sum(motions.values()), MOST_MOTIONS, "motions"),
@@ -226,9 +226,9 @@ def _event(track: Track, name: str, entry: CyclogramEntry) -> TrackEvent:
         if entry.has("passing"):
             position = entry.quantity("passing", track.unit)
             return riding(name, segment, passing_share(track.name, segment, position, track.unit))
-        made = riding(name, segment, entry.quantity("share", "1", 1.0))
-        angle = entry.quantity("angle", "rad", made.angle)
-        return TrackEvent(name, angle, made.on, made.share)
+        event = riding(name, segment, entry.quantity("share", "1", 1.0))
+        angle = entry.quantity("angle", "rad", event.angle)
+        return TrackEvent(name, angle, event.on, event.share)
 
 
 def _limits(entry: CyclogramEntry, unit: str) -> ActuatorLimits:

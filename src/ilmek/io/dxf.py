@@ -155,8 +155,8 @@ def _write_texts(space: Modelspace, plate: Plate, shape: PlateShape, low: comple
     thick = f"{format_quantity(plate.thickness, 'mm')} thick"
     round_solid = plate.solid if isinstance(plate.solid, RoundSolid) else None
     size = thick if round_solid is None else f"diameter {format_quantity(2 * round_solid.outer, 'mm')}"
-    features = [one for one in plate.features if isinstance(one, ToleratedFeature)]
-    fits = dict.fromkeys(one.label for one in features if one.tolerance)
+    features = [feature for feature in plate.features if isinstance(feature, ToleratedFeature)]
+    fits = dict.fromkeys(feature.label for feature in features if feature.tolerance)
     first = f"{plate.title} ({plate.name})", f"{plate.material}, {size}, {pieces}"
     _put(space, (*first, *plate.notes, *fits, f"mm, 1:1; {known}"), low, height)
 

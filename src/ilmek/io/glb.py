@@ -146,7 +146,7 @@ def _extras(part: ScenePart) -> dict[str, Json]:
 
 def _animations(made: _File, scene: Scene | Assembly, moved: dict[str, list[int]]) -> list[dict[str, Json]]:
     """An animation for each drive, in seconds of its period."""
-    found: list[dict[str, Json]] = []
+    animations: list[dict[str, Json]] = []
     for drive, period in scene.periods.items():
         samplers: list[dict[str, Json]] = []
         channels: list[dict[str, Json]] = []
@@ -158,8 +158,8 @@ def _animations(made: _File, scene: Scene | Assembly, moved: dict[str, list[int]
             for index, number in enumerate(moved[frame.name]):
                 _channels(made, frame, motion, (index % len(frame.origins), number, times), samplers, channels)
         if channels:
-            found.append({"name": drive, "samplers": samplers, "channels": channels})
-    return found
+            animations.append({"name": drive, "samplers": samplers, "channels": channels})
+    return animations
 
 
 def _channels(  # noqa: PLR0917

@@ -42,12 +42,12 @@ def _polylines(compound: TopoDS_Shape | None) -> list[ComplexArray]:
     if compound is None or compound.IsNull():
         return []
     BRepLib.BuildCurves3d_s(compound)
-    found = []
+    polylines = []
     explorer = TopExp_Explorer(compound, TopAbs_ShapeEnum.TopAbs_EDGE)
     while explorer.More():
         curve = BRepAdaptor_Curve(TopoDS.Edge(explorer.Current()))
         points = GCPnts_TangentialDeflection(curve, 0.1, 0.01)
         values = [points.Value(number) for number in range(1, points.NbPoints() + 1)]
-        found.append(np.array([complex(point.X(), point.Y()) for point in values]) * mm)
+        polylines.append(np.array([complex(point.X(), point.Y()) for point in values]) * mm)
         explorer.Next()
-    return found
+    return polylines

@@ -75,15 +75,15 @@ class JournalFolder(Closable):
     def _opened(self) -> SystemFile:
         path = self.path / JOURNAL
         try:
-            found = SystemFile(path)
+            file = SystemFile(path)
         except FileNotFoundError:
             if os.path.lexists(self.woven):
                 raise LoomError(
                     f"{self.path} has a carpet but no journal", do="restore the file journal, or begin with --new"
                 ) from None
-            found = SystemFile(path, create=True)
+            file = SystemFile(path, create=True)
             disk.sync(self.path)
-        return found
+        return file
 
     def _remove(self) -> None:
         for name in (JOURNAL, WOVEN):  # a carpet without its journal is refused, a journal without its carpet too

@@ -187,15 +187,15 @@ def _shift(row: FactoryEntry) -> ShiftEntry:
 
 def _days(row: FactoryEntry) -> frozenset[int]:
     """The days of a text like `Mon-Fri, Sun`."""
-    text, found = row.text("days"), set()
+    text, days = row.text("days"), set()
     for part in text.lower().split(","):
         matched = re.fullmatch(r"\s*([a-z]{3})[a-z]*\s*(?:-\s*([a-z]{3})[a-z]*\s*)?", part)
         ends = [name for name in (matched.groups() if matched else ()) if name]
         if not ends or any(name not in WEEKDAYS for name in ends):
             row.refuse(ParameterError(f"{shown(text)} are no days of the week", allowed='like "Mon-Fri, Sun"'), "days")
         first, last = WEEKDAYS.index(ends[0]), WEEKDAYS.index(ends[-1])
-        found |= {(first + step) % 7 for step in range((last - first) % 7 + 1)}
-    return frozenset(found)
+        days |= {(first + step) % 7 for step in range((last - first) % 7 + 1)}
+    return frozenset(days)
 
 
 _LOOM_KEYS = (

@@ -70,4 +70,4 @@ class MetaEntry:
 
     def wholes(self, count: int, high: int) -> IntArray:
         """A list of whole numbers from 0."""
-        return np.array([one.whole(0, high) for one in self.rows(count, count)], np.int64)
+        return np.array([row.whole(0, high) for row in self.rows(count, count)], np.int64)

@@ -162,16 +162,16 @@ class _OrderReader:
 
 def _settings(row: FactoryEntry, parameters: Mapping[str, Parameter]) -> dict[str, Setting]:
     """Size, quality, knot and the parameters of a carpet that are given, by name."""
-    found: dict[str, Setting] = {key: row.text(key) for key in ("size", "quality", "knot") if row.has(key)}
+    settings: dict[str, Setting] = {key: row.text(key) for key in ("size", "quality", "knot") if row.has(key)}
     for key, parameter in parameters.items():
         if not row.has(key):
             continue
         value = row.data[key]
         try:
-            if not isinstance(value, str | int | float) or parameter.name in found:
+            if not isinstance(value, str | int | float) or parameter.name in settings:
                 raise ParameterError(f"{shown(value)} is not a value, or given twice", do='write it like "8mm" or 8')
             parameter.check(parameter.read(value))
         except IlmekError as error:
             row.refuse(error, key)
-        found[parameter.name] = value
-    return found
+        settings[parameter.name] = value
+    return settings

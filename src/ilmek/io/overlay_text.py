@@ -51,6 +51,6 @@ def read_overlay(text: str, knots: Indices, yarns: int) -> Overlay:
     if (steps[1:] <= 0).any() or steps[0] < 0 or cells[-1] >= knots.size or not np.isin(kinds, (1, 2)).all():
         raise LoomError("its overlay has marks outside of the chart")
     rows, columns = np.divmod(cells, knots.shape[1])
-    found = Overlay(rows.astype(np.int32), columns.astype(np.int32), kinds, seconds)
-    require_fit(found, knots, yarns)
-    return found
+    overlay = Overlay(rows.astype(np.int32), columns.astype(np.int32), kinds, seconds)
+    require_fit(overlay, knots, yarns)
+    return overlay

@@ -251,7 +251,7 @@ def _density(opened: Image.Image) -> tuple[float, float] | None:
     """Whole pixels per metre across and along, from the dots per inch that the file states."""
     dots: Any = opened.info.get("dpi")
     try:
-        across, along = (float(round(float(one) / METRE)) for one in dots)
+        across, along = (float(round(float(dot) / METRE)) for dot in dots)
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
         return None
     return (across, along) if min(across, along) > 0 else None

@@ -235,7 +235,7 @@ class _Reading:
         """The operations of a row, summed up."""
         row, setup = self._file.operations(number), self.setup
         self.times.append(self.account.add(row))
-        self.stop_time += sum(stop_duration(one, setup.wefts, setup.times.tube_change) for one in row.stops)
+        self.stop_time += sum(stop_duration(stop, setup.wefts, setup.times.tube_change) for stop in row.stops)
         return row
 
     def chart_row(self, number: int) -> UInt8[np.ndarray, " columns"]:

@@ -97,7 +97,7 @@ def read_meta(texts: Mapping[str, str]) -> tuple[LoomSetup, str]:
         times=_times(entries["times"]),
         loading=_loading(entries["loading"], heads, tubes, len(yarns)),
         packages=_packages(entries["packages"], heads, tubes),
-        knot_yarn=tuple(one.number(0.0, LONGEST_KNOT) for one in entries["knot_yarn"].rows(len(yarns), len(yarns))),
+        knot_yarn=tuple(row.number(0.0, LONGEST_KNOT) for row in entries["knot_yarn"].rows(len(yarns), len(yarns))),
         wefts=_bobbins(entries["wefts"]),
         cyclograms=_CyclogramReader().cyclograms(entries["cyclograms"]),
     )
@@ -123,7 +123,7 @@ def _digest(entry: MetaEntry) -> str:
 def _times(entry: MetaEntry) -> OperationTimes:
     """The times of the operations: of a knot above 0, the ends of a row in their order."""
     given = entry.table(*(field.name for field in fields(OperationTimes)))
-    ends = tuple(one.number(0.0, LONGEST_TIME) for one in given.pop("row_ends").rows(len(ROW_ENDS), len(ROW_ENDS)))
+    ends = tuple(row.number(0.0, LONGEST_TIME) for row in given.pop("row_ends").rows(len(ROW_ENDS), len(ROW_ENDS)))
     if list(ends) != sorted(ends):
         raise LoomError("times.row_ends are not in order", allowed="ascending times")
     times = OperationTimes(**{key: one.number(0.0, LONGEST_TIME) for key, one in given.items()}, row_ends=ends)
@@ -133,7 +133,7 @@ def _times(entry: MetaEntry) -> OperationTimes:
 
 
 def _loading(entry: MetaEntry, heads: int, tubes: int, yarns: int) -> UInt8[np.ndarray, "heads tubes"]:
-    loading = np.array([one.wholes(tubes, EMPTY) for one in entry.rows(heads, heads)])
+    loading = np.array([row.wholes(tubes, EMPTY) for row in entry.rows(heads, heads)])
     if np.any((loading >= yarns) & (loading != EMPTY)):
         raise LoomError("loading has an unknown yarn", allowed=f"0 to {yarns - 1}, and {EMPTY} for an empty tube")
     return loading.astype(np.uint8)
@@ -146,14 +146,14 @@ def _packages(entry: MetaEntry, heads: int, tubes: int) -> FloatArray:
 
 def _bobbins(entry: MetaEntry) -> tuple[Bobbin, ...]:
     """The bobbins of weft, one for each yarn."""
-    found = []
-    for one in entry.rows(0, MOST_BOBBINS):
-        given = one.table(*(field.name for field in fields(Bobbin)))
+    bobbins = []
+    for row in entry.rows(0, MOST_BOBBINS):
+        given = row.table(*(field.name for field in fields(Bobbin)))
         lasts = given["rows"].whole(1, sys.maxsize)
-        found.append(Bobbin(given["yarn"].text(least=1), lasts, given["time"].number(0.0, LONGEST_TIME)))
-    if len({bobbin.yarn for bobbin in found}) < len(found):
+        bobbins.append(Bobbin(given["yarn"].text(least=1), lasts, given["time"].number(0.0, LONGEST_TIME)))
+    if len({bobbin.yarn for bobbin in bobbins}) < len(bobbins):
         raise LoomError("a yarn of weft has two bobbins", allowed="one for each")
-    return tuple(found)
+    return tuple(bobbins)
 
 
 def _cyclogram_record(cyclogram: Cyclogram) -> dict[str, Json]:
@@ -190,14 +190,16 @@ class _CyclogramReader:
 
     def cyclograms(self, entry: MetaEntry) -> tuple[Cyclogram, ...]:
         """The cyclograms of a list."""
-        return tuple(self._cyclogram(one) for one in entry.rows(0, MOST_CYCLOGRAMS))
+        return tuple(self._cyclogram(row) for row in entry.rows(0, MOST_CYCLOGRAMS))
 
     def _cyclogram(self, entry: MetaEntry) -> Cyclogram:
         given = entry.table("name", "period", "tracks")
         tracks = given["tracks"].rows(0, MOST_TRACKS - self.tracks)
         self.tracks += len(tracks)
         return Cyclogram(
-            given["name"].text(), given["period"].number(0.0, LONGEST_TIME), tuple(self._track(one) for one in tracks)
+            given["name"].text(),
+            given["period"].number(0.0, LONGEST_TIME),
+            tuple(self._track(track) for track in tracks),
         )
 
     def _track(self, entry: MetaEntry) -> Track:
@@ -213,8 +215,8 @@ class _CyclogramReader:
         return Track(
             given["name"].text(),
             given["actuator"].text(),
-            tuple(self._segment(one) for one in segments),
-            tuple(self._event(one) for one in events),
+            tuple(self._segment(segment) for segment in segments),
+            tuple(self._event(event) for event in events),
             unit,
             revolves,
         )
@@ -233,7 +235,7 @@ class _CyclogramReader:
     def _parameters(self, entry: MetaEntry) -> dict[str, Json]:
         if not isinstance(entry.value, dict):
             entry.refuse("a table of numbers and lists of numbers")
-        found: dict[str, Json] = {}
+        parameters: dict[str, Json] = {}
         for key, value in entry.value.items():
             MetaEntry(f"{entry.path}: a name", key).text()
             one = MetaEntry(f"{entry.path}.{shortened(key)}", value)
@@ -243,8 +245,8 @@ class _CyclogramReader:
             if self.law_numbers > MOST_LAW_NUMBERS:
                 raise LoomError("the motion laws have too many parameters", allowed=f"at most {MOST_LAW_NUMBERS}")
             values = tuple(number.number() for number in numbers)
-            found[key] = values[0] if single else values
-        return found
+            parameters[key] = values[0] if single else values
+        return parameters
 
     def _event(self, entry: MetaEntry) -> TrackEvent:
         given = entry.table("name", "angle", "on", "share")

@@ -63,7 +63,7 @@ def unpacked_row(
     phases, ends, data = stored
     if type(phases) is not int or not 1 <= phases <= MOST_PHASES:
         return None
-    if not isinstance(ends, bytes) or len(ends) > MOST_ENDS or any(one >= len(RowEnd) for one in ends):
+    if not isinstance(ends, bytes) or len(ends) > MOST_ENDS or any(end >= len(RowEnd) for end in ends):
         return None
     head = 4 * setup.heads * phases
     raw = unpacked(data, head + 5 * MOST_MORE * setup.columns)
@@ -79,7 +79,7 @@ def unpacked_row(
         return None
     if knots and (columns.min() < 0 or columns.max() >= setup.columns or tubes.max() >= setup.tubes):
         return None
-    return RowOperations(number, columns, tubes, counts, tuple(RowEnd(one) for one in ends), stops)
+    return RowOperations(number, columns, tubes, counts, tuple(RowEnd(end) for end in ends), stops)
 
 
 def change_records(stops: Iterable[Stop]) -> Iterator[tuple[object, ...]]:
@@ -99,8 +99,8 @@ def read_stops(setup: LoomSetup, row: int, records: Iterable[tuple[object, ...]]
         changes = [_change(setup, one[1:]) for one in ones]
         if type(phase) is not int or not 0 <= phase < MOST_PHASES or None in changes:
             raise LoomError(f"a change of a package before row {row} is damaged")
-        wefts = tuple(one for one in changes if isinstance(one, int))
-        stops.append(Stop(row, phase, wefts, tuple(one for one in changes if isinstance(one, TubeChange))))
+        wefts = tuple(change for change in changes if isinstance(change, int))
+        stops.append(Stop(row, phase, wefts, tuple(change for change in changes if isinstance(change, TubeChange))))
     return tuple(stops)
 
 

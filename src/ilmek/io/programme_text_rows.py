@@ -87,24 +87,24 @@ class RowReader:
         Raises LoomError "line N: ..." for text that is no row, or not this one.
         """
         text: UInt8[np.ndarray, " bytes"] = np.frombuffer(data, np.uint8)
-        found = _RowLines(data, line, np.empty((data.count(b"\n"), 7), np.int64))
-        table = found.table
+        lines = _RowLines(data, line, np.empty((data.count(b"\n"), 7), np.int64))
+        table = lines.table
         matched = int(reading.match_lines(text, *self._patterns, table))
         if matched < len(table):
             wrong = data.split(b"\n", matched + 1)[matched]
             raise _refused(line + matched, f"{_quoted(wrong)} is no line of a row", _ALLOWED)
         if table[0, 0] != reading.ROW or table[0, 1] != number + 1:
-            raise _refused(line, _quoted(found.text(0)), f"`row {number + 1}`: rows are in order, from the bottom edge")
+            raise _refused(line, _quoted(lines.text(0)), f"`row {number + 1}`: rows are in order, from the bottom edge")
         chart = np.empty(self._setup.columns, np.uint8)
         counts = np.zeros((self._setup.heads, MOST_PHASES), np.int64)
         phases, faulty, fault = reading.measure(text, table, self._sizes, chart, counts)
         if faulty >= 0:
             at = min(int(faulty), len(table) - 1)
             given = (
-                f"{_quoted(found.text(at))} cannot be here" if faulty < len(table) else f"row {number + 1} ends here"
+                f"{_quoted(lines.text(at))} cannot be here" if faulty < len(table) else f"row {number + 1} ends here"
             )
             raise _refused(line + at, given, self._needed(fault))
-        return self._filled(number, found, np.ascontiguousarray(counts[:, :phases]), chart)
+        return self._filled(number, lines, np.ascontiguousarray(counts[:, :phases]), chart)
 
     def _filled(
         self, number: int, found: "_RowLines", counts: IntArray, chart: UInt8[np.ndarray, " columns"]
@@ -224,6 +224,7 @@ class RowWriter:
 def _stop_text(stop: Stop) -> bytes:
     lines = ["stop", *(f"bobbin {weft + 1}" for weft in stop.wefts)]
     lines += [
-        f"package head {one.head + 1} tube {one.tube + 1} yarn {one.yarn + 1} of {one.length!r} m" for one in stop.tubes
+        f"package head {tube.head + 1} tube {tube.tube + 1} yarn {tube.yarn + 1} of {tube.length!r} m"
+        for tube in stop.tubes
     ]
     return "".join(f"{line}\n" for line in lines).encode()

@@ -200,13 +200,13 @@ class _RecipeReader:
             return file_inside(self.file.parent, text)
 
     def _settings(self, parameters: Mapping[str, Parameter]) -> dict[str, Setting]:
-        found: dict[str, Setting] = {}
+        settings: dict[str, Setting] = {}
         for key, parameter in parameters.items():
             if not self.root.has(key):
                 continue
             value = self.root.data[key]
             with self._at(self.root, key):
-                if parameter.name in found:
+                if parameter.name in settings:
                     raise ParameterError(f"{parameter.name} is given twice", do="leave one of them out")
                 if isinstance(value, dict) and parameter.name == "mapped":
                     value = self._map(self.root.table(key))
@@ -216,8 +216,8 @@ class _RecipeReader:
                 if not isinstance(value, str | int | float):
                     raise ParameterError(f"{shown(value)} is not a value", do='write it like "8mm", 8, true or "auto"')
                 parameter.check(parameter.read(value))
-                found[parameter.name] = value
-        return found
+                settings[parameter.name] = value
+        return settings
 
     def _map(self, table: FileEntry) -> str:
         """The pairs of colours and yarns of a table as one text."""

@@ -118,7 +118,7 @@ class Reader:
         tables = [one for one in found if one.get("type") == "object"]
         plain = [one for one in found if one.get("type") != "object"]
         if isinstance(value, dict) and tables:
-            keys = {one["required"][0]: one for one in tables}
+            keys = {table["required"][0]: table for table in tables}
             picked = next((one for key, one in keys.items() if key in value), None)
             if picked is None:
                 near = next((hint for key in value if (hint := did_you_mean(str(key), keys))), "")

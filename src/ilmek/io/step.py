@@ -71,7 +71,7 @@ def write_piece(path: Path, piece: WorkPiece) -> None:
 
 def _write(path: Path, made: Plate | WorkPiece, solid: TopoDS_Shape) -> None:
     document = StepDocument(made.title)
-    document.solid(made.name, solid, [one for one in made.features if isinstance(one, ToleratedFeature)])
+    document.solid(made.name, solid, [feature for feature in made.features if isinstance(feature, ToleratedFeature)])
     path.write_bytes(document.content())
 
 
@@ -265,11 +265,11 @@ def _shapes(*shapes: TopoDS_Shape) -> List_TopoDS_Shape:
 
 
 def _parts(shape: TopoDS_Shape, kind: TopAbs_ShapeEnum) -> list[TopoDS_Shape]:
-    explorer, found = TopExp_Explorer(shape, kind), []
+    explorer, parts = TopExp_Explorer(shape, kind), []
     while explorer.More():
-        found.append(explorer.Current())
+        parts.append(explorer.Current())
         explorer.Next()
-    return found
+    return parts
 
 
 def _middle_height(shape: TopoDS_Shape) -> float:

@@ -74,16 +74,16 @@ def add_tolerances(
     """
     added = _Added(document, part)
     surfaces: tuple[_Surface, ...] = tuple(_surfaces(solid))
-    faces = {one.name: _faces(one, surfaces) for one in features}
-    for one in features:
-        for first, second in faces[one.name] if one.kind is not FeatureKind.FACE else ():
-            added.size(one, first, second)
-        if one.depth:
-            added.depth(one, surfaces)
-    lettered = {one.datum: added.labels(_both(faces[one.name])) for one in features if one.datum}
-    for one in features:
-        for tolerance in one.geometric:
-            added.geometric(tolerance, added.labels(_both(faces[one.name])), lettered)
+    faces = {feature.name: _faces(feature, surfaces) for feature in features}
+    for feature in features:
+        for first, second in faces[feature.name] if feature.kind is not FeatureKind.FACE else ():
+            added.size(feature, first, second)
+        if feature.depth:
+            added.depth(feature, surfaces)
+    lettered = {feature.datum: added.labels(_both(faces[feature.name])) for feature in features if feature.datum}
+    for feature in features:
+        for tolerance in feature.geometric:
+            added.geometric(tolerance, added.labels(_both(faces[feature.name])), lettered)
 
 
 _Sides = tuple[tuple[_Surface, ...], tuple[_Surface, ...]]

@@ -16,8 +16,8 @@ def proposal_text(proposed: Sequence[MatchedShade]) -> str:
     """The TOML text of a yarn list of the shades."""
     heading = "# Shades proposed from the picture itself, to dye or to match: ilmek weave PICTURE --yarns proposed.toml"
     parts = [f"{heading}\n# The count of the yarn follows from the quality; add nm and ply to state it.\n"]
-    for one in proposed:
-        comment = f"# {one.shade.share:.1%} of the knots; nearest shipped wool: {one.nearest}"
-        section = toml_section(("yarn",), {"name": one.shade.name, "srgb": one.shade.hex}, many=True)
-        parts.append(f"{comment}, CIEDE2000 {one.difference:.1f}\n{section}\n")
+    for shade in proposed:
+        comment = f"# {shade.shade.share:.1%} of the knots; nearest shipped wool: {shade.nearest}"
+        section = toml_section(("yarn",), {"name": shade.shade.name, "srgb": shade.shade.hex}, many=True)
+        parts.append(f"{comment}, CIEDE2000 {shade.difference:.1f}\n{section}\n")
     return "\n".join(parts)

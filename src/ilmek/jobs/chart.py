@@ -253,7 +253,7 @@ def _statistics(charted: ChartResult) -> dict[str, Json]:
 
 def fit_results(fit: Fit) -> dict[str, Json]:
     """How a picture was fitted, by the JSON names, SI."""
-    return {one.name: getattr(fit, one.name) for one in fields(fit)}
+    return {field.name: getattr(fit, field.name) for field in fields(fit)}
 
 
 _NEED = ("name", "use", "knots", "length", "mass", "price", "count", "to_buy", "hanks", "lots", "lot_rows")

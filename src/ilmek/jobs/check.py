@@ -84,7 +84,9 @@ def check_programme(file: Path, loom: Path | None = None, *, progress: Progress 
         count = proof.count + len(errors) - len(proof.faults)
         if isinstance(programme, ProgrammeText):
             known = {error.line for error in errors}
-            more = [ProgrammeError(one.line, one.what) for one in programme.remarks if one.line not in known]
+            more = [
+                ProgrammeError(remark.line, remark.what) for remark in programme.remarks if remark.line not in known
+            ]
             errors, count = errors + more, count + len(more)
         errors.sort(key=lambda error: error.line)
         return CheckResult(file, programme.setup, programme.digest, tuple(errors[:MOST_FAULTS]), count, proof.totals)

@@ -39,7 +39,7 @@ def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
         if settings:
             raise ParameterError(f"{name} is a file and has no parameters to set", allowed=", ".join(timed()))
         return read_cyclogram(path)
-    made = {one.name: one for one in cyclograms_of(machine, settings)}
+    made = {cyclogram.name: cyclogram for cyclogram in cyclograms_of(machine, settings)}
     if which not in made and (which or len(made) > 1):
         choices = " or ".join(f"{machine}:{one}" for one in made)
         raise ParameterError(f"{name} has several cyclograms", allowed=choices)
@@ -52,10 +52,10 @@ def cyclograms_of(machine: str, settings: Mapping[str, Setting], progress: Progr
     Raises ParameterError for an unknown machine, and for one without cyclograms; Cancelled.
     """
     kind, params = find_machine(machine).ordered(settings)
-    made = kind.cyclograms(kind.designed(params, progress)) if kind.cyclograms else ()
-    if not made:
+    cyclograms = kind.cyclograms(kind.designed(params, progress)) if kind.cyclograms else ()
+    if not cyclograms:
         raise ParameterError(f"{kind.name} has no cyclogram", allowed=f"machines with some: {', '.join(timed())}")
-    return tuple(made)
+    return tuple(cyclograms)
 
 
 def timed() -> list[str]:
@@ -115,14 +115,14 @@ def columns(cyclogram: Cyclogram, steps: int) -> dict[str, FloatArray]:
     check_size(steps + 1, 2 + 3 * len(cyclogram.tracks), "--steps", ParameterError)
     angle = np.linspace(0.0, turn, steps + 1)
     w = cyclogram.speed
-    found = {"master angle [deg]": np.linspace(0.0, 360.0, steps + 1), "time [s]": angle / w}
+    columns = {"master angle [deg]": np.linspace(0.0, 360.0, steps + 1), "time [s]": angle / w}
     for track in cyclogram.tracks:
         motion, unit = sample(track, angle), track.unit or "1"
         scale = from_si(1.0, track.unit)
-        found[f"{track.name} position [{unit}]"] = motion.position * scale
-        found[f"{track.name} velocity [{unit}/s]"] = motion.slope * w * scale
-        found[f"{track.name} acceleration [{unit}/s^2]"] = motion.bend * w**2 * scale
-    return found
+        columns[f"{track.name} position [{unit}]"] = motion.position * scale
+        columns[f"{track.name} velocity [{unit}/s]"] = motion.slope * w * scale
+        columns[f"{track.name} acceleration [{unit}/s^2]"] = motion.bend * w**2 * scale
+    return columns
 
 
 def binding_words(solution: Solution) -> list[str]:

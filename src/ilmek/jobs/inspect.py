@@ -74,12 +74,12 @@ class InspectionResult:
                 "tube_change": times.tube_change,
             },
             "bobbins": [
-                {"yarn": one.yarn, "rows": one.rows, "changes": one.changes(setup.rows), "time": one.time}
-                for one in setup.wefts
+                {"yarn": weft.yarn, "rows": weft.rows, "changes": weft.changes(setup.rows), "time": weft.time}
+                for weft in setup.wefts
             ],
             "stops": [self._stop_json(stop) for stop in self.stops],
             "yarn": [{"name": y.name, "knots": n} for y, n in zip(setup.yarns, totals.counts, strict=True)],
-            "work": {one.name: getattr(work, one.name) for one in fields(work)},
+            "work": {field.name: getattr(work, field.name) for field in fields(work)},
             "row": {
                 "number": row.number + 1,
                 "time": self.time,
@@ -95,8 +95,8 @@ class InspectionResult:
             "phase": stop.phase + 1,
             "yarns": [setup.wefts[index].yarn for index in stop.wefts],
             "tubes": [
-                {"head": one.head + 1, "tube": one.tube + 1, "yarn": one.yarn, "length": one.length}
-                for one in stop.tubes
+                {"head": tube.head + 1, "tube": tube.tube + 1, "yarn": tube.yarn, "length": tube.length}
+                for tube in stop.tubes
             ],
             "time": stop_duration(stop, setup.wefts, setup.times.tube_change),
         }

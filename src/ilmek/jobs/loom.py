@@ -265,11 +265,11 @@ def make_loomed(
 
 def _by_hand(machine: AnyComponent, params: Params, *, illustrated: bool, assembled: bool) -> LoomResult:
     """The hand loom: its report has the check of the deadline."""
-    made: HandLoom = machine.designed(params)
-    report = machine.report(made, illustrated=illustrated, assembled=assembled)
-    time, left = made.rows * made.row_time, float(made.beat.row_pitch_left)
-    note = NO_DRIVES if made.drive is None else BEATS_ALONE
-    return LoomResult(report, (), hand=made, row_pitch_left=left, weaving_time=time, notes=(note,))
+    loom: HandLoom = machine.designed(params)
+    report = machine.report(loom, illustrated=illustrated, assembled=assembled)
+    time, left = loom.rows * loom.row_time, float(loom.beat.row_pitch_left)
+    note = NO_DRIVES if loom.drive is None else BEATS_ALONE
+    return LoomResult(report, (), hand=loom, row_pitch_left=left, weaving_time=time, notes=(note,))
 
 
 def _for_weavers(

@@ -32,16 +32,16 @@ def read_machine_order(name: str, settings: Mapping[str, Setting]) -> MachineOrd
     """
     if not is_machine_file(name):
         return MachineOrder(name, settings)
-    found = read_machine_file(Path(name))
+    file = read_machine_file(Path(name))
     try:
-        params = find_machine(found.machine).params
+        params = find_machine(file.machine).params
     except IlmekError as error:
-        raise found.refuse(error) from None
-    _check(found, params)
+        raise file.refuse(error) from None
+    _check(file, params)
     names = {parameter.alias: parameter.name for parameter in listed(params) if parameter.alias}
-    own = {names.get(key, key): setting for key, setting in found.settings.items()}
+    own = {names.get(key, key): setting for key, setting in file.settings.items()}
     return MachineOrder(
-        found.machine, {**own, **{names.get(key, key): setting for key, setting in settings.items()}}, Path(name)
+        file.machine, {**own, **{names.get(key, key): setting for key, setting in settings.items()}}, Path(name)
     )
 
 

@@ -72,14 +72,14 @@ class Making:
         return {
             "woven_size": None if woven is None else {"width": woven[0], "length": woven[1]},
             "woven_longer": self.longer,
-            "making_steps": [one.as_json() for one in self.steps],
+            "making_steps": [step.as_json() for step in self.steps],
         }
 
     @property
     def in_words(self) -> Iterator[tuple[str, str, str]]:
         """Each step with its time and its cost, as shown."""
-        for one in self.steps:
-            yield one.name, "" if one.time is None else format_quantity(one.time, "h", 3), _price(one.cost)
+        for step in self.steps:
+            yield step.name, "" if step.time is None else format_quantity(step.time, "h", 3), _price(step.cost)
 
     @property
     def size_in_words(self) -> str:

@@ -18,6 +18,6 @@ def with_nearest(report: Report, params: object, progress: Progress = SILENT) ->
     if report.machine != MACHINE.name or not isinstance(params, AutomatedLoomParams):
         return report
     fits = nearest_fits(params, progress) if report.failed else ()
-    found = [{"wish": one.wish, "value": one.value} for one in fits]
+    found = [{"wish": fit.wish, "value": fit.value} for fit in fits]
     results = (*report.results, Result(NEAREST, found, "", _MEANING, shown=False))
     return replace(report, results=results, headline=(*report.headline, NEAREST))

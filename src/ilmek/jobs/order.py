@@ -195,10 +195,10 @@ def read_size(size: str | CarpetSize, settings: Mapping[str, Setting]) -> tuple[
 
 def order_of_data(path: Path, data: Table) -> CarpetOrder:
     """The order of a recipe from its data, as `read_order` of a file at this path that holds them."""
-    found = recipe_of_data(data, path, recipe_parameters())
+    file = recipe_of_data(data, path, recipe_parameters())
     with located(str(path)):
-        groups = read_groups(found.settings)
-    return _checked(replace(_order_of(path, found), **groups))
+        groups = read_groups(file.settings)
+    return _checked(replace(_order_of(path, file), **groups))
 
 
 def _checked(order: CarpetOrder) -> CarpetOrder:
@@ -216,10 +216,10 @@ def _checked(order: CarpetOrder) -> CarpetOrder:
 
 def _read_recipe(path: Path) -> RecipeFile:
     """The recipe of a file, all of its keys checked."""
-    found = read_recipe(path, recipe_parameters())
+    file = read_recipe(path, recipe_parameters())
     with located(str(path)):
-        read_groups(found.settings)
-    return found
+        read_groups(file.settings)
+    return file
 
 
 def _order_of(path: Path, found: RecipeFile) -> CarpetOrder:

@@ -77,7 +77,9 @@ class PlanResult:
     def carpets(self, order: int) -> list[PlannedCarpet]:
         """The carpets of an order in the order of time."""
         jobs = self.inputs.jobs[order]
-        return sorted((one for one in self.plan.carpets if one.job in jobs), key=lambda one: (one.start, one.end))
+        return sorted(
+            (carpet for carpet in self.plan.carpets if carpet.job in jobs), key=lambda one: (one.start, one.end)
+        )
 
     def cost(self, carpet: PlannedCarpet) -> int:
         """The cost of a carpet: of its loom and its delay."""
@@ -88,12 +90,12 @@ class PlanResult:
     def overdue(self, order: int) -> int:
         """The delay of an order's last carpet [min]."""
         jobs = self.inputs.factory.jobs
-        return max((max(one.end - jobs[one.job].due, 0) for one in self.carpets(order)), default=0)
+        return max((max(carpet.end - jobs[carpet.job].due, 0) for carpet in self.carpets(order)), default=0)
 
     @property
     def checks(self) -> tuple[Check, ...]:
         """Of every order: it is in time; or the checks that fail on the loom that comes nearest to weaving it."""
-        found: list[Check] = []
+        checks: list[Check] = []
         for index, order in enumerate(self.inputs.orders):
             name = order.entry.name
             if order.possible:
@@ -101,34 +103,34 @@ class PlanResult:
                     (rescue_text(self, one.rescues[0]) for one in self.late if one.order == index and one.rescues), ""
                 )
                 late = minute * self.overdue(index)
-                found.append(at_most(f"{name}: delay", late, 0.0, "h", "the due date").with_cure(cure))
+                checks.append(at_most(f"{name}: delay", late, 0.0, "h", "the due date").with_cure(cure))
             else:
-                found += _not_woven(self.inputs, order)
-        return tuple(found)
+                checks += _not_woven(self.inputs, order)
+        return tuple(checks)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What limits the plan's claims, and what may be a slip in the files."""
-        found = [*_hopeless_dates(self.inputs), *_unused_yarns(self.inputs)]
+        warnings = [*_hopeless_dates(self.inputs), *_unused_yarns(self.inputs)]
         if self.solved is not None and not self.solved.repeatable:
-            found.append(
+            warnings.append(
                 "the time limit ended the search: another computer may find another plan; give a longer --time-limit"
             )
         if self.ended:
-            found.append("the time limit ended the search of measures for late orders; give a longer --time-limit")
+            warnings.append("the time limit ended the search of measures for late orders; give a longer --time-limit")
         measured = sum(bool(one.rescues) for one in self.late)
         if measured < len(self.late):
-            found.append(f"measures are searched for {measured} of {len(self.late)} late orders")
-        return tuple(found)
+            warnings.append(f"measures are searched for {measured} of {len(self.late)} late orders")
+        return tuple(warnings)
 
 
 def _hopeless_dates(inputs: FactoryInputs) -> list[str]:
     """Orders that are due before they may begin."""
     return [
-        f"{one.entry.name}: due {one.entry.due:%Y-%m-%d %H:%M} is before its earliest begin "
-        f"{one.entry.earliest:%Y-%m-%d %H:%M}; no plan is in time"
-        for one in inputs.orders
-        if one.entry.due <= one.entry.earliest
+        f"{order.entry.name}: due {order.entry.due:%Y-%m-%d %H:%M} is before its earliest begin "
+        f"{order.entry.earliest:%Y-%m-%d %H:%M}; no plan is in time"
+        for order in inputs.orders
+        if order.entry.due <= order.entry.earliest
     ]
 
 
@@ -186,7 +188,7 @@ def _with_measures(done: PlanResult, deadline: float, progress: Progress) -> Pla
     """The result with its late orders and what saves them; `deadline`: end of the search on the monotonic clock [s]."""
     plan, jobs = done.plan, done.inputs.factory.jobs
     costs = {
-        index: sum(jobs[one.job].late_cost(one.end) for one in done.carpets(index))
+        index: sum(jobs[carpet.job].late_cost(carpet.end) for carpet in done.carpets(index))
         for index in range(len(done.inputs.orders))
         if done.overdue(index)
     }
@@ -246,7 +248,7 @@ def plan_results(done: PlanResult) -> JsonObject:
             }
             for one in done.late
         ],
-        "yarn": [purchase_json(done, one) for one in done.purchases],
+        "yarn": [purchase_json(done, purchase) for purchase in done.purchases],
         "yarn_price": _yarn_price(done),
     }
 
@@ -260,15 +262,15 @@ def _order_json(done: PlanResult, index: int) -> dict[str, Json]:
     looms = done.inputs.factory.looms
     return {
         "name": entry.name,
-        "loom": ", ".join(dict.fromkeys(looms[one.loom].name for one in carpets)) or None,
+        "loom": ", ".join(dict.fromkeys(looms[carpet.loom].name for carpet in carpets)) or None,
         "start": _iso(done, carpets[0].start) if carpets else None,
-        "end": _iso(done, max(one.end for one in carpets)) if carpets else None,
+        "end": _iso(done, max(carpet.end for carpet in carpets)) if carpets else None,
         "cost": sum(map(done.cost, carpets)) / MONEY if carpets else None,
         "late": minute * done.overdue(index) if carpets else None,
         "due": entry.due.isoformat(timespec="minutes"),
         "woven": bool(carpets),
         "quantity": entry.quantity,
-        "carpets": [_carpet_json(done, one) for one in carpets],
+        "carpets": [_carpet_json(done, carpet) for carpet in carpets],
     }
 
 
@@ -307,7 +309,8 @@ def _loom_json(done: PlanResult, index: int) -> dict[str, Json]:
     factory, carpets = done.inputs.factory, done.plan.on_loom(index)
     loom = factory.looms[index]
     busy = sum(
-        loom.dressing_time(same=one.same) + factory.jobs[one.job].weaving[index] + loom.doffing for one in carpets
+        loom.dressing_time(same=carpet.same) + factory.jobs[carpet.job].weaving[index] + loom.doffing
+        for carpet in carpets
     )
     open_time = loom.weaving.work(done.plan.end) - loom.weaving.work(loom.available)
     return {
@@ -362,7 +365,7 @@ def _rate(done: PlanResult, name: str) -> float | None:
 
 
 def _yarn_price(done: PlanResult) -> float | None:
-    prices: Sequence[float | None] = [purchase_json(done, one)["price"] for one in done.purchases]
+    prices: Sequence[float | None] = [purchase_json(done, purchase)["price"] for purchase in done.purchases]
     known = [price for price in prices if price is not None]
     return sum(known) if len(known) == len(prices) else None
 

@@ -50,16 +50,16 @@ def plan_chart(done: PlanResult) -> PlanChart | None:
     for index, loom in enumerate(factory.looms):
         bars = tuple(
             PlanBar(
-                inputs.orders[factory.jobs[one.job].order].entry.name,
-                factory.jobs[one.job].order,
-                (one.start, one.dressed, one.woven, one.end),
-                factory.jobs[one.job].due,
+                inputs.orders[factory.jobs[carpet.job].order].entry.name,
+                factory.jobs[carpet.job].order,
+                (carpet.start, carpet.dressed, carpet.woven, carpet.end),
+                factory.jobs[carpet.job].due,
             )
-            for one in plan.on_loom(index)
+            for carpet in plan.on_loom(index)
         )
         lanes.append(PlanLane(loom.name, loom.weaving.windows, bars))
-    begin = min(one.start for one in plan.carpets)
-    dues = [factory.jobs[one.job].due for one in plan.carpets]
+    begin = min(carpet.start for carpet in plan.carpets)
+    dues = [factory.jobs[carpet.job].due for carpet in plan.carpets]
     length = plan.end - begin
     # A due date far behind the last carpet would make the bars short.
     end = max(plan.end, *(due for due in dues if due <= plan.end + length // 4), begin + 1)
@@ -114,10 +114,10 @@ def plan_csv(done: PlanResult) -> str:
 def purchase_csv(done: PlanResult) -> str:
     """The yarn to buy as CSV, one line per yarn; masses to 1 g."""
     rows: list[tuple[object, ...]] = [(*PURCHASE_COLUMNS[:4], f"price [{_currency(done)}]", *PURCHASE_COLUMNS[5:])]
-    for one in plan_results(done)["yarn"]:
-        masses = (f"{one[key]:.3f}" for key in ("needed", "stock", "to_buy"))
-        price = "" if one["price"] is None else f"{one['price']:.2f}"
-        rows.append((one["name"], *masses, price, one["needed_by"], one["order_by"]))
+    for result in plan_results(done)["yarn"]:
+        masses = (f"{result[key]:.3f}" for key in ("needed", "stock", "to_buy"))
+        price = "" if result["price"] is None else f"{result['price']:.2f}"
+        rows.append((result["name"], *masses, price, result["needed_by"], result["order_by"]))
     return csv_rows(rows)
 
 

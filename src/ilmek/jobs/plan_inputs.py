@@ -92,15 +92,15 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
     planned = _planned_orders(orders, ready, progress.part(0.4, 1.0, "carpets"))
     origin = orders.start.replace(hour=0, minute=0)
     names = _yarn_names(planned)
-    found: list[CarpetJob] = []
+    jobs: list[CarpetJob] = []
     indices: list[tuple[int, ...]] = []
     setups: dict[tuple[object, ...], int] = {}
     for number, order in enumerate(planned):
         setup = setups.setdefault(order.setup, len(setups))
         job = replace(_job(order, looms, origin, names), order=number, setup=setup)
         count = order.entry.quantity if order.possible else 0
-        indices.append(tuple(range(len(found), len(found) + count)))
-        found += [job] * count
+        indices.append(tuple(range(len(jobs), len(jobs) + count)))
+        jobs += [job] * count
     begin = _minutes(orders.start, origin)
     stock = {yarn.name: yarn for yarn in looms.yarns}
     yarns = tuple(
@@ -111,7 +111,7 @@ def read_inputs(orders: FactoryOrders, looms: FactoryLooms, progress: Progress =
         )
         for name in names
     )
-    factory = Factory(_looms(looms, orders.start, origin), tuple(found), yarns)
+    factory = Factory(_looms(looms, orders.start, origin), tuple(jobs), yarns)
     return FactoryInputs(orders, looms, planned, tuple(indices), factory, origin)
 
 
@@ -122,15 +122,15 @@ def _minutes(time: datetime, origin: datetime) -> int:
 def _ready_looms(looms: FactoryLooms, progress: Progress) -> list[ExistingLoom]:
     """The looms of the file; equal ones are designed once."""
     made: dict[tuple[object, ...], ExistingLoom] = {}
-    found = []
+    ready_looms = []
     for index, entry in enumerate(looms.looms):
         key = entry.file, tuple(sorted(entry.design.items()))
         if key not in made:
             with located(entry.where):
                 made[key] = _existing(entry)
-        found.append(made[key])
+        ready_looms.append(made[key])
         progress((index + 1) / len(looms.looms))
-    return found
+    return ready_looms
 
 
 def _existing(entry: LoomEntry) -> ExistingLoom:
@@ -145,15 +145,15 @@ def _planned_orders(
 ) -> tuple[PlannedOrder, ...]:
     """The orders; carpets of the same file and settings are charted once."""
     made: dict[tuple[object, ...], PlannedOrder] = {}
-    found = []
+    planned_orders = []
     for index, entry in enumerate(orders.orders):
         key = entry.picture, entry.programme, entry.yarns, tuple(sorted(entry.carpet.items()))
         if key not in made:
             with located(entry.where):
                 made[key] = _of_programme(entry, looms) if entry.programme else _of_picture(entry, looms)
-        found.append(replace(made[key], entry=entry))
+        planned_orders.append(replace(made[key], entry=entry))
         progress((index + 1) / len(orders.orders))
-    return tuple(found)
+    return tuple(planned_orders)
 
 
 def _of_picture(entry: FactoryOrder, looms: Sequence[ExistingLoom]) -> PlannedOrder:
@@ -239,7 +239,10 @@ def _job(order: PlannedOrder, looms: FactoryLooms, origin: datetime, names: Sequ
 
 def _looms(looms: FactoryLooms, start: datetime, origin: datetime) -> tuple[Loom, ...]:
     """The looms with their calendars; equal calendars are made once."""
-    shifts = {one.name: Shift(one.name, one.days, one.start, one.end, one.breaks, one.attended) for one in looms.shifts}
+    shifts = {
+        shift.name: Shift(shift.name, shift.days, shift.start, shift.end, shift.breaks, shift.attended)
+        for shift in looms.shifts
+    }
     holidays = frozenset((day - origin.date()).days for day in looms.holidays)
     made: dict[tuple[str, ...], tuple[Calendar, Calendar]] = {}
     found = []

@@ -299,7 +299,7 @@ def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys
             if value != parameter.default:
                 is_real = isinstance(value, float) and parameter.unit not in ("", "1")
                 settings[recipe_key(parameter)] = written_quantity(value, parameter.unit) if is_real else value
-    found = RecipeFile(
+    file = RecipeFile(
         recipe,
         made.size,
         made.quality,
@@ -310,7 +310,7 @@ def saved_recipe(made: ResolvedOrder, chart: Chart, folder: Path, loom: LoomKeys
         settings,
         loom or order.loom,
     )
-    return recipe_text(found, folder)
+    return recipe_text(file, folder)
 
 
 def _anchored(recipe: Recipe, made: ResolvedOrder, chart: Chart) -> Recipe:

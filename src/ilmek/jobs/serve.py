@@ -166,10 +166,10 @@ def _credentials(order: ServeOrder, plate: "LoomNameplate") -> "Credentials":
             return parse_credentials(kept, private, plate.uri)
         except OtherApplicationError:
             pass  # of a loom whose serial number begins alike
-    made = make_credentials(plate.uri, f"ilmek loom {plate.serial}", ("127.0.0.1", "::1", "localhost"))
-    for path, data in zip(paths, credentials_pem(made), strict=True):
+    credentials = make_credentials(plate.uri, f"ilmek loom {plate.serial}", ("127.0.0.1", "::1", "localhost"))
+    for path, data in zip(paths, credentials_pem(credentials), strict=True):
         write_secret(path, data)
-    return made
+    return credentials
 
 
 def _is_loopback(host: str) -> bool:

@@ -130,16 +130,16 @@ def _simulated(order: SimulationOrder, programme: OpenProgramme, progress: Progr
     sums = run.sums[None][:0]
     if order.seeds:
         sums = runs_of(programme, order.file, params, order.seed, order.seeds, order.workers, order.cluster, part)
-    found = CarpetStatistics(run, setup, params, sums)
+    statistics = CarpetStatistics(run, setup, params, sums)
     energy = None
     if order.loom is not None:
         from ilmek.jobs.simulate_energy import energy_of_run  # brings all machines
 
-        energy = energy_of_run(order.loom, found)
+        energy = energy_of_run(order.loom, statistics)
     stated = programme.totals.duration if isinstance(programme, ProgrammeFile) else None
-    report = simulation_report(order.file.name, found, stated, order.deadline, energy)
+    report = simulation_report(order.file.name, statistics, stated, order.deadline, energy)
     moving = row_in_motion(setup, programme.operations(run.slowest[0] if order.row is None else order.row))
-    return SimulationResult(run, found, replace(report, figures=(*report.figures, moving)))
+    return SimulationResult(run, statistics, replace(report, figures=(*report.figures, moving)))
 
 
 def _written(result: SimulationResult, folder: Path, rows: bool, outputs: Outputs) -> SimulationResult:
@@ -153,12 +153,12 @@ def _written(result: SimulationResult, folder: Path, rows: bool, outputs: Output
         "rows.csv": csv_text(row_columns(result.found)) if rows else None,
     }
     names = [name for name, text in texts.items() if text is not None]
-    made = SimulationResult(
+    simulation_result = SimulationResult(
         result.run, result.found, result.report, tuple(str(folder / name) for name in (*names, "simulation.json"))
     )
     with outputs.folder(folder) as work:
         for name in names:
             (work / name).write_text(texts[name] or "", encoding="utf-8")
-        found = made.as_json()
+        found = simulation_result.as_json()
         write_json(work / "simulation.json", {**found, "warnings": [*found["warnings"], *left_out]})
-    return made
+    return simulation_result

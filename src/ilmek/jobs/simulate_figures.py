@@ -39,12 +39,12 @@ def _first_heads(found: CarpetStatistics) -> str:
 
 def _stops(found: CarpetStatistics) -> StackedBars:
     """Standstill of the loom and work of the operator by cause."""
-    stops = [one for one in found.stops if one["faults"]]
-    lost = np.array([one["standstill"] for one in stops])
-    beside = np.maximum(np.array([one["operator_time"] for one in stops]) - lost, 0.0)
+    stops = [stop for stop in found.stops if stop["faults"]]
+    lost = np.array([stop["standstill"] for stop in stops])
+    beside = np.maximum(np.array([stop["operator_time"] for stop in stops]) - lost, 0.0)
     note = "The operator's time counts from the call to the end of the repair; in the rest of it other heads tie knots."
     kinds = ("standstill of the loom", "operator, while heads tie knots")
-    bars = tuple(f"{one['cause']} ({one['faults']})" for one in stops)
+    bars = tuple(f"{stop['cause']} ({stop['faults']})" for stop in stops)
     values = np.column_stack([lost, beside])
     return StackedBars("stops", "Stops by cause (faults)", Axis("time", "min"), bars, kinds, values, note)
 

@@ -99,19 +99,21 @@ def _warnings(found: CarpetStatistics, energy: "Energy | None") -> tuple[str, ..
 
 
 def _tables(found: CarpetStatistics, energy: "Energy | None") -> tuple[Table, ...]:
-    losses = tuple((WORDS[one["use"]], one["time"], one["share"], CURES[one["use"]]) for one in found.losses)
-    heads = tuple((str(one["head"]), *(one[use] for use in WORDS), one["changes"], one["last"]) for one in found.heads)
+    losses = tuple((WORDS[loss["use"]], loss["time"], loss["share"], CURES[loss["use"]]) for loss in found.losses)
+    heads = tuple(
+        (str(head["head"]), *(head[use] for use in WORDS), head["changes"], head["last"]) for head in found.heads
+    )
     stops = tuple(
         (
-            one["cause"], one["faults"], "–" if one["mean_faults"] is None else one["mean_faults"], one["calls"],
-            one["operator_time"], one["standstill"],
+            stop["cause"], stop["faults"], "–" if stop["mean_faults"] is None else stop["mean_faults"], stop["calls"],
+            stop["operator_time"], stop["standstill"],
         )
-        for one in found.stops
+        for stop in found.stops
     )  # fmt: skip
     yarn = tuple(
         (one["name"], one["knots"], one["tied"], one["lost"], one["left"], one["packages"]) for one in found.yarn
     )
-    packages = tuple(tuple(one.values()) for one in found.packages[:MOST_ROWS])
+    packages = tuple(tuple(package.values()) for package in found.packages[:MOST_ROWS])
     power = tuple((name, joules) for name, joules in (energy.shares.items() if energy else ()))
     tables = [
         Table("losses", "Where the time goes, mean of the heads",

@@ -65,9 +65,9 @@ def twin_warnings(chart: Chart) -> tuple[str, ...]:
     """A warning for each pair of near twins, at most MOST_TWINS."""
     twins = twins_of(chart)
     warnings = [
-        f"the yarns {one.names[0]!r} and {one.names[1]!r} are near twins, CIEDE2000 {one.difference:.2f}: below "
+        f"the yarns {twin.names[0]!r} and {twin.names[1]!r} are near twins, CIEDE2000 {twin.difference:.2f}: below "
         f"{LEAST_DIFFERENCE:g} they are easily confused"
-        for one in twins[:MOST_TWINS]
+        for twin in twins[:MOST_TWINS]
     ]
     more = len(twins) - MOST_TWINS
     return (*warnings, *((f"near twins too: {counted(more, 'more pair')} of yarns",) if more > 0 else ()))
@@ -88,8 +88,8 @@ def yarn_notes(chart: Chart) -> tuple[str, ...]:
             f"lowers it by {LEAST_GAIN:g})"
         )
     notes += [
-        f"{one.name!r}, {format_quantity(one.share, '%', 2)} of the knots, is merged, most of it into {one.into!r}"
-        for one in palette.merged
+        f"{yarn.name!r}, {format_quantity(yarn.share, '%', 2)} of the knots, is merged, most of it into {yarn.into!r}"
+        for yarn in palette.merged
     ]
     return tuple(notes)
 
@@ -209,17 +209,17 @@ def yarn_choice_results(chart: Chart, order: CarpetOrder) -> dict[str, Json]:
         "knee": None
         if knee is None
         else {"colours": knee.colours, "mean_delta_e": knee.mean, "next_mean_delta_e": knee.next_mean},
-        "merged_yarns": [{"name": one.name, "into": one.into, "share": one.share} for one in palette.merged],
-        "twins": [{"yarns": list(one.names), "delta_e": one.difference} for one in twins_of(chart)],
+        "merged_yarns": [{"name": yarn.name, "into": yarn.into, "share": yarn.share} for yarn in palette.merged],
+        "twins": [{"yarns": list(twin.names), "delta_e": twin.difference} for twin in twins_of(chart)],
         "proposed": [
             {
-                "name": one.shade.name,
-                "srgb": one.shade.hex,
-                "share": one.shade.share,
-                "nearest": one.nearest,
-                "delta_e": one.difference,
-                "dyed": one.shade.name in chart.reading.dyed,
+                "name": shade.shade.name,
+                "srgb": shade.shade.hex,
+                "share": shade.shade.share,
+                "nearest": shade.nearest,
+                "delta_e": shade.difference,
+                "dyed": shade.shade.name in chart.reading.dyed,
             }
-            for one in proposed_shades(chart)
+            for shade in proposed_shades(chart)
         ],
     }

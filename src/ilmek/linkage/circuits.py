@@ -123,13 +123,13 @@ def circuits(moved: OneInput, *, seeds: int = SEEDS) -> tuple[Circuit, ...]:
     >>> len(found), [round(math.degrees(angle), 3) for angle in found[0].dead_centres]
     (1, [117.226, -117.226])
     """
-    found: list[Circuit] = []
+    circuits: list[Circuit] = []
     assemblies = list(_assemblies(moved))
     for assembly in assemblies:
         for seed in _seeds(assembly, seeds):
-            if not any(_passes(circuit, seed) for circuit in found):
-                found.append(_circuit(assembly, seed, assemblies))
-    return tuple(found)
+            if not any(_passes(circuit, seed) for circuit in circuits):
+                circuits.append(_circuit(assembly, seed, assemblies))
+    return tuple(circuits)
 
 
 def assembly_ranges(moved: OneInput, *, seeds: int = SEEDS) -> tuple[tuple[float, float], ...]:
@@ -237,13 +237,13 @@ def _parts(
         bounds = np.concatenate([[0.0], folds, [end]])
         values = line.at(bounds)[0].inputs
     middles = 0.5 * (bounds[:-1] + bounds[1:])  # beyond the end: periodic
-    found = []
+    parts = []
     for k, middle in enumerate(middles):
         low, high = sorted((float(values[k]), float(values[k + 1])))
         shift = _principal(low, free.turns) - low
         label = _label(free, line.at(np.array([middle]))[0], assemblies)
-        found.append(Branch(low + shift, high + shift, label))
-    return tuple(found)
+        parts.append(Branch(low + shift, high + shift, label))
+    return tuple(parts)
 
 
 def _label(free: FreeInput, at: Configurations, assemblies: list[OneInput]) -> Mapping[str, int]:

@@ -166,9 +166,9 @@ def _nearest(
     """The nearest points on both bodies."""
     bodies = path.bodies(parameter)
     found = []
-    for one in first.outlines:
+    for outline in first.outlines:
         for other in second.outlines:
-            p, q = nearest(*(_corners(bodies, *pair, 1)[0] for pair in ((first.body, one), (second.body, other))))
+            p, q = nearest(*(_corners(bodies, *pair, 1)[0] for pair in ((first.body, outline), (second.body, other))))
             towards = (q - p) / abs(q - p) if p != q else 0j
-            found.append((p + one.radius * towards, q - other.radius * towards))
+            found.append((p + outline.radius * towards, q - other.radius * towards))
     return min(found, key=lambda pair: abs(pair[1] - pair[0]))

@@ -104,7 +104,7 @@ class FreeInput:
         by_input = np.zeros((*rows, len(equations), 1))
         by_input[:, self._driven, 0] = -self.loops.unit(equations[self._driven]) / self.per_input
         matrix = np.concatenate([self.loops.matrix(equations, rows), by_input], axis=-1)
-        return matrix, self.loops.column(equations, [one.value for one in equations], rows)
+        return matrix, self.loops.column(equations, [equation.value for equation in equations], rows)
 
     def tangents(self, at: Configurations, along: FloatArray) -> FloatArray:
         """Unit tangents with a positive component along `along`; NaN for NaN configurations."""
@@ -137,7 +137,9 @@ class FreeInput:
         still = self.bodies(at)
         first = tangents / np.sum(tangents * across, axis=1)[:, None]
         rates = self.loops.moves(first[:, :-1])
-        bias = self.loops.column(equations := self.equations(at, first), [one.bias for one in equations], (len(at),))
+        bias = self.loops.column(
+            equations := self.equations(at, first), [equation.bias for equation in equations], (len(at),)
+        )
         square = np.concatenate([self.slope(at)[0], across[:, None, :]], axis=1)
         seconds = self.loops.moves(solve_many(square, np.concatenate([-bias, np.zeros((len(at), 1))], axis=1))[:, :-1])
         moved = {}

@@ -162,16 +162,16 @@ class CouplerCurve:
         z, turn = np.asarray(self.at(parameters).position), float(np.ptp(self.path.breaks))
         windows = [(abs(z[last] - z[first]), first, last) for first, last in _windows(z, tolerance)]
         step = float(np.max(np.abs(np.diff(z))))
-        found: list[StraightSection] = []
+        straights: list[StraightSection] = []
         for extent, first, last in sorted(windows, reverse=True):
             start, stop = parameters[first], parameters[last]
-            if extent + 2 * step >= least and stop - start < turn and not _overlaps(found, start, stop, turn):
+            if extent + 2 * step >= least and stop - start < turn and not _overlaps(straights, start, stop, turn):
                 one = _fitted(
                     self, parameters[max(first - 1, 0)], parameters[min(last + 1, len(parameters) - 1)], tolerance
                 )
-                if one.length >= least and not _overlaps(found, one.start, one.stop, turn):
-                    found.append(one)
-        return tuple(found)
+                if one.length >= least and not _overlaps(straights, one.start, one.stop, turn):
+                    straights.append(one)
+        return tuple(straights)
 
     def _slowest(self) -> Float[np.ndarray, " parameters"]:
         return self._roots(self.samples(), lambda one: dot(one.velocity, one.acceleration), rising=True)
@@ -204,14 +204,14 @@ class CouplerCurve:
         loop = np.abs(np.asarray(one.velocity)) * np.abs(both[:, 0] - both[:, 1])  # between the passes, roughly
         meets = np.abs(np.asarray(one.position) - np.asarray(other.position)) <= MEET * loop
         real = meets & (np.abs(np.sin(turn)) > TOUCH) & (both[:, 0] != both[:, 1])
-        found: list[Crossing] = []
+        crossings: list[Crossing] = []
         for k in np.flatnonzero(real & _first_of_its_kind(both, 1e-8 * float(np.ptp(self.path.breaks)))):
             pair = both[k]
             inputs = self.path.inputs(pair)
             position = complex(np.asarray(one.position)[k])
             ends = (float(pair[0]), float(pair[1])), (float(inputs[0]), float(inputs[1]))
-            found.append(Crossing(*ends, position, float(abs(turn[k]))))
-        return tuple(found)
+            crossings.append(Crossing(*ends, position, float(abs(turn[k]))))
+        return tuple(crossings)
 
 
 def _fitted(curve: CouplerCurve, low: float, high: float, tolerance: float) -> StraightSection:
@@ -259,7 +259,11 @@ def _first_of_its_kind(both: Float[np.ndarray, "pairs 2"], near: float) -> Bool[
 
 def _overlaps(found: list[StraightSection], start: float, stop: float, turn: float) -> bool:
     """Whether a section overlaps one of those found, on any turn."""
-    return any(one.start < stop + shift and one.stop > start + shift for one in found for shift in (-turn, 0.0, turn))
+    return any(
+        section.start < stop + shift and section.stop > start + shift
+        for section in found
+        for shift in (-turn, 0.0, turn)
+    )
 
 
 def coupler_curve(path: ConfigurationPath, body: str, point: str) -> CouplerCurve:

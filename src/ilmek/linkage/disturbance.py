@@ -83,7 +83,7 @@ def disturbed_solutions(
     """
     noise = Noise(np.random.default_rng(0), samples)
     known: dict[str, BodyMotion] = {GROUND: local_ground(plan.mechanism), **start}
-    found = []
+    disturbed_solutions = []
     for step in plan.steps:
         shaken = known | {body: _disturbed(known[body], noise, step.size) for body in step.parents}
         if isinstance(step, GeneralGroup):
@@ -91,8 +91,8 @@ def disturbed_solutions(
         else:
             solved = step.solve(shaken, drives)
         known.update(step.locate(shaken, solved.columns))
-        found.append(solved)
-    return found
+        disturbed_solutions.append(solved)
+    return disturbed_solutions
 
 
 def _disturbed(body: BodyMotion, noise: Noise, floor: float) -> DisturbedBody:

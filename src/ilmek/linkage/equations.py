@@ -105,7 +105,7 @@ def third_biases(group: Group, bodies: Known) -> list[RealField]:
         else:
             biases += [_along_third(mechanism, joint, bodies, 1j), 0.0]
     driven: list[Joint | None] = [mechanism.joint(entry.joint) for entry in group.inputs]
-    driven += [mechanism.joint(one.second[1]) if one.kind == "rack" else None for one in group.couplings]
+    driven += [mechanism.joint(coupling.second[1]) if coupling.kind == "rack" else None for coupling in group.couplings]
     for one in driven:
         biases.append(_along_third(mechanism, one, bodies, 1) if isinstance(one, Slide) else 0.0)
     return biases

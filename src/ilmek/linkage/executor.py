@@ -201,8 +201,11 @@ def executor(instructions: tuple[Instruction, ...]) -> Any:
     status   (variants, samples), written; zero before. DOUBTFUL: `judgement` must decide
     margin   (variants,), the least margin of all dyads, written; infinite before; empty if not requested
     """
-    write = _choice([one.kernel for one in instructions])
-    scale_of, gap_of = _choice([one.scale for one in instructions]), _choice([one.gap for one in instructions])
+    write = _choice([instruction.kernel for instruction in instructions])
+    scale_of, gap_of = (
+        _choice([instruction.scale for instruction in instructions]),
+        _choice([instruction.gap for instruction in instructions]),
+    )
 
     @inlined
     def growth_of(index: int, numbers: ComplexArray, margin: float, size: float) -> float:

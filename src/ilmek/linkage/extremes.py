@@ -106,7 +106,7 @@ def dwells(
     peaks = extremes(moved, output, start, stop, samples=samples)
     nodes = np.unique(np.concatenate([_nodes(start, stop, samples), [peak.input for peak in peaks]]))
     value = output_history(moved.motion(nodes), output).value
-    found: list[Dwell] = []
+    dwells: list[Dwell] = []
     for peak in peaks:
         at = int(np.searchsorted(nodes, peak.input))
         within = np.abs(value - value[at]) <= tolerance
@@ -116,10 +116,10 @@ def dwells(
         low, high = (
             _leaving(moved, output, peak.value, tolerance, end, far) for end, far in zip(ends, beyond, strict=True)
         )
-        found.append(Dwell(low, high, peak.value))
-    found.sort(key=lambda one: one.start - one.stop)
+        dwells.append(Dwell(low, high, peak.value))
+    dwells.sort(key=lambda one: one.start - one.stop)
     apart: list[Dwell] = []
-    for one in found:
+    for one in dwells:
         if all(one.stop <= other.start or one.start >= other.stop for other in apart):
             apart.append(one)
     return tuple(apart)

@@ -42,7 +42,7 @@ CLEAR = 1e4 * ROUNDING
 def growths(plan: Plan, margins: Sequence[RealField | None], size: float) -> list[RealField]:
     """Growth of rounding errors up to each step, from the margins relative to their best."""
     bodies: dict[str, RealField] = {GROUND: 1.0}
-    found = []
+    growths = []
     for step, margin in zip(plan.steps, margins, strict=True):
         growth: RealField = 1.0
         for parent in step.parents:
@@ -50,8 +50,8 @@ def growths(plan: Plan, margins: Sequence[RealField | None], size: float) -> lis
         if margin is not None:
             growth = growth * (max(size / step.shortest, 1.0) if step.shortest else 1.0) / (margin * margin * margin)
         bodies |= dict.fromkeys(step.bodies, growth)
-        found.append(growth)
-    return found
+        growths.append(growth)
+    return growths
 
 
 def judge(
@@ -67,7 +67,7 @@ def judge(
     """
     samples = np.shape(next(iter(drives.values())).value)
     status, at = np.zeros(samples, dtype=np.int8), np.full(samples, -1)
-    margins = [None if one.margin is None else np.abs(one.margin) / one.best for one in solved]
+    margins = [None if solution.margin is None else np.abs(solution.margin) / solution.best for solution in solved]
     size = span(plan.mechanism)
     least = [None if one is None else np.min(one) for one in margins]  # NaN if any is
     if all(growth <= DOUBT for growth in growths(plan, least, size)):
@@ -88,7 +88,7 @@ def judge(
     places = np.flatnonzero(doubtful)
     for first in range(0, len(places), PART):
         part = places[first : first + PART]
-        parts = [_part_of(one, part) for one in solved]
+        parts = [_part_of(solution, part) for solution in solved]
         repeated = np.tile(part, RUNS)
         begun = {body: _body_part(motion, repeated) for body, motion in start.items()}
         inputs = {name: drive.part(repeated) for name, drive in drives.items()}

@@ -70,9 +70,11 @@ def loops(mechanism: Mechanism) -> Loops:
     """The loop equations [m; rad] of a mechanism, in the order of joints, couplings, inputs."""
     whole = Group(mechanism, mechanism.moving, mechanism.joints, mechanism.inputs)
     scale = whole.reach
-    joints = [(one.name, Group(mechanism, mechanism.moving, (one,), ())) for one in mechanism.joints]
+    joints = [(joint.name, Group(mechanism, mechanism.moving, (joint,), ())) for joint in mechanism.joints]
     inputs = [(one.joint, Group(mechanism, mechanism.moving, (), (one,))) for one in mechanism.inputs]
-    couplings = [(one.name, Group(mechanism, mechanism.moving, (), (), (one,))) for one in mechanism.couplings]
+    couplings = [
+        (coupling.name, Group(mechanism, mechanism.moving, (), (), (coupling,))) for coupling in mechanism.couplings
+    ]
     known = angles(mechanism) if couplings else {}
     blocks = tuple((name, GeneralGroup(group, scale, known)) for name, group in joints + couplings + inputs)
     at_rest = {body.name: STILL for body in mechanism.bodies}

@@ -31,7 +31,7 @@ def mirrored(mechanism: Mechanism, mirror: float) -> Mechanism:
             Pin(other(pin.name), *(name if name == GROUND else other(name) for name in pin.bodies))
             for pin in mechanism.joints
         ),
-        inputs=tuple(Rotation(other(one.body), other(one.about)) for one in _cranks(mechanism)),
+        inputs=tuple(Rotation(other(crank.body), other(crank.about)) for crank in _cranks(mechanism)),
         branches={other(name): -branch for name, branch in mechanism.branches.items()},
     )
 

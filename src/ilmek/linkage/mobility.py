@@ -128,7 +128,7 @@ def _assembled(system: Loops, bodies: Known) -> Known:
     gap = np.empty(0)
     for _ in range(STEPS):
         equations = _equations(system, bodies)
-        gap = system.column(equations, [one.value for one in equations], ())
+        gap = system.column(equations, [equation.value for equation in equations], ())
         if np.abs(gap).max(initial=0.0) <= CLOSED * system.scale:
             return bodies
         step = np.linalg.lstsq(system.matrix(equations, ()), gap, rcond=FLAT)[0]

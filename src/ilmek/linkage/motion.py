@@ -192,13 +192,13 @@ def moving_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:
     """
     pins = {joint.name for joint in mechanism.joints if isinstance(joint, Pin)}
     seen = {joint.name for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies}
-    found = []
+    moving_points = []
     for body in mechanism.moving:
         for point in mechanism.body(body).points:
             if point not in seen and point.rpartition(".")[0] not in mechanism.body(body).points:
-                found.append((body, point))
+                moving_points.append((body, point))
                 seen |= {point} & pins
-    return tuple(found)
+    return tuple(moving_points)
 
 
 def _over(value: ComplexField, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Any:

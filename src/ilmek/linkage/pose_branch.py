@@ -131,11 +131,11 @@ class PoseBranch:
         chords, first, last = (part[node] for part in self._pieces)
         share = _share(chords[:, -1], first[:, -1], last[:, -1], (inside - self.at.inputs[node]) * self.free.per_input)
         step = _hermite(chords.T, first.T, last.T, share).T
-        found = self.free.stepped(self.at[node], step)
+        configurations = self.free.stepped(self.at[node], step)
         gone = np.isnan(inside)
-        found.origins[gone] = np.nan
-        found.directions[gone] = np.nan
-        return found
+        configurations.origins[gone] = np.nan
+        configurations.directions[gone] = np.nan
+        return configurations
 
     @property
     def _pieces(self) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -237,7 +237,7 @@ def _part(mechanism: Mechanism, bodies: set[str]) -> Mechanism:
         inputs=tuple(entry for entry in mechanism.inputs if entry.joint in names),
         branches={joint: sign for joint, sign in mechanism.branches.items() if joint in names},
         pose={body: pose for body, pose in mechanism.pose.items() if body in kept},
-        couplings=tuple(one for one in mechanism.couplings if set(one.bodies) <= kept),
+        couplings=tuple(coupling for coupling in mechanism.couplings if set(coupling.bodies) <= kept),
     )
 
 

@@ -104,14 +104,14 @@ def dead_centres(ground: float, crank: float, coupler: float, rocker: float, *, 
     lengths("four-bar", ground=ground, crank=crank, coupler=coupler, rocker=rocker)
     if branch not in (+1, -1):
         raise MechanismError(f"branch of the four-bar is {branch!r}", allowed="+1 or -1")
-    found = []
+    dead_centres = []
     for extended, reach in ((True, crank + coupler), (False, crank - coupler)):
         cosine = (reach**2 + ground**2 - rocker**2) / (2 * reach * ground) if reach else math.inf
         if abs(cosine) <= 1:
             angle = branch * (1 if extended else -1) * math.acos(cosine)
             rocker_angle = math.atan2(reach * math.sin(angle), reach * cosine - ground)
-            found.append(DeadCentre(angle, rocker_angle, extended))
-    return tuple(found)
+            dead_centres.append(DeadCentre(angle, rocker_angle, extended))
+    return tuple(dead_centres)
 
 
 def transmission_extremes(ground: float, crank: float, coupler: float, rocker: float) -> tuple[float, float]:

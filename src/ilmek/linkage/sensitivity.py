@@ -67,7 +67,7 @@ def derivatives(motion: Motion, output: Output, dimensions: Sequence[Dimension])
     at = _Poses(motion, loops(mechanism), bodies)
     if not dimensions:
         return Derivatives((), np.empty((0, len(motion))), np.empty((0, len(motion))))
-    value, rate = _differentiated(at, output, _together([one.shifts(mechanism) for one in dimensions]))
+    value, rate = _differentiated(at, output, _together([dimension.shifts(mechanism) for dimension in dimensions]))
     shape = len(dimensions), len(motion)
     return Derivatives(tuple(dimensions), np.broadcast_to(value, shape) + 0.0, np.broadcast_to(rate, shape) + 0.0)
 
@@ -173,7 +173,7 @@ def _mixed(at: _Poses, output: Output, moved: Moves, shifts: BodyShifts) -> list
     def biases(sign: RealField) -> list[RealField]:
         """q(v + sign w)."""
         seen = {key: BodyShift(shift.shift * sign, shift.turn * sign) for key, shift in shifts.items()}
-        return [one.bias for one in at.equations(output, added(v, times(moved, sign)), seen)]
+        return [equation.bias for equation in at.equations(output, added(v, times(moved, sign)), seen)]
 
     pairs = zip(biases(share), biases(-share), strict=True)
     return [(one - other) / (4 * share) for one, other in pairs]

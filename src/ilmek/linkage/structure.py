@@ -181,7 +181,9 @@ def _over_constrained(group: Group) -> MechanismError:
 
 def _constraints(group: Group) -> str:
     joints = f"joints {', '.join(joint.name for joint in group.joints)}"
-    return joints + (f" and couplings {', '.join(one.name for one in group.couplings)}" if group.couplings else "")
+    return joints + (
+        f" and couplings {', '.join(coupling.name for coupling in group.couplings)}" if group.couplings else ""
+    )
 
 
 def _times(count: int) -> str:

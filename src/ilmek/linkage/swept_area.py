@@ -120,7 +120,7 @@ class _Covered:
     def _body_distance(self, points: np.ndarray, origins: np.ndarray, directions: np.ndarray) -> FloatArray:
         """Distance of points from the body in given poses."""
         local = (points - origins) * np.conj(directions)
-        return np.asarray(np.min(np.stack([to_outline(local, one) for one in self.placed.outlines]), axis=0))
+        return np.asarray(np.min(np.stack([to_outline(local, outline) for outline in self.placed.outlines]), axis=0))
 
     def _corners(self) -> Complex[np.ndarray, "parameters corners"]:
         corners = np.concatenate([outline.corners for outline in self.placed.outlines])

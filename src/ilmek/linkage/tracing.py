@@ -97,8 +97,8 @@ class ConfigurationCurve:
         """`at` from given nodes."""
         across = self.tangents[node]
         near = self.free_input.stepped(self.at_nodes[node], across * (lengths - self.lengths[node])[:, None])
-        found = self.free_input.corrected(near, across)
-        return found, self.free_input.tangents(found, across), across
+        configurations = self.free_input.corrected(near, across)
+        return configurations, self.free_input.tangents(configurations, across), across
 
 
 def trace(
@@ -120,9 +120,9 @@ def trace(
         start = len(back) - 1
         nodes, tangents = back[:0:-1] + nodes, [-t for t in against[:0:-1]] + tangents
     at_nodes = Configurations(
-        np.concatenate([one.origins for one in nodes]),
-        np.concatenate([one.directions for one in nodes]),
-        np.concatenate([one.inputs for one in nodes]),
+        np.concatenate([node.origins for node in nodes]),
+        np.concatenate([node.directions for node in nodes]),
+        np.concatenate([node.inputs for node in nodes]),
     )
     stacked = np.concatenate(tangents)
     along = np.sum(free_input.chords(at_nodes) * stacked[:-1], axis=1)

@@ -63,14 +63,14 @@ def transmission_angles(motion: Motion, pins: Sequence[str] = ()) -> dict[str, F
     for pin in pins:
         if not isinstance(mechanism.joint(pin), Pin):
             raise MechanismError(f"{pin!r} is a slide", allowed="a transmission angle is at a pin between two links")
-    found = {}
+    transmission_angles = {}
     for pin in pins or free:
         joint = mechanism.joint(pin)
         outer = free.get(pin, {})
         first, second = (_direction(motion, body, pin, outer.get(body)) for body in joint.bodies)
         angle = np.arctan2(np.abs(cross(first, second)), np.abs(dot(first, second)))
-        found[pin] = np.array(np.broadcast_to(angle, motion.status.shape))
-    return found
+        transmission_angles[pin] = np.array(np.broadcast_to(angle, motion.status.shape))
+    return transmission_angles
 
 
 def _free_pins(motion: Motion) -> Iterator[tuple[str, dict[str, Pin | Slide]]]:
@@ -96,7 +96,9 @@ def _direction(motion: Motion, body: str, pin: str, outer: Pin | Slide | None) -
     mechanism = motion.plan.mechanism
     if isinstance(outer, Slide):
         return motion.direction(outer.guide) * 1j * unit(outer.along)
-    others = [one for one in mechanism.joints if isinstance(one, Pin) and body in one.bodies and one.name != pin]
+    others = [
+        joint for joint in mechanism.joints if isinstance(joint, Pin) and body in joint.bodies and joint.name != pin
+    ]
     start = outer or next(iter(others), None)
     if start is None:
         raise MechanismError(f"body {body!r} of {mechanism.name} has no pin but {pin!r}", do="choose another pin")

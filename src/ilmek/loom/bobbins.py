@@ -54,8 +54,8 @@ def change_stops(bobbins: Sequence[Bobbin], rows: int) -> tuple[ChangeStop, ...]
     >>> change_stops((Bobbin("straight weft", 2, 90.0), Bobbin("sinuous weft", 4, 90.0)), 5)[-1]
     ChangeStop(row=4, yarns=('straight weft', 'sinuous weft'), time=180.0)
     """
-    at = sorted({number * one.rows for one in bobbins for number in range(1, one.changes(rows) + 1)})
-    due = {row: tuple(one for one in bobbins if row % one.rows == 0) for row in at}
+    at = sorted({number * bobbin.rows for bobbin in bobbins for number in range(1, bobbin.changes(rows) + 1)})
+    due = {row: tuple(bobbin for bobbin in bobbins if row % bobbin.rows == 0) for row in at}
     return tuple(
         ChangeStop(row, tuple(one.yarn for one in ones), sum(one.time for one in ones)) for row, ones in due.items()
     )
@@ -67,9 +67,11 @@ def stop_count(bobbins: Sequence[Bobbin], rows: int) -> int:
     >>> stop_count((Bobbin("straight weft", 2, 90.0), Bobbin("sinuous weft", 3, 90.0)), 7)
     4
     """
-    return len(np.unique(np.concatenate([np.arange(0), *(np.arange(one.rows, rows, one.rows) for one in bobbins)])))
+    return len(
+        np.unique(np.concatenate([np.arange(0), *(np.arange(bobbin.rows, rows, bobbin.rows) for bobbin in bobbins)]))
+    )
 
 
 def stop_time(bobbins: Sequence[Bobbin], rows: int) -> float:
     """Time of all stops [s] while a number of rows is woven."""
-    return sum(one.changes(rows) * one.time for one in bobbins)
+    return sum(bobbin.changes(rows) * bobbin.time for bobbin in bobbins)

@@ -140,7 +140,7 @@ def plan_tubes(knots: Indices, heads: int, supply: YarnSupply, wefts: Sequence[B
             found.append(_changes_of(head, counts, loading[head], full, knot_yarn))
     packages = np.where(loading == EMPTY, 0.0, np.append(full, np.zeros(TUBES - yarns))[loading])
     windows = np.concatenate(found) if found else np.zeros((0, 5), np.int64)
-    points = np.unique([row * phases for one in wefts for row in range(one.rows, knots.shape[0], one.rows)])
+    points = np.unique([row * phases for weft in wefts for row in range(weft.rows, knots.shape[0], weft.rows)])
     return TubePlan(loading, packages, join_changes(windows, points.astype(np.int64)), supply.packages, phases)
 
 

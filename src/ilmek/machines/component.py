@@ -210,7 +210,7 @@ class Component(Generic[P, D, A]):
         figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated and drawn else ((), ())
         tests = self.self_tests(analysis)
         stand = Tree() if in_a_loom or self.stand is None else self.stand(design)
-        made = Report(
+        report = Report(
             machine=self.name,
             title=self.title,
             parameters=self.parameters(design).as_dict(),
@@ -234,8 +234,8 @@ class Component(Generic[P, D, A]):
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
-        made = replace(made, checks=(*made.checks, *broken(made, self.work(design))))
-        return replace(made, results=(*results_of(self.verdict(made)), *made.results)) if self.verdict else made
+        report = replace(report, checks=(*report.checks, *broken(report, self.work(design))))
+        return replace(report, results=(*results_of(self.verdict(report)), *report.results)) if self.verdict else report
 
     def drawn(self, design: D, *, in_a_loom: bool = False) -> tuple[tuple[Figure, ...], tuple[str, ...]]:
         """The figures of a design, and a warning for each that cannot be made.

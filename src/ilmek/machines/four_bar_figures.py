@@ -106,5 +106,5 @@ def _moving(one: Candidate, drawing: Drawing) -> Animation | None:
         first, at = _at_home(one)[0], frames(*ends)
     motion = solve(plan(four_bar.mechanism()), at).require()
     traces = () if four_bar.tracer is None else (("coupler", TRACER),)
-    readings = tuple(Reading("transmission angle", one, "deg") for one in transmission_angles(motion).values())
+    readings = tuple(Reading("transmission angle", angle, "deg") for angle in transmission_angles(motion).values())
     return animated(motion, at, drawing, traces=traces, start=first, readings=readings)

@@ -34,7 +34,7 @@ def broken(report: Report, work: Iterable[Work] = ()) -> tuple[Check, ...]:
         *(check for one in report.checks for check in _of_check(one)),
         *(check for part in report.parts for check in _of_part(part)),
         *(check for plate in report.plates for check in _of_plate(plate)),
-        *(check for one in report.cam_tables for check in _of_cam_table(one)),
+        *(check for table in report.cam_tables for check in _of_cam_table(table)),
         *(check for one in work for check in _of_work(one)),
     )
 

@@ -86,7 +86,7 @@ class Intervals:
 
 def stacked(parts: list[Intervals], axis: int) -> Intervals:
     """Intervals of one shape along a new axis."""
-    return Intervals(np.stack([one.low for one in parts], axis), np.stack([one.high for one in parts], axis))
+    return Intervals(np.stack([part.low for part in parts], axis), np.stack([part.high for part in parts], axis))
 
 
 def _intervals(value: Intervals | Numbers | float) -> Intervals:

@@ -137,8 +137,8 @@ def supremum(curve: Curve, knots: FloatArray, *, samples: int = GRID) -> Extremu
 
 def infimum(curve: Curve, knots: FloatArray) -> Extremum:
     """Greatest lower bound of a curve; see `supremum`."""
-    found = supremum(lambda x: -curve(x), knots)
-    return Extremum(found.at, -found.value, found.side)
+    extremum = supremum(lambda x: -curve(x), knots)
+    return Extremum(extremum.at, -extremum.value, extremum.side)
 
 
 def suprema(curves: SidedCurves, pieces: Pieces, *, samples: int = 720) -> dict[str, Extremum]:

@@ -32,15 +32,15 @@ def _with_joints(line: BillLine, joints: Joints | None) -> BillLine:
 
 def _joints(tree: Tree) -> dict[str, Joints]:
     """The joints of bodies to their parents and those that close loops, by the first part of their first body."""
-    counts, found = tree.counts(), dict[str, Joints]()
+    counts, joints = tree.counts(), dict[str, Joints]()
     kinds = [(body.joint.kind, body.id) for body in tree.bodies]
     for kind, name in (*kinds, *((closure.kind, closure.bodies[0]) for closure in tree.closures)):
         parts = tree.body(name).occurrences
         if kind not in _WITHOUT and parts:
             first = parts[0].part.id
-            own = zip(found.get(first, Joints()), _FITTED.get(kind, _CONTACT), strict=True)
-            found[first] = Joints(*(before + counts[name] * added for before, added in own))
-    return found
+            own = zip(joints.get(first, Joints()), _FITTED.get(kind, _CONTACT), strict=True)
+            joints[first] = Joints(*(before + counts[name] * added for before, added in own))
+    return joints
 
 
 def line_of(part: Part, number: int = 1) -> BillLine:

@@ -99,7 +99,7 @@ def blanks_of(part: Part) -> tuple[Blank, ...]:
 def _blanks(shape: Shape, process: str) -> tuple[Blank, ...]:
     if process in SHEET:
         plates = (member for member, _ in members_of(shape))
-        return tuple(sheet_of(one) if isinstance(one, Prism) else milled_of(one) for one in plates)
+        return tuple(sheet_of(plate) if isinstance(plate, Prism) else milled_of(plate) for plate in plates)
     if process in MILLED:
         return (milled_of(shape),)
     if process in TURNED:

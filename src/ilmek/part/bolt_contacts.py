@@ -134,8 +134,10 @@ def face_contacts(group: Sequence[StandingPiece]) -> list[tuple[FaceSide, FaceSi
                 if (shared > -_FLUSH).all() and np.sort(shared)[1] > 2 * mm:
                     area = float(np.prod(np.sort(shared)[1:]))
                     pairs[id(one.piece), id(two.piece)].append((area, one, two))
-    found = [(one, two) for own in pairs.values() for _, one, two in sorted(own, key=lambda contact: -contact[0])[:2]]
-    return sorted(found, key=lambda both: all(pattern_of(side.part) is None for side in both))
+    face_contacts = [
+        (one, two) for own in pairs.values() for _, one, two in sorted(own, key=lambda contact: -contact[0])[:2]
+    ]
+    return sorted(face_contacts, key=lambda both: all(pattern_of(side.part) is None for side in both))
 
 
 def _face_box(face: SeatFace, frame: Placement) -> Float[np.ndarray, "2 3"]:

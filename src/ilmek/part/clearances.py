@@ -93,9 +93,9 @@ def _met(carried: Sequence[SweptPieces], horizon: float, some: frozenset[str]) -
     """Numbers of each two bodies of which the boxes, each about all pieces of one, come nearer than the horizon."""
     if not carried:
         return
-    every = [one.boxes() for one in carried]
+    every = [pieces.boxes() for pieces in carried]
     around = np.stack([np.stack([one[:, :, 0].min(0), one[:, :, 1].max(0)], axis=1) for one in every])
-    chosen = np.array([one.body in some for one in carried])
+    chosen = np.array([pieces.body in some for pieces in carried])
     for first in range(len(carried) - 1):
         gaps = box_gaps(around[first : first + 1], around[first + 1 :])[0]
         others = (gaps < horizon).any(1) & (not some or chosen[first + 1 :] != chosen[first])

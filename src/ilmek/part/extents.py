@@ -85,7 +85,7 @@ def _shift(copied: Chain, chain: Chain) -> Corner | None:
 def around(found: Iterable[Extent]) -> tuple[Corner, Corner]:
     """The least and the greatest corner of boxes [m]. Raises ValueError where there are none."""
     found = tuple(found)
-    return np.min([one.low for one in found], axis=0), np.max([one.high for one in found], axis=0)
+    return np.min([extent.low for extent in found], axis=0), np.max([extent.high for extent in found], axis=0)
 
 
 def _of_chain(chain: Chain, drives: tuple[str, ...], boxes: dict[str, Float[np.ndarray, "8 3"]]) -> Iterator[Extent]:

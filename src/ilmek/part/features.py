@@ -64,8 +64,8 @@ def _features(shape: Shape) -> Iterator[FeatureOfSize]:
         yield from _turned(shape)
     elif isinstance(shape, Prism):
         outer = () if shape.section.smooth else (shape.section.outline,)
-        yield from (one for contour in outer for one in _of_contour(contour, shape.length, inside=False))
-        yield from (one for contour in shape.section.holes for one in _of_contour(contour, shape.length, inside=True))
+        yield from (size for contour in outer for size in _of_contour(contour, shape.length, inside=False))
+        yield from (size for contour in shape.section.holes for size in _of_contour(contour, shape.length, inside=True))
         for hole in shape.drilled:
             walls = (own for own in _turned(hole.shape) if not own.inside)
             yield from (replace(own, inside=True).placed(hole.position) for own in walls)

@@ -38,7 +38,7 @@ def joints_without_fit(tree: Tree) -> tuple[str, ...]:
 
 def _keyed(part: Part) -> bool:
     """Whether it has a bore with a keyway."""
-    return part.shape is not None and any(one.inside and one.keyway for one in features_of_size(part.shape))
+    return part.shape is not None and any(feature.inside and feature.keyway for feature in features_of_size(part.shape))
 
 
 def _led(tree: Tree) -> Iterator[str]:

@@ -55,8 +55,8 @@ def closures(mechanism: Mechanism, ids: Mapping[str, str]) -> tuple[Closure, ...
         for point in [mechanism.body(joint.bodies[0]).points[joint.name]]
     )
     coupled = (
-        Closure(JointKind.ROLLING, (ids[one.first[0]], ids[one.second[0]]), ratio=one.ratio)
-        for one in mechanism.couplings
+        Closure(JointKind.ROLLING, (ids[coupling.first[0]], ids[coupling.second[0]]), ratio=coupling.ratio)
+        for coupling in mechanism.couplings
     )
     return (*pins, *coupled)
 

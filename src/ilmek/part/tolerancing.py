@@ -323,17 +323,17 @@ def _named(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
 
 def _related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     """The features with their tolerances of position and run-out, from datums among them."""
-    seats = [one for one in features if one.kind is FeatureKind.JOURNAL and one.duty is FitDuty.BEARING]
+    seats = [feature for feature in features if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING]
     datums: dict[str, str] = {}
     if seats:
         axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
         datums = {one.name: letter for one, letter in zip(dict.fromkeys(axis), "AB", strict=False)}
-        return [_turning_true(one, datums) for one in features]
-    bores = [one for one in features if one.kind is FeatureKind.BORE and one.duty in _LINKED]
+        return [_turning_true(feature, datums) for feature in features]
+    bores = [feature for feature in features if feature.kind is FeatureKind.BORE and feature.duty in _LINKED]
     if len(bores) < _TWO or not _parallel(bores):
         return list(features)
     datums = {one.name: letter for one, letter in zip(bores, "AB", strict=False)}
-    return [_located(one, datums) if one in bores else one for one in features]
+    return [_located(feature, datums) if feature in bores else feature for feature in features]
 
 
 _LINKED = {FitDuty.RUNNING, FitDuty.FIXED, FitDuty.HOUSING, FitDuty.BEARING}
@@ -341,7 +341,7 @@ _TWO = 2
 
 
 def _parallel(features: Sequence[ToleratedFeature]) -> bool:
-    along = [one.position.rotation[:, 2] for one in features]
+    along = [feature.position.rotation[:, 2] for feature in features]
     return all(bool(np.abs(np.cross(one, along[0])).max() < um) for one in along)
 
 

@@ -54,7 +54,7 @@ def choose(name: str, candidates: Sequence[Alternative], aim: str = "price") -> 
     >>> choose("bar", bars)[1]
     Choice(name='bar', chosen='20 mm', decided_by='stress', next_cheaper='10 mm', failed='10000 mm, limit >= 15000 mm')
     """
-    worst = [max((weight(check) for check in one.failed), default=-1.0) for one in candidates]
+    worst = [max((weight(check) for check in candidate.failed), default=-1.0) for candidate in candidates]
     index = next((at for at, value in enumerate(worst) if value < 0), worst.index(min(worst)))
     if index == 0:
         return 0, Choice(name, candidates[0].name, aim)

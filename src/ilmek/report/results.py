@@ -45,12 +45,12 @@ def results_of(*records: object) -> tuple[Result, ...]:
 
     Raises TypeError where two results have the same name.
     """
-    found = tuple(made for one in records if one is not None for made in _results(one, ""))
-    names = [made.name for made in found]
+    results = tuple(made for one in records if one is not None for made in _results(one, ""))
+    names = [made.name for made in results]
     if len(set(names)) < len(names):
         twice = sorted({name for name in names if names.count(name) > 1})
         raise TypeError(f"results declared twice: {', '.join(twice)}")
-    return found
+    return results
 
 
 def _results(record: object, prefix: str) -> Iterator[Result]:

@@ -48,7 +48,7 @@ def columns(*headings: str | Column) -> tuple[Column, ...]:
     >>> columns("link | length [mm] | mass of one [kg] 3")[1:]
     (Column(heading='length', unit='mm', digits=4), Column(heading='mass of one', unit='kg', digits=3))
     """
-    written = (one.split(" | ") if isinstance(one, str) else (one,) for one in headings)
+    written = (heading.split(" | ") if isinstance(heading, str) else (heading,) for heading in headings)
     return tuple(_column(one) if isinstance(one, str) else one for part in written for one in part)
 
 

@@ -110,27 +110,29 @@ class Candidate:
     @property
     def reached(self) -> bool:
         """Whether the linkage closes at every position."""
-        return all(one.reached for one in self.positions)
+        return all(position.reached for position in self.positions)
 
     @property
     def one_circuit(self) -> bool:
         """Whether all positions that are reached are on one circuit."""
-        return len({one.circuit for one in self.positions} - {0}) <= 1
+        return len({position.circuit for position in self.positions} - {0}) <= 1
 
     @property
     def one_branch(self) -> bool:
         """Whether all positions that are reached are on one branch of one circuit."""
-        return self.one_circuit and len({one.branch for one in self.positions} - {0}) <= 1
+        return self.one_circuit and len({position.branch for position in self.positions} - {0}) <= 1
 
     @property
     def point_error(self) -> float:
         """Greatest error of a point [m]; NaN where the task has no points."""
-        return _greatest([one.point_error for one in self.positions])
+        return _greatest([position.point_error for position in self.positions])
 
     @property
     def angle_error(self) -> float:
         """Greatest error of an angle of coupler or rocker [rad]; NaN where the task has no such angles."""
-        return _greatest([error for one in self.positions for error in (one.coupler_error, one.rocker_error)])
+        return _greatest(
+            [error for position in self.positions for error in (position.coupler_error, position.rocker_error)]
+        )
 
     @property
     def met(self) -> bool:
@@ -263,37 +265,37 @@ def _errors(
 ) -> dict[str, Float[np.ndarray, " positions"]]:
     """Errors of the positions `which` at crank angles [rad], by forward simulation."""
     motion = solve(plan(four_bar.mechanism(branch)), cranks)
-    found = {}
+    errors = {}
     if task.points is not None:
-        found["point"] = np.abs(motion.point("coupler", TRACER).position - task.points[which])
+        errors["point"] = np.abs(motion.point("coupler", TRACER).position - task.points[which])
     for name, turns, drawn in (
         ("coupler", task.coupler_turns, four_bar.coupler_angle),
         ("rocker", task.rocker_turns, four_bar.rocker_angle),
     ):
         if turns is not None:
-            found[name] = np.abs(np.angle(motion.direction(name) * np.exp(-1j * (drawn + turns[which]))))
-    return found
+            errors[name] = np.abs(np.angle(motion.direction(name) * np.exp(-1j * (drawn + turns[which]))))
+    return errors
 
 
 def _segments(reached: Sequence[PositionMatch], loops: Sequence[CircuitLoop]) -> list[CircuitSegment]:
     """Working range: between the positions on one branch of a crank that rocks, otherwise the whole circuit."""
-    found = []
+    segments = []
     for index in sorted({one.loop for one in reached}):
         loop, here = loops[index], [one for one in reached if one.loop == index]
         branches = {one.branch for one in here} - {0}
         if not loop.branch and len(branches) <= 1:
             cranks = [one.crank for one in here]
-            found.append(CircuitSegment(loop, min(cranks), max(cranks), next(iter(branches), +1)))
+            segments.append(CircuitSegment(loop, min(cranks), max(cranks), next(iter(branches), +1)))
         else:
-            found.append(CircuitSegment(loop, loop.low, loop.high, 0))
-    return found
+            segments.append(CircuitSegment(loop, loop.low, loop.high, 0))
+    return segments
 
 
 def _transmission(four_bar: FourBar, segments: Sequence[CircuitSegment]) -> tuple[float, float]:
     """Least and greatest transmission angle [rad]; it grows with |A B0|, so with the angle from ground to crank."""
     if not segments:
         return math.nan, math.nan
-    cosines = [cosine for one in segments for cosine in one.cosines]
+    cosines = [cosine for segment in segments for cosine in segment.cosines]
     return _transmission_angles(four_bar, (min(cosines), max(cosines)))
 
 
@@ -308,8 +310,8 @@ def _transmission_angles(four_bar: FourBar, cosines: tuple[float, float]) -> tup
 def _size(four_bar: FourBar, segments: Sequence[CircuitSegment]) -> float:
     """Greatest distance between two positions of pins and tracer [m]."""
     positions = [np.array([four_bar.a0, four_bar.b0, four_bar.a, four_bar.b])]
-    for one in segments:
-        pose = one.loop.at(one.samples)
+    for segment in segments:
+        pose = segment.loop.at(segment.samples)
         positions += [pose.a, pose.b] + ([] if four_bar.tracer is None else [pose.tracer])
     points = np.concatenate(positions)
     return float(np.max(np.abs(points[:, None] - points[None, :])))

@@ -170,7 +170,7 @@ def arms_through_poses(
     pivot = np.where(none, np.nan, pivot)
     order = np.argsort(ground, axis=-1)  # infinite and NaN come last
     parts = pivot, ground, length * scale, second * scale, found
-    return PoseArms(*(np.take_along_axis(one, order, axis=-1) for one in parts))
+    return PoseArms(*(np.take_along_axis(part, order, axis=-1) for part in parts))
 
 
 def dyads_through_poses(
@@ -229,7 +229,7 @@ def arms_through_points(
     batch = points.shape[:-1]
     flat, angles = points.reshape(-1, 4), first_angles.reshape(-1, 4)
     parts = [_arms(flat[k : k + BLOCK], angles[k : k + BLOCK]) for k in range(0, max(len(flat), 1), BLOCK)]
-    whole = [np.concatenate([getattr(part, one.name) for part in parts]) for one in fields(PointArms)]
+    whole = [np.concatenate([getattr(part, field.name) for part in parts]) for field in fields(PointArms)]
     return PointArms(*(one.reshape(*batch, 3) for one in whole))
 
 

@@ -97,21 +97,23 @@ def defects(one: Candidate, filters: Filters | None = None, *, task_only: bool =
 
 def _of_positions(one: Candidate) -> dict[str, str]:
     """Failures to perform the task."""
-    found = {}
+    of_positions = {}
     circuits = {k: met.circuit for k, met in enumerate(one.positions, 1)}
     branches = {k: met.branch for k, met in enumerate(one.positions, 1)}
     open_positions = [str(k) for k, met in enumerate(one.positions, 1) if not met.reached]
     if open_positions:
-        found["closes"] = f"does not close at position {', '.join(open_positions)}"
+        of_positions["closes"] = f"does not close at position {', '.join(open_positions)}"
     elif not one.met:
-        found["met"] = f"misses {_worst(one)}"
+        of_positions["met"] = f"misses {_worst(one)}"
     if not one.one_circuit:
-        found["one_circuit"] = f"must be disassembled: positions {_grouped(circuits)} are on circuits 1 and 2"
+        of_positions["one_circuit"] = f"must be disassembled: positions {_grouped(circuits)} are on circuits 1 and 2"
     elif not one.one_branch:
-        found["one_branch"] = f"passes a dead centre of the crank: positions {_grouped(branches)} are on two branches"
+        of_positions["one_branch"] = (
+            f"passes a dead centre of the crank: positions {_grouped(branches)} are on two branches"
+        )
     elif not open_positions and not one.in_order:
-        found["in_order"] = _out_of_order(one.order)
-    return found
+        of_positions["in_order"] = _out_of_order(one.order)
+    return of_positions
 
 
 def _of_motion(one: Candidate, filters: Filters, transmission: float) -> dict[str, str]:

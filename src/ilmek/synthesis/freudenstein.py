@@ -83,7 +83,7 @@ def function_generators(
     _check(crank, rocker, (crank_start, rocker_start), ground)
     axes = _axes(crank_start), _axes(rocker_start)
     forms = _forms(crank, rocker, *axes)
-    found: list[FourBar] = []
+    bars: list[FourBar] = []
     left_out = []
     for root in _roots(forms, *axes):
         W, Z, Q = (complex(np.dot(form, root)) for form in forms)
@@ -95,9 +95,9 @@ def function_generators(
         a, b = stretch * W * np.exp(1j * crank[0]), 1 + stretch * Z * np.exp(1j * rocker[0])
         if abs(b - a) <= ZERO_LENGTH:
             left_out.append("the coupler degenerates to a point: crank and rocker meet in one pin")
-        elif all(abs(a * ground - other.a) + abs(b * ground - other.b) > REAL * ground for other in found):
-            found.append(FourBar(0j, complex(ground), complex(a * ground), complex(b * ground)))
-    return Generators(tuple(sorted(found, key=_evenness, reverse=True)), tuple(left_out))
+        elif all(abs(a * ground - other.a) + abs(b * ground - other.b) > REAL * ground for other in bars):
+            bars.append(FourBar(0j, complex(ground), complex(a * ground), complex(b * ground)))
+    return Generators(tuple(sorted(bars, key=_evenness, reverse=True)), tuple(left_out))
 
 
 def generators_of(

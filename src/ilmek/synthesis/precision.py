@@ -141,14 +141,14 @@ def deviations(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop, u: Flo
 
 
 def _all_matches(four_bar: FourBar, task: PrecisionTask, loops: Sequence[CircuitLoop]) -> list[list[PositionMatch]]:
-    found: list[list[PositionMatch]] = [[] for _ in range(task.count)]
+    all_matches: list[list[PositionMatch]] = [[] for _ in range(task.count)]
     for index, loop in enumerate(loops):
         for position, u in _trial_parameters(four_bar, task, loop):
             deviation = float(np.max(np.abs(deviations(four_bar, task, loop, np.array([u]), np.array([position])))))
             crank = float(loop.crank(np.array(u)))
             branch = loop.branch or (0 if abs(math.sin(u)) < DEAD_CENTRE else int(loop.branches(np.array(u))))
-            found[position].append(PositionMatch(index, u, crank, branch, deviation))
-    return found
+            all_matches[position].append(PositionMatch(index, u, crank, branch, deviation))
+    return all_matches
 
 
 def _trial_parameters(four_bar: FourBar, task: PrecisionTask, loop: CircuitLoop) -> Iterator[tuple[int, float]]:

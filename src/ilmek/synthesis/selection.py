@@ -277,7 +277,9 @@ def choose(
     Raises ParameterError where there are solutions, but fewer than `params.chosen`.
     """
     required = filters or params.filters()
-    judged = [(one, breaches(one.candidate) if breaches else defects(one.candidate, required)) for one in options]
+    judged = [
+        (option, breaches(option.candidate) if breaches else defects(option.candidate, required)) for option in options
+    ]
     good = [one for one, reasons in judged if not reasons]
     if rank is None:
         good = [with_merit(one, task_only=task_only) for one in good]
@@ -309,7 +311,7 @@ def ranked_by_error(
     Errors within `NEAR_EQUAL` of the least of a group are equal.
     """
     groups: list[list[FourBarOption]] = []
-    for one in sorted((with_merit(one) if one.candidate.reached else one for one in options), key=error):
+    for one in sorted((with_merit(option) if option.candidate.reached else option for option in options), key=error):
         if groups and (tolerated or error(one) <= max(zero, NEAR_EQUAL * error(groups[-1][0]))):
             groups[-1].append(one)
         else:

@@ -82,7 +82,7 @@ class ThreePoseSynthesis:
         "the arms joined, either one driven, SI and radians: numbers of the driven and the other arm in solutions, "
         "links, ground_angle from O1 to O1', hand, branch; class, order of the poses, least transmission angle over "
         "the motion, its sine at the poses, whether kept, defects",
-        lambda it: [it.four_bar_as_json(one) for one in it.choices],
+        lambda it: [it.four_bar_as_json(choice) for choice in it.choices],
         shown=False,
     )
     chosen = computed("", "number of the four-bar to build, from 1", lambda it: it.choices.index(it.best) + 1)
@@ -179,7 +179,7 @@ def synthesised(poses: ThreePoses, ground_angle: float | None) -> ThreePoseSynth
     if len(dyads) < 2:
         raise _too_few(poses, ground_angle, roots)
     choices = tuple(_choices(poses, dyads))
-    kept = [one for one in choices if not one.defects]
+    kept = [choice for choice in choices if not choice.defects]
     if not kept:
         raise _only_defective(poses, ground_angle, choices)
     best = max(kept, key=lambda one: one.candidate.least_transmission)
@@ -198,9 +198,9 @@ def best_ray(poses: ThreePoses) -> float | None:
         if np.max(bounds[at]) <= most:
             break
         dyads = dyads_through_poses(poses.points, poses.angles, float(DIRECTIONS[at]))
-        for one in _choices(poses, dyads, Filters(link_ratio_max=LINK_RATIO)):
-            if not one.defects and one.candidate.least_transmission > most:
-                best, most = float(DIRECTIONS[at]), one.candidate.least_transmission
+        for choice in _choices(poses, dyads, Filters(link_ratio_max=LINK_RATIO)):
+            if not choice.defects and choice.candidate.least_transmission > most:
+                best, most = float(DIRECTIONS[at]), choice.candidate.least_transmission
     return best
 
 
@@ -246,13 +246,13 @@ def turned_through(candidate: Candidate) -> Float[np.ndarray, "3"]:
 def _choices(poses: ThreePoses, dyads: tuple[TwoLinkArm, ...], filters: Filters | None = None) -> list[PoseFourBar]:
     """Every pair of arms as a four-bar, with either of them driven."""
     task = PrecisionTask(points=poses.points, coupler=poses.angles)
-    found = []
+    choices = []
     for crank, rocker in permutations(range(len(dyads)), 2):
         drawn = _joined(poses, dyads[crank], dyads[rocker])
         if drawn:
             candidate = judge(drawn, task)
-            found.append(PoseFourBar(crank, rocker, candidate, defects(candidate, filters)))
-    return found
+            choices.append(PoseFourBar(crank, rocker, candidate, defects(candidate, filters)))
+    return choices
 
 
 def _joined(poses: ThreePoses, crank: TwoLinkArm, rocker: TwoLinkArm) -> FourBar | None:
@@ -292,7 +292,9 @@ def _rays_with_two(poses: ThreePoses) -> str:
 
 
 def _only_defective(poses: ThreePoses, ground_angle: float, choices: tuple[PoseFourBar, ...]) -> ParameterError:
-    reasons = "; ".join(f"driven at arm {one.crank + 1}: {' and '.join(one.defects.values())}" for one in choices)
+    reasons = "; ".join(
+        f"driven at arm {choice.crank + 1}: {' and '.join(choice.defects.values())}" for choice in choices
+    )
     best = best_ray(poses)
     other = "move or turn a pose" if best is None else f"ground_angle={np.degrees(best):g}deg has one"
     return ParameterError(

@@ -89,15 +89,15 @@ def passages(track: Track, low: float, high: float) -> tuple[Passage, ...] | Non
     """Stays of a track strictly between two positions [SI], in the order of the turn; None where it never leaves."""
     if not track.segments:
         return None if low < 0 < high else ()
-    found: list[Passage] = []
+    passages: list[Passage] = []
     for number, segment in enumerate(track.segments):
         for inside in _inside(segment, low, high):
             here = Passage(TrackInstant(number, inside[0]), TrackInstant(number, inside[1]))
-            if found and inside[0] == 0 and _rests_on(track, found[-1], number, low, high):
-                found[-1] = Passage(found[-1].entry, here.exit)
+            if passages and inside[0] == 0 and _rests_on(track, passages[-1], number, low, high):
+                passages[-1] = Passage(passages[-1].entry, here.exit)
             else:
-                found.append(here)
-    return _closed(track, found, low, high)
+                passages.append(here)
+    return _closed(track, passages, low, high)
 
 
 def _closed(track: Track, found: list[Passage], low: float, high: float) -> tuple[Passage, ...] | None:

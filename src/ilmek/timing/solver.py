@@ -233,7 +233,7 @@ def _best(
     orders = math.prod(map(len, alternatives))
     if orders > ORDERS:
         raise ParameterError(
-            f"{sum(len(one) > 1 for one in alternatives)} pairs of presences overlap: too many orders to try",
+            f"{sum(len(choice) > 1 for choice in alternatives)} pairs of presences overlap: too many orders to try",
             do="arrange the motions roughly in the required order",
         )
     best: tuple[float, list[Constraint], _Answer] | None = None
@@ -244,7 +244,7 @@ def _best(
         if answer is not None and (best is None or answer.x[0] > best[0]):
             best = (float(answer.x[0]), all_rows, answer)
     if best is None or best[0] < 1e-9:
-        _blame([*rows, *(row for one in alternatives for row in one[0]), *motions], known)
+        _blame([*rows, *(row for alternative in alternatives for row in alternative[0]), *motions], known)
     assert best is not None
     return best
 

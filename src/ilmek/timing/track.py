@@ -283,14 +283,14 @@ def _smooth(segment: TrackSegment, steps: int) -> Iterator[FloatArray]:
 def _dwells(track: Track, moving: list[FloatArray]) -> list[FloatArray]:
     """Rows of the curves between the motions."""
     at = track.segments[0].begin if track.segments else 0.0
-    found, last = [], 0.0
+    dwells, last = [], 0.0
     for one in sorted(moving, key=lambda row: float(row[0, 0])):
         if one[0, 0] > last + _SAME:
-            found.append(_still(last, float(one[0, 0]), at))
+            dwells.append(_still(last, float(one[0, 0]), at))
         last, at = float(one[0, -1]), float(one[1, -1])
     if last < turn - _SAME:
-        found.append(_still(last, turn, at))
-    return found
+        dwells.append(_still(last, turn, at))
+    return dwells
 
 
 def _still(low: float, high: float, at: float) -> FloatArray:

@@ -61,16 +61,24 @@ class LaidOut:
 def laid_out(animation: Animation, looks: Mapping[str, int]) -> LaidOut:
     """The layout of the figure."""
     still, start = animation.still, animation.start
-    moving = tuple(Stroke(one.points[start], one.role, one.label, one.closed) for one in animation.strokes)
+    moving = tuple(
+        Stroke(stroke.points[start], stroke.role, stroke.label, stroke.closed) for stroke in animation.strokes
+    )
     numbers = look_numbers((*still.strokes, *moving), looks)
     rows = list(_rows(animation))
     foot = FOOT + _ROW * len(rows)
-    points = [extent(still), *(one.points.ravel() for one in animation.strokes), *(dot.at for dot in animation.dots)]
+    points = [
+        extent(still),
+        *(stroke.points.ravel() for stroke in animation.strokes),
+        *(dot.at for dot in animation.dots),
+    ]
     pen = pen_for(np.concatenate(points), numbers, still.unit, foot)
     draw_still(pen, still)
     _legend(pen, rows, {at for at, one in enumerate(moving, len(still.strokes)) if one.role == "path"})
     bars = _bars(pen, animation)
-    unnamed = tuple(dataclasses.replace(one, label="") if one.role == "path" else one for one in still.strokes)
+    unnamed = tuple(
+        dataclasses.replace(stroke, label="") if stroke.role == "path" else stroke for stroke in still.strokes
+    )
     quiet = dataclasses.replace(still, strokes=unnamed, dots=())
     fixed = obstacles(pen, still)
     boxes = names(pen, quiet, np.concatenate([fixed, *bars]), foot)
@@ -121,26 +129,26 @@ def _middle(points: ComplexArray, *, closed: bool) -> ComplexArray:
 
 def _dots(pen: Pen, animation: Animation) -> Iterator[MovingPart]:
     """Blocks below the pins; pins of the pivots again, because bars pass over them."""
-    for one in animation.dots:
-        if one.role == "block" and one.along is not None:
-            yield MovingBlock(pen(one.at), one.along)
+    for dot in animation.dots:
+        if dot.role == "block" and dot.along is not None:
+            yield MovingBlock(pen(dot.at), dot.along)
     frames = len(animation.at)
     for pivot in animation.still.dots:
         if pivot.role == "pivot":
             yield MovingCircle(np.full(frames, pen(np.array([pivot.at]))[0]), "pin")
-    for one in animation.dots:
-        if one.role != "block":
-            yield MovingCircle(pen(one.at), one.role)
+    for dot in animation.dots:
+        if dot.role != "block":
+            yield MovingCircle(pen(dot.at), dot.role)
 
 
 def _bars(pen: Pen, animation: Animation) -> list[ComplexArray]:
     """Points along all moving parts at every frame [pt]."""
     ring = 4.0 * np.exp(2j * np.pi * np.arange(8) / 8)
-    found = []
+    bars = []
     for frame in range(len(animation.at)):
         lines = [dotted(pen(stroke.points[frame])) for stroke in animation.strokes]
-        found.append(np.concatenate([*lines, *(pen(dot.at)[frame] + ring for dot in animation.dots)]))
-    return found
+        bars.append(np.concatenate([*lines, *(pen(dot.at)[frame] + ring for dot in animation.dots)]))
+    return bars
 
 
 def _filled(centre: complex, half: complex) -> ComplexArray:

@@ -87,9 +87,9 @@ def _slots(animation: Animation) -> tuple[list[_Slot], float]:
     drive = animation.drive
     extent = float(np.ptp(animation.at)) / parse_unit(drive.unit).factor
     shown = [(drive.label, animation.at, drive.unit, decimals(extent))]
-    for one in animation.readings:
-        digits = decimals(float(np.ptp(one.values)) / parse_unit(one.unit).factor)
-        shown.append((one.label, one.values, one.unit, digits))
+    for reading in animation.readings:
+        digits = decimals(float(np.ptp(reading.values)) / parse_unit(reading.unit).factor)
+        shown.append((reading.label, reading.values, reading.unit, digits))
     placed: list[_Slot] = []
     left, row = _LEFT, 0
     for label, values, unit, digits in shown:

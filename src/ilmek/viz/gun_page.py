@@ -35,7 +35,7 @@ def gun_page(
             for row, own in zip(tufted.gun_colours, plan.colours, strict=True)
         ],
         cost=tufted.gun_cost,
-        results=[one for one in results if one.name not in grouped],
+        results=[result for result in results if result.name not in grouped],
         checks=failures_first(judged(checks, ())),
         first_checks_shown=FIRST_CHECKS,
         files=files,

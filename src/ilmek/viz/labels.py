@@ -43,9 +43,9 @@ def placed(requests: list[LabelRequest], obstacles: ComplexArray, lower: complex
     distance.
     """
     boxes: list[tuple[complex, complex]] = []
-    for one in requests:
-        half = one.half
-        candidates, cost = _candidates(one)
+    for request in requests:
+        half = request.half
+        candidates, cost = _candidates(request)
         least, most = lower + half, upper - half
         out = (candidates.real < least.real) | (candidates.real > most.real)
         out |= (candidates.imag < least.imag) | (candidates.imag > most.imag)

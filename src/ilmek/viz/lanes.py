@@ -136,11 +136,11 @@ class _Frame:
 
 def _keys(kinds: Sequence[tuple[int, str]], left: float) -> list[tuple[int, int, float]]:
     """Kind, row from the top and left edge [pt] of each entry of the legend."""
-    found, row, at = [], 0, left
+    keys, row, at = [], 0, left
     for kind, name in kinds:
         width = _KEY + 4.0 + text_width(name, TEXT) + 14.0
         if at > left and at + width > WIDTH:
             row, at = row + 1, left
-        found.append((kind, row, at))
+        keys.append((kind, row, at))
         at += width
-    return found
+    return keys

@@ -57,10 +57,10 @@ def looks_of(figures: Iterable[Figure]) -> dict[str, int]:
         for one in together:
             beside.setdefault(one, set()).update(together)
     reserved = range(len(bodies)) if len(bodies) <= RESERVED else range(0)
-    for one in dict.fromkeys(subjects[label] for labels in shown for label in labels):
-        used = {numbers[other] for other in beside[one] if other in numbers}
-        if one not in numbers:
-            numbers[one] = next(n for n in itertools.count() if n % len(PALETTE) not in reserved and n not in used)
+    for fromkey in dict.fromkeys(subjects[label] for labels in shown for label in labels):
+        used = {numbers[other] for other in beside[fromkey] if other in numbers}
+        if fromkey not in numbers:
+            numbers[fromkey] = next(n for n in itertools.count() if n % len(PALETTE) not in reserved and n not in used)
     return {label: numbers[of] for label, of in subjects.items()}
 
 

@@ -37,18 +37,18 @@ def named(
     closes        the first frame follows the last
     """
     found: list[ComplexArray] = []
-    for one in requests:
-        around = positions_around(one)
-        centres = one.anchors[:, np.newaxis] + around
-        cost = np.array([covered(at, one.half, met) for at, met in zip(centres, obstacles, strict=True)])
-        least, most = lower + one.half, upper - one.half
+    for request in requests:
+        around = positions_around(request)
+        centres = request.anchors[:, np.newaxis] + around
+        cost = np.array([covered(at, request.half, met) for at, met in zip(centres, obstacles, strict=True)])
+        least, most = lower + request.half, upper - request.half
         cost += _TOUCHED * ((centres.real < least.real) | (centres.real > most.real))
         cost += _TOUCHED * ((centres.imag < least.imag) | (centres.imag > most.imag))
         for other, centre in zip(requests, found, strict=False):
             away = centres - centre[:, np.newaxis]
-            room = one.half + other.half
+            room = request.half + other.half
             cost += _TOUCHED * ((np.abs(away.real) < room.real) & (np.abs(away.imag) < room.imag))
-        found.append(one.anchors + around[steadiest(cost, one.pull, closes=closes)])
+        found.append(request.anchors + around[steadiest(cost, request.pull, closes=closes)])
     return found
 
 

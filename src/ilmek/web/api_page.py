@@ -53,7 +53,7 @@ def with_table(page: str) -> str:
     >>> print(with_table("a\n| request | what it does |\nold\n\nb").splitlines()[-3])
     | `POST /api/carpet/picture` | A picture of the project as it is read, made small (packed). |
     """
-    rows = "\n".join(f"| `{_request(one)}` | {_note(one)} |" for one in ENDPOINTS)
+    rows = "\n".join(f"| `{_request(endpoint)}` | {_note(endpoint)} |" for endpoint in ENDPOINTS)
     head = "| request | what it does |\n"
     return re.sub(re.escape(head) + r"(.+\n)*\n", lambda _: f"{head}|---|---|\n{rows}\n\n", page, count=1)
 

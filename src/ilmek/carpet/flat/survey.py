@@ -53,7 +53,7 @@ def survey(rgb: Rgb) -> Survey:
     step = min(step, (min(height, width) + 1) // 2)
     rows, columns = sample_positions(height, step), sample_positions(width, step)
     size = len(rows) * len(columns)
-    made = Survey(
+    survey = Survey(
         np.empty((size, 3), np.uint8),
         np.empty((size, 3), np.uint8),
         np.empty(size, np.uint8),
@@ -61,8 +61,8 @@ def survey(rgb: Rgb) -> Survey:
         np.empty(size, np.uint8),
         np.zeros((size, 3), np.uint8),
     )
-    _survey(rgb, rows, columns, made.codes, made.means, made.spread, made.ridge, made.ramp, made.beside)
-    return made
+    _survey(rgb, rows, columns, survey.codes, survey.means, survey.spread, survey.ridge, survey.ramp, survey.beside)
+    return survey
 
 
 @uncounted

@@ -80,7 +80,7 @@ class Lattice:
         lines_u, lines_v = (np.arange(np.floor(one[0]), np.ceil(one[-1]) + 1) for one in (u, v))
         corners = self.points(*np.meshgrid(lines_u, lines_v))
         across, along = _between(u - lines_u[0], len(lines_u)), _between(v - lines_v[0], len(lines_v))
-        x, y = (along @ one @ across.T for one in corners)
+        x, y = (along @ corner @ across.T for corner in corners)
         return x, y
 
 

@@ -111,10 +111,10 @@ def _on_every_second(numbers: Indices) -> float:
 def squared_paper(rgb: Rgb, progress: Progress = SILENT) -> PaperReading | None:
     """The chart on a picture that is squared paper beyond doubt; None: it is not."""
     try:
-        found = read_sheet(rgb, progress, NEARLY_EVERYWHERE)
+        reading = read_sheet(rgb, progress, NEARLY_EVERYWHERE)
     except PictureError:
         return None
-    return found if found.certain else None
+    return reading if reading.certain else None
 
 
 def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE) -> PaperReading:
@@ -124,15 +124,15 @@ def read_sheet(rgb: Rgb, progress: Progress = SILENT, spread: Spread = SOMEWHERE
     """
     rgb = np.ascontiguousarray(rgb)
     energy, cells = _clearest(rgb, progress.part(0.0, 0.9), spread)
-    found = cell_colours(cells.colours, cells.spread)
-    doubtful = found.doubtful | off_lattice(cells.x, cells.y)
-    beside = border_beside(cells.around, found.palette, found.numbers)
+    colours = cell_colours(cells.colours, cells.spread)
+    doubtful = colours.doubtful | off_lattice(cells.x, cells.y)
+    beside = border_beside(cells.around, colours.palette, colours.numbers)
     rows, columns = np.nonzero(doubtful)
-    order = np.argsort(found.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
+    order = np.argsort(colours.confidence[rows, columns], kind="stable")[:MOST_SHOWN]
     shown = np.stack([rows[order], columns[order]], axis=-1)
     pitch = energy.factor * 0.5 * (energy.pitch_x + energy.pitch_y)
     views = _views(rgb, cells.x[rows, columns][order], cells.y[rows, columns][order], pitch)
-    return PaperReading(found.palette, found.numbers, found.confidence, doubtful, cells, beside, shown, views)
+    return PaperReading(colours.palette, colours.numbers, colours.confidence, doubtful, cells, beside, shown, views)
 
 
 def _clearest(rgb: Rgb, progress: Progress, spread: Spread) -> tuple[LineEnergy, Cells]:

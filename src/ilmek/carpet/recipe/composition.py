@@ -121,9 +121,9 @@ def compose(
     shapes = {path: (int(rgb.shape[0]), int(rgb.shape[1])) for path, rgb in pictures.items()}
     layout = lay_out(recipe, size, quality, grid, shapes)
     canvas = _Canvas(np.empty((*grid, 3), dtype=np.uint8), pictures, yarns, quality, reading or ReadParams())
-    for one in layout.borders:
-        with located(one.border.where):
-            _draw_border(canvas, one)
+    for border in layout.borders:
+        with located(border.border.where):
+            _draw_border(canvas, border)
         progress(0.1)
     with located(recipe.where):
         done = _draw_field(canvas, recipe, layout, fit or FitParams(), progress.part(0.1, 0.9))

@@ -115,16 +115,16 @@ class _Source:
 def _sources(
     origins: Mapping[Anchor, EditedDesign | str], yarns: Sequence[Yarn], named: set[int]
 ) -> dict[Anchor, _Source | str]:
-    found: dict[Anchor, _Source | str] = {}
+    sources: dict[Anchor, _Source | str] = {}
     for anchor, origin in origins.items():
         if isinstance(origin, str):
-            found[anchor] = origin
+            sources[anchor] = origin
         elif origin.chart is None:
-            found[anchor] = _Source(origin.relation, None, {})
+            sources[anchor] = _Source(origin.relation, None, {})
         else:
             chart, index = _with_yarns(origin.chart, yarns, named)
-            found[anchor] = _Source(origin.relation, chart.knots.copy(), index)
-    return found
+            sources[anchor] = _Source(origin.relation, chart.knots.copy(), index)
+    return sources
 
 
 @dataclass(slots=True)

@@ -184,7 +184,10 @@ class GatedSession(InternalSession):
         return await super().browse(params)
 
     async def create_subscription(self, params: Any, callback: Any, request_callback: Any = None) -> Any:
-        if sum(one.session_id == self.session_id for one in self._subscriptions.values()) >= MOST_OF_SESSION:
+        if (
+            sum(subscription.session_id == self.session_id for subscription in self._subscriptions.values())
+            >= MOST_OF_SESSION
+        ):
             raise ServiceError(ua.StatusCodes.BadTooManySubscriptions)
         params.RequestedPublishingInterval = max(LEAST_INTERVAL, params.RequestedPublishingInterval or 0.0)
         return await super().create_subscription(params, callback, request_callback)
@@ -241,8 +244,8 @@ class GatedSession(InternalSession):
 
     @property
     def _subscriptions(self) -> dict[int, Any]:
-        found: dict[int, Any] = self.subscription_service.subscriptions
-        return found
+        subscriptions: dict[int, Any] = self.subscription_service.subscriptions
+        return subscriptions
 
     def _own(self, number: int) -> Any:
         found = self._subscriptions.get(number)

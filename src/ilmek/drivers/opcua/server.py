@@ -203,7 +203,7 @@ class _Shown:
         enumeration = self.space.type_id("PackML:ProductionMaintenanceModeEnum")
         master = ua.ISA95WorkMasterDataType(ID=plate.programme, Description=ua.LocalizedText(plate.title))
         speeds = ua.Range(0.0, LIKELY_SPEED * plate.heads)
-        machines = {path: [self.space.members(kind, one) for one in _MEMBERS] for path, kind in NESTED.items()}
+        machines = {path: [self.space.members(kind, member) for member in _MEMBERS] for path, kind in NESTED.items()}
         await self.space.write(
             {
                 **{f"{LOOM}.PackML.Status.{name}.EURange": speeds for name in ("MachSpeed", "CurMachSpeed")},

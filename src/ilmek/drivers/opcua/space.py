@@ -230,7 +230,7 @@ class AddressSpace:
     async def _copy_children(self, path: str, declarations: list[ua.NodeId]) -> None:
         """Copy the children of instance declarations and types, those of the first where several have a name."""
         copied: dict[str, list[ua.ReferenceDescription]] = {}
-        for owner in (one for declared in declarations for one in self._with_supertypes(declared)):
+        for owner in (supertype for declared in declarations for supertype in self._with_supertypes(declared)):
             for child in self._children(owner):
                 rule = self._rule(child.NodeId)
                 if rule == _I.ModellingRule_Mandatory or (

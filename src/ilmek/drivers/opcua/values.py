@@ -102,7 +102,7 @@ def _carpet(snapshot: Snapshot) -> dict[str, object]:
 
 
 def _heads(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:
-    found: dict[str, object] = {}
+    heads: dict[str, object] = {}
     for number, head in enumerate(snapshot.heads):
         values = {
             "Column": head.column,
@@ -112,8 +112,8 @@ def _heads(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:
             "RowKnotsTied": head.tied,
             "NextYarn": _name(plate, head.next_yarn),
         }
-        found |= {f"{LOOM}.Heads.Head{number}.{name}": value for name, value in values.items()}
-    return found
+        heads |= {f"{LOOM}.Heads.Head{number}.{name}": value for name, value in values.items()}
+    return heads
 
 
 def _yarn(plate: LoomNameplate, snapshot: Snapshot) -> dict[str, object]:

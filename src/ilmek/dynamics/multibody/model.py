@@ -217,15 +217,15 @@ def model_arrays(system: System) -> Model:
     inertias = [system.inertias[name] for name in system.order]
     ends = [[(body, joint.name) for body in joint.bodies] for joint in system.rigid]
     ends += [[(one.first, one.first_point), (one.second, one.second_point)] for one in springs]
-    ends += [[(one.body, one.point)] * 2 for one in forces]
+    ends += [[(force.body, force.point)] * 2 for force in forces]
     ends += [[(body, pin.name) for body in pin.bodies] for pin in loose]
     numbers = [(0.0, 0.0, 0.0) for _ in system.pins] + [
         (slide.along, _relative_angle(system, slide), 0.0) for slide in system.slides
     ]
     numbers += [(spring.stiffness, spring.length, spring.damping) for spring in springs]
-    numbers += [(complex(one.force).real, complex(one.force).imag, 0.0) for one in forces]
+    numbers += [(complex(force.force).real, complex(force.force).imag, 0.0) for force in forces]
     return Model(
-        masses=np.array([value for one in inertias for value in (one.mass, one.mass, one.moment)]),
+        masses=np.array([value for inertia in inertias for value in (inertia.mass, inertia.mass, inertia.moment)]),
         gravity=complex(system.gravity),
         ends=_pairs([[index[body] for body, _ in pair] for pair in ends]),
         arms=np.array([[system.arm(*end) for end in pair] for pair in ends], dtype=complex).reshape(-1, 2),

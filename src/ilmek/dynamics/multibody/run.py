@@ -77,12 +77,12 @@ class MultibodyHistory:
         contact force along the line of centres and the friction across it.
         """
         pins: list[Joint | ClearancePin] = [*self.system.rigid, *self.system.clearances]
-        known = [one.name for one in pins if isinstance(one, Pin | ClearancePin)]
+        known = [pin.name for pin in pins if isinstance(pin, Pin | ClearancePin)]
         if name not in known:
             raise MechanismError(
                 f"{self.system.name} has no pin {name!r}", allowed=f"it has {', '.join(known) or 'none'}"
             )
-        row = 2 * [one.name for one in pins].index(name)
+        row = 2 * [pin.name for pin in pins].index(name)
         return np.asarray(self.reactions[..., row] + 1j * self.reactions[..., row + 1])
 
     def eccentricity(self, name: str) -> ComplexArray:

@@ -98,14 +98,14 @@ class BeamResult:
     def _extreme(self, order: int, factor: float) -> BeamExtreme:
         rows, widths = derived(self.coefficients, order), np.diff(self.breaks)
         scaled = rows * widths[:, None] ** np.arange(rows.shape[1])
-        found = BeamExtreme(0.0, 0j)
+        extreme = BeamExtreme(0.0, 0j)
         for piece in _candidates(scaled):
             shares = np.concatenate(([0.0, 1.0], _stationary(scaled[piece])))
             values = _horner(scaled[piece], shares)
             worst = int(np.argmax(np.abs(values)))
-            if abs(values[worst]) > found.size * (1 + 1e-12):
-                found = BeamExtreme(float(self.breaks[piece] + widths[piece] * shares[worst]), complex(values[worst]))
-        return BeamExtreme(found.at, found.value * factor)
+            if abs(values[worst]) > extreme.size * (1 + 1e-12):
+                extreme = BeamExtreme(float(self.breaks[piece] + widths[piece] * shares[worst]), complex(values[worst]))
+        return BeamExtreme(extreme.at, extreme.value * factor)
 
 
 def derived(coefficients: NumberArray, order: int) -> NumberArray:

@@ -39,15 +39,15 @@ def levels(text: str) -> list[int]:
     _resolve_weak(kinds, "RL"[1 - base])
     _resolve_brackets(kinds, letters, base)
     _resolve_neutral(kinds, base)
-    found = [base] * len(text)
+    levels = [base] * len(text)
     by_place = dict(zip(real, (_level(kind, base) for kind in kinds), strict=True))
     for place in range(len(text)):
-        found[place] = by_place.get(place, found[place - 1] if place else base)
+        levels[place] = by_place.get(place, levels[place - 1] if place else base)
     for place in range(len(text) - 1, -1, -1):  # L1: blanks at the end of the line
         if unicodedata.bidirectional(text[place]) not in ("WS", "BN"):
             break
-        found[place] = base
-    return found
+        levels[place] = base
+    return levels
 
 
 def visual_runs(text: str) -> list[tuple[str, bool]]:
@@ -112,7 +112,7 @@ def _resolve_brackets(kinds: list[str], letters: list[str], base: int) -> None:
 
 def _pairs(kinds: list[str], letters: list[str]) -> list[tuple[int, int]]:
     """Places of the paired brackets, by the opening one; BD16."""
-    found, waiting = [], []
+    pairs, waiting = [], []
     for place, letter in enumerate(letters):
         if kinds[place] != "ON":
             continue
@@ -121,8 +121,8 @@ def _pairs(kinds: list[str], letters: list[str]) -> list[tuple[int, int]]:
         elif letter in _CLOSING and any(closing == letter for closing, _ in waiting):
             while (top := waiting.pop())[0] != letter:
                 pass
-            found.append((top[1], place))
-    return sorted(found)
+            pairs.append((top[1], place))
+    return sorted(pairs)
 
 
 def _resolve_neutral(kinds: list[str], base: int) -> None:

@@ -65,7 +65,7 @@ def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
 
     A run that begins before the strip has an arrow alone; one that goes on beyond it an arrow beside its whole count.
     """
-    made = []
+    strip_labels = []
     for run in strip.runs:
         begin, end = max(run.first, strip.first), min(run.first + run.cells, strip.stop)
         if begin >= end:
@@ -78,8 +78,8 @@ def strip_labels(strip: Strip, plan: RowsLayout, inks: Inks) -> list[RunLabel]:
         elif end < run.first + run.cells:
             count = f"{run.knots}{mark}→"
         middle = ((begin + end) / 2 - strip.first) * plan.cell
-        made.append(RunLabel(middle, count, signs, max(len(count), len(signs)) * ADVANCE * plan.size))
-    return made
+        strip_labels.append(RunLabel(middle, count, signs, max(len(count), len(signs)) * ADVANCE * plan.size))
+    return strip_labels
 
 
 def levels_of(labels: list[RunLabel]) -> list[int]:

@@ -45,18 +45,18 @@ def _draw(canvas: PrintCanvas, sheet: DrawingSheet) -> None:
     if sheet.stamp:
         write_stamp(canvas, translated(sheet.stamp), sheet.width, sheet.height)
     kinds: dict[object, list[SheetLine]] = {}
-    for line in (*sheet.lines, *(line for one in sheet.dimensions for line in one.lines)):
+    for line in (*sheet.lines, *(line for dimension in sheet.dimensions for line in dimension.lines)):
         kinds.setdefault(line.kind, []).append(line)
     for kind, lines in kinds.items():
         canvas.setLineWidth(LINE_WIDTHS[kind])  # type: ignore[index]
         canvas.setDash(list(LINE_DASHES.get(kind, ())))  # type: ignore[call-overload]
         canvas.setLineCap(0 if kind in LINE_DASHES else 1)
         canvas.drawPath(_path(lines), stroke=1, fill=0)
-    arrows = (arrowhead(*arrow) for one in sheet.dimensions for arrow in one.arrows)
+    arrows = (arrowhead(*arrow) for dimension in sheet.dimensions for arrow in dimension.arrows)
     heads = [SheetLine(LineKind.DIMENSION, np.array(corners), closed=True) for corners in arrows]
     if heads:
         canvas.drawPath(_path(heads), stroke=0, fill=1)
-    for text in (*sheet.texts, *(one.text for one in sheet.dimensions)):
+    for text in (*sheet.texts, *(dimension.text for dimension in sheet.dimensions)):
         _write(canvas, text)
 
 

@@ -56,10 +56,10 @@ def evaluate(text: str, values: Mapping[str, Amount]) -> Amount:
         and is_unit(parser.token)
     ):
         raise parser.error("is a unit without a number", allowed=f"write it like 60{parser.token}")
-    found = parser.sum(0)
+    amount = parser.sum(0)
     if parser.at < len(parser.tokens):
         raise parser.unexpected()
-    return found
+    return amount
 
 
 def names_in(text: str) -> set[str]:
@@ -135,13 +135,13 @@ class _Parser:
             inner = self.signed(depth + 1, divided=divided)
             return Amount(-inner.value, inner.dimension) if sign == "-" else inner
         is_number = self.kind == "number"
-        found = self.power(depth)
+        amount = self.power(depth)
         if not is_number or not (self.kind == "name" or self.token == "("):
-            return found
+            return amount
         if divided and not self.is_unit_next:
             raise self.error(f"is ambiguous at {self.token!r}", allowed="write * or parentheses there")
         right = self.power(depth)
-        return self.checked(found.value * right.value, _combined(found.dimension, right.dimension, 1))
+        return self.checked(amount.value * right.value, _combined(amount.dimension, right.dimension, 1))
 
     def power(self, depth: int) -> Amount:
         base = self.atom(depth)
@@ -173,9 +173,9 @@ class _Parser:
             return self.checked(float(token), NUMBER)
         if self.token == "(" and token in FUNCTIONS:
             return self.call(token, depth)
-        found = Amount(math.pi, NUMBER) if token == "pi" else self.values.get(token)
-        if found is not None:
-            return found
+        amount = Amount(math.pi, NUMBER) if token == "pi" else self.values.get(token)
+        if amount is not None:
+            return amount
         if is_unit(token):
             unit = parse_unit(token)
             return Amount(unit.factor, unit.dimension)
@@ -212,9 +212,9 @@ class _Parser:
         return found
 
     def same(self, amounts: Sequence[Amount], what: str) -> None:
-        for one in amounts:
-            if one.dimension != amounts[0].dimension:
-                both = f"{printed_dimension(amounts[0].dimension)} and {printed_dimension(one.dimension)}"
+        for amount in amounts:
+            if amount.dimension != amounts[0].dimension:
+                both = f"{printed_dimension(amounts[0].dimension)} and {printed_dimension(amount.dimension)}"
                 raise self.error(f"joins {both} by {what}", allowed="quantities of one dimension")
 
     def checked(self, value: float, dimension: Dimension) -> Amount:

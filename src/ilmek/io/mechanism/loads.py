@@ -20,16 +20,16 @@ from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
 def loads_of(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
     """The loads, springs and dampers of a file whose data satisfy the schema. Raises MechanismError with the line."""
     kinds = {"loads": _load, "springs": _spring, "dampers": _spring}
-    found: dict[str, Load] = {}
+    loads: dict[str, Load] = {}
     for key, made in kinds.items():
         for name, table in data.get(key, {}).items():
             with source.located(key, name):
-                if name in found:
+                if name in loads:
                     raise MechanismError(
                         f"the name {name!r} is used twice", do="give each load and spring its own name"
                     )
-                found[name] = made(table, mechanism)
-    return tuple(NamedLoad(name, load) for name, load in found.items())
+                loads[name] = made(table, mechanism)
+    return tuple(NamedLoad(name, load) for name, load in loads.items())
 
 
 def gravity_of(given: Any) -> complex:
@@ -139,7 +139,9 @@ def frictions_of(
 
     parts  joint of the file -> the joints into which it was divided      pins  joint -> its pin
     """
-    return tuple(one for name, table in tables.items() for one in _frictions(name, table, parts, pins, source))
+    return tuple(
+        friction for name, table in tables.items() for friction in _frictions(name, table, parts, pins, source)
+    )
 
 
 def _frictions(

@@ -111,11 +111,11 @@ def _shape(table: Table, body: Body) -> Inertia:
     thickness, density = (1.0, 1.0) if by_mass else (table.get("thickness", 0.0), _density(table))
     if not by_mass and "thickness" not in table:
         raise MechanismError("a shape has no thickness", do="give thickness and material, or its mass")
-    made = _flat(table, body, thickness, density)
+    inertia = _flat(table, body, thickness, density)
     if not by_mass:
-        return made
+        return inertia
     mass = _positive(table, "mass")
-    return replace(made, mass=mass, moment=made.moment * mass / made.mass)
+    return replace(inertia, mass=mass, moment=inertia.moment * mass / inertia.mass)
 
 
 def _flat(table: Table, body: Body, thickness: float, density: float) -> Inertia:
@@ -174,7 +174,7 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
 
     parts  joint of the file -> the joints into which it was divided
     """
-    found: dict[str, PinMember] = {}
+    pin_members: dict[str, PinMember] = {}
     for name, table in tables.items():
         with source.located("pins", name):
             if name not in parts or isinstance(parts[name][0], Slide):
@@ -185,17 +185,17 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
             if not table.get("life", 0.0) >= 0:
                 raise MechanismError(f"life of a bearing is {table['life']:g} s", allowed="0 or more")
             member = PinMember(**_pin_of(table))
-            found |= {joint.name: member for joint in parts[name]}
-    return found
+            pin_members |= {joint.name: member for joint in parts[name]}
+    return pin_members
 
 
 def _pin_of(table: Table) -> JsonObject:
     """A pin's table with the bore and width of its bearing where it has no sizes of its own."""
     made: JsonObject = {"bearing": None}
     if "bearing" in table:
-        found = find_bearing(table["bearing"])
-        made = {"diameter": found.bore, "length": found.width}
-        table = {**table, "bearing": found.name}
+        bearing = find_bearing(table["bearing"])
+        made = {"diameter": bearing.bore, "length": bearing.width}
+        table = {**table, "bearing": bearing.name}
     for key in ("diameter", "length"):
         if key not in table and key not in made:
             raise MechanismError(f"has no {key!r}", allowed="it needs diameter and length, or a bearing")

@@ -71,9 +71,9 @@ def _input(joint: str, body: str, joints: tuple[Joint, ...], members: Mapping[st
         for one in joints
         if one.name == joint or (len(members.get(joint, ())) > 2 and one.name.startswith(f"{joint}."))
     ]
-    if any(isinstance(one, Slide) for one in parts):
+    if any(isinstance(part, Slide) for part in parts):
         return Displacement(joint)
-    holding = [one.name for one in parts if body in one.bodies]
+    holding = [part.name for part in parts if body in part.bodies]
     return Rotation(body, holding[0] if holding else joint)
 
 

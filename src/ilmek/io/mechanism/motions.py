@@ -117,14 +117,14 @@ def motions_of(
     tables: Mapping[str, Table | Measured], mechanism: Mechanism, source: SourceText
 ) -> dict[str, GivenMotion]:
     """Input -> the motion that it follows. Raises MechanismError with the line."""
-    found: dict[str, GivenMotion] = {}
+    motions: dict[str, GivenMotion] = {}
     for name, table in tables.items():
         with source.located("motions", name):
             entry = input_of(name, mechanism)
-            if entry.name in found:
+            if entry.name in motions:
                 raise MechanismError(f"the motion of {name!r} is given twice", do="give it once")
-            found[entry.name] = _motion(table, turning=isinstance(entry, Rotation))
-    return found
+            motions[entry.name] = _motion(table, turning=isinstance(entry, Rotation))
+    return motions
 
 
 def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:

@@ -96,10 +96,10 @@ class _Moving:
         """The nearest position on the line of a block's slide; the position itself for another body."""
         if not self._is_block(body):
             return to
-        for one in self.mechanism.joints:
-            if isinstance(one, Slide) and one.body == body:
-                start = self._world(one.guide, self.mechanism.point(one.guide, one.name))
-                along = cmath.rect(1, self.pose[one.guide][1] + one.along)
+        for joint in self.mechanism.joints:
+            if isinstance(joint, Slide) and joint.body == body:
+                start = self._world(joint.guide, self.mechanism.point(joint.guide, joint.name))
+                along = cmath.rect(1, self.pose[joint.guide][1] + joint.along)
                 return start + along * ((to - start) * along.conjugate()).real
         return to
 

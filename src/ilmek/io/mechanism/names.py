@@ -12,7 +12,9 @@ def parts_of(names: Iterable[str], mechanism: Mechanism) -> dict[str, tuple[Join
     own = tuple(names)
     return {
         name: tuple(
-            one for one in mechanism.joints if one.name == name or (is_part(one.name, name) and one.name not in own)
+            joint
+            for joint in mechanism.joints
+            if joint.name == name or (is_part(joint.name, name) and joint.name not in own)
         )
         for name in own
     }

@@ -195,5 +195,5 @@ def extreme_lengths(
         joints = [name for name, bodies in members.items() if body in bodies and name in own]
         pairs = combinations(joints, 2)
         found += [LinkLength(abs(own[first] - own[second]), body, first, second) for first, second in pairs]
-    lengths = [one for one in found if one.length > 0]
+    lengths = [length for length in found if length.length > 0]
     return (min(lengths), max(lengths)) if lengths else None

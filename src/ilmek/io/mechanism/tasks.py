@@ -33,7 +33,7 @@ def forward_of(
             drive = _motor(table.get("motor"), unit)
         position = value_of(table["position"], unit, "position") if "position" in table else 0.0
         speed = value_of(table["speed"], f"{unit}/s", "speed") if "speed" in table else 0.0
-        against = next((one.name for one in loads if isinstance(one.load, Friction)), None)
+        against = next((load.name for load in loads if isinstance(load.load, Friction)), None)
         if speed == 0 and against is not None:
             given = f"the run starts at rest, where friction {against!r} has no direction"
             raise MechanismError(given, do='give the speed at the start, like speed = "1rpm"')
@@ -80,7 +80,7 @@ def study_of(table: Table | None, mechanism: Mechanism, source: SourceText) -> S
         else:
             first, last = (value_of(table[key], unit, key) for key in ("from", "to"))
             speeds = [float(one) for one in np.linspace(first, last, table.get("count", 5))]
-        if any(not one > 0 for one in speeds) or max(speeds) > MOST_SPEEDS_RATIO * min(speeds):
+        if any(not speed > 0 for speed in speeds) or max(speeds) > MOST_SPEEDS_RATIO * min(speeds):
             raise MechanismError(
                 "speeds of a study cannot be used", allowed=f"above 0, up to {MOST_SPEEDS_RATIO:g} to 1"
             )

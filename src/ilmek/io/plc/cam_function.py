@@ -73,7 +73,7 @@ def _table(cyclogram: Cyclogram, track: Track) -> CamTableText:
 
 def _angles(track: Track, parts: int) -> FloatArray:
     """Both ends of the turn, and each motion in equal parts [rad]."""
-    spans = (np.linspace(max(one.start, 0.0), min(one.end, turn), parts + 1) for one in laid(track))
+    spans = (np.linspace(max(segment.start, 0.0), min(segment.end, turn), parts + 1) for segment in laid(track))
     return np.unique(np.concatenate([[0.0, turn], *spans]))
 
 

@@ -94,15 +94,15 @@ def sensor_variables(heads: int) -> tuple[PlcVariable, ...]:
 
 
 def _outputs(heads: int) -> list[PlcVariable]:
-    found = []
+    outputs = []
     for name in OPERATIONS:
         kind = PlcArray(0, heads - 1, "BOOL") if name == KNOT else "BOOL"
-        found += [
+        outputs += [
             PlcVariable(f"Permit{name}", kind, "the operation may begin"),
             PlcVariable(f"Guard{name}", "BOOL", "the operation may go on"),
             PlcVariable(f"Blocked{name}", "INT", "number of the alarm that forbids it, 0: none"),
         ]
-    return found
+    return outputs
 
 
 def _condition(rule: Interlock, limits: TensionLimits) -> str:

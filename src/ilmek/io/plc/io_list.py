@@ -35,7 +35,7 @@ def io_rows(program: PlcUnit) -> list[IoRow]:
     host: list[IoRow] = []
     for kind, direction, letter in (("VAR_INPUT", "input", "I"), ("VAR_OUTPUT", "output", "Q")):
         addresses = _Addresses(letter)
-        for variable in next(one.variables for one in program.sections if one.kind == kind):
+        for variable in next(section.variables for section in program.sections if section.kind == kind):
             if variable.name in HOST:
                 host.append((variable.name, direction, str(variable.kind), "", variable.meaning, ""))
                 continue

@@ -72,13 +72,13 @@ def _section(parent: ET.Element, section: PlcSection) -> None:
 
 
 def _variables(parent: ET.Element, variables: Iterable[PlcVariable]) -> None:
-    for one in variables:
-        made = ET.SubElement(parent, "variable", {"name": one.name})
-        _type(ET.SubElement(made, "type"), one.kind)
-        if one.initial:
-            _initial(ET.SubElement(made, "initialValue"), one.initial)
-        if one.meaning:
-            _text(ET.SubElement(made, "documentation"), one.meaning)
+    for variable in variables:
+        made = ET.SubElement(parent, "variable", {"name": variable.name})
+        _type(ET.SubElement(made, "type"), variable.kind)
+        if variable.initial:
+            _initial(ET.SubElement(made, "initialValue"), variable.initial)
+        if variable.meaning:
+            _text(ET.SubElement(made, "documentation"), variable.meaning)
 
 
 def _type(parent: ET.Element, kind: PlcType) -> None:

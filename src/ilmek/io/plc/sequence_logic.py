@@ -136,7 +136,7 @@ def _alarms(size: PlcSize) -> str:
     guards = [f"(NOT Rules.Guard{KNOT} AND Busy)"]
     lines = [
         f"    {number}: IF EndStart AND NOT Rules.Guard{name} THEN Found := Rules.Blocked{name}; END_IF;"
-        for number, name in enumerate(capitalised(one.name) for one in ROW_ENDS)
+        for number, name in enumerate(capitalised(end.name) for end in ROW_ENDS)
     ]
     return f"""\
 (* interlocks and alarms *)
@@ -291,9 +291,9 @@ def _row_ends() -> str:
     """What begins behind the last phase: the operations after the knots, when their sensors permit."""
     permits = "\n".join(
         f"        {int(one)}: MayBegin := Rules.Permit{name}; Found := Rules.Blocked{name};"
-        for one, name in ((one, capitalised(one.name)) for one in ROW_ENDS)
+        for one, name in ((end, capitalised(end.name)) for end in ROW_ENDS)
     )
-    assert set(OPERATIONS) >= {capitalised(one.name) for one in ROW_ENDS}
+    assert set(OPERATIONS) >= {capitalised(end.name) for end in ROW_ENDS}
     return f"""\
 ELSIF NOT Busy AND NOT EndBusy THEN
     MayBegin := FALSE;

@@ -74,7 +74,7 @@ def program_outputs(heads: int) -> tuple[PlcVariable, ...]:
         PlcVariable("TieColumn", codes, "at this warp pair"),
         PlcVariable("TieTube", PlcArray(0, heads - 1, "USINT"), "from this tube"),
         PlcVariable("EndStart", "BOOL", "carry out an operation after the knots"),
-        PlcVariable("EndCode", "INT", "its number: " + ", ".join(f"{int(one)} {_words(one.name)}" for one in ROW_ENDS)),
+        PlcVariable("EndCode", "INT", "its number: " + ", ".join(f"{int(end)} {_words(end.name)}" for end in ROW_ENDS)),
         PlcVariable("ChangeStart", "BOOL", "the operator is to change packages"),
         PlcVariable("JogStart", "BOOL", "the axis may move"),
         PlcVariable("AskTie", per_head, "is the knot of the head in the carpet"),

@@ -60,7 +60,7 @@ class PlcStructure:
     @property
     def text(self) -> str:
         """The declaration in structured text."""
-        lines = "\n".join(f"{INDENT}{one.text}" for one in self.variables)
+        lines = "\n".join(f"{INDENT}{variable.text}" for variable in self.variables)
         return f"TYPE {self.name} :\nSTRUCT\n{lines}\nEND_STRUCT;\nEND_TYPE\n"
 
 
@@ -89,7 +89,7 @@ class PlcUnit:
         head = f"{self.kind} {self.name}" + (f" : {self.returns}" if self.returns else "")
         lines = [f"(* {self.meaning} *)", head]
         for section in self.sections:
-            lines += [section.kind, *(f"{INDENT}{one.text}" for one in section.variables), "END_VAR"]
+            lines += [section.kind, *(f"{INDENT}{variable.text}" for variable in section.variables), "END_VAR"]
         return "\n".join((*lines, self.body.rstrip(), f"END_{self.kind}", ""))
 
 
@@ -110,8 +110,8 @@ class PlcProject:
     @property
     def text(self) -> str:
         """The whole program in structured text."""
-        head = "".join(f"(* {one} *)\n" for one in self.remarks)
-        texts = [*(one.text for one in self.structures), *(one.text for one in self.units)]
+        head = "".join(f"(* {remark} *)\n" for remark in self.remarks)
+        texts = [*(structure.text for structure in self.structures), *(unit.text for unit in self.units)]
         return "\n".join((head, *texts))
 
 

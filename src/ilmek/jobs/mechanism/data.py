@@ -43,7 +43,7 @@ SLIDE = ("displacement", "velocity", "acceleration")
 
 def _slides(run: MechanismRun) -> dict[str, tuple[FloatArray, FloatArray, FloatArray]]:
     """Displacement, velocity and acceleration of each slide along its guide."""
-    slides = (one.name for one in run.plan.mechanism.joints if isinstance(one, Slide))
+    slides = (joint.name for joint in run.plan.mechanism.joints if isinstance(joint, Slide))
     moved = {name: output_history(run.motion, Travel(name)) for name in slides}
     return {name: (one.value, one.rate, one.second_rate) for name, one in moved.items()}
 

@@ -43,7 +43,7 @@ def figures(found: Analysis) -> tuple[Figure, ...]:
 def traced_points(run: MechanismRun) -> list[tuple[str, str]]:
     """Bodies and points whose paths are drawn: those of the file, or all points that are no joints."""
     joints = {joint.name for joint in run.plan.mechanism.joints}
-    return list(run.machine.paths) or [one for one in moving_points(run.plan.mechanism) if one[1] not in joints]
+    return list(run.machine.paths) or [point for point in moving_points(run.plan.mechanism) if point[1] not in joints]
 
 
 def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:
@@ -105,8 +105,8 @@ def _force_plots(run: MechanismRun, forces: InverseRun, x: Axis) -> Iterator[Fig
     mechanism = run.plan.mechanism
     sizes = {one.name: np.abs(forces.forces.reactions[one.name]) for one in (*mechanism.joints, *mechanism.couplings)}
     yield from _groups("forces", "Forces of joints", x, Axis("force", "N"), at, sizes)
-    pivots = [one for one in mechanism.joints if isinstance(one, Pin) and GROUND in one.bodies]
-    loads = {one.name: forces.forces.pin(one.name, GROUND) for one in pivots}
+    pivots = [joint for joint in mechanism.joints if isinstance(joint, Pin) and GROUND in joint.bodies]
+    loads = {pivot.name: forces.forces.pin(pivot.name, GROUND) for pivot in pivots}
     yield from _hodographs("frame-pins", "Forces on the frame at its pins", loads)
     if run.machine.inertias:
         yield from _hodographs("shaking", "Shaking force on the frame", {"shaking force": forces.shaking.force})
@@ -122,7 +122,7 @@ def _transmission_plots(found: Analysis, x: Axis) -> Iterator[Figure]:
 def _motion_plots(run: MechanismRun, x: Axis) -> Iterator[Figure]:
     """Slides' displacement, speed and acceleration; the bodies' angles, angular velocities and accelerations."""
     at, motion = run.abscissa, run.motion
-    slides = [one.name for one in run.plan.mechanism.joints if isinstance(one, Slide)]
+    slides = [joint.name for joint in run.plan.mechanism.joints if isinstance(joint, Slide)]
     moved = {name: output_history(motion, Travel(name)) for name in slides}
     for name, title, y, field in (
         ("slide", "Displacement of slides", Axis("displacement", "mm"), "value"),
@@ -144,16 +144,16 @@ def _motion_plots(run: MechanismRun, x: Axis) -> Iterator[Figure]:
 def _study_plots(study: StudyOfSpeeds) -> Iterator[Figure]:
     """Greatest drive effort, pin forces and shaking force against the speed; least margin of the checks."""
     unit, effort = ("rpm", "N*m") if study.turning else ("m/s", "N")
-    x, at = Axis("speed", unit), np.array([one.speed for one in study.points])
-    peaks = np.array([one.run.peak or 0.0 for one in study.points])
+    x, at = Axis("speed", unit), np.array([point.speed for point in study.points])
+    peaks = np.array([point.run.peak or 0.0 for point in study.points])
     yield Plot(
         "study-drive", "Greatest effort of the drive by speed", x, Axis("effort", effort), (Series("drive", at, peaks),)
     )
-    runs = [one.run for one in study.points]
-    forces = {name: np.array([one.pin_forces_max[name] for one in runs]) for name in runs[0].pin_forces_max}
-    forces["shaking force"] = np.array([one.shaking_force_max for one in runs])
+    runs = [point.run for point in study.points]
+    forces = {name: np.array([run.pin_forces_max[name] for run in runs]) for name in runs[0].pin_forces_max}
+    forces["shaking force"] = np.array([run.shaking_force_max for run in runs])
     yield from _groups("study-forces", "Greatest forces by speed", x, Axis("force", "N"), at, forces)
-    margins = np.array([one.least_margin[1] for one in study.points])
+    margins = np.array([point.least_margin[1] for point in study.points])
     if np.isfinite(margins).all():
         limit = Series("limit", at[[0, -1]], np.ones(2), dashed=True)
         curves = (Series("least margin", at, margins), limit)

@@ -81,8 +81,8 @@ def _weighed(run: MechanismRun, built: Construction) -> MechanismRun:
     machine = run.machine
     if not machine.open_masses or run.forces is None:
         return run
-    made = made_inertias(built)
-    weighed = replace(machine, inertias={**machine.inertias, **{body: made[body] for body in machine.open_masses}})
+    inertias = made_inertias(built)
+    weighed = replace(machine, inertias={**machine.inertias, **{body: inertias[body] for body in machine.open_masses}})
     driving = run.running.name if run.running else None
     return replace(run, machine=weighed, forces=inverse_run(weighed, run.motion, driving, run.time))
 

@@ -57,7 +57,7 @@ def _structure(run: MechanismRun) -> tuple[Result, ...]:
         Result("closing_ranges", closing, run.unit, f"{ranges}, from and to", shown=False),
         *_dead_centres(run),
     )
-    return results if run.running else tuple(one for one in results if one.name != "closes")
+    return results if run.running else tuple(result for result in results if result.name != "closes")
 
 
 def _dead_centres(run: MechanismRun) -> tuple[Result, ...]:

@@ -95,7 +95,7 @@ def driven_inputs(machine: OwnMachine, plan: Plan, request: MotionRequest) -> Dr
 
 def _jumps(machine: OwnMachine, name: str) -> tuple[float, ...]:
     """Values of an input at which a load of the machine jumps [rad; m], ascending."""
-    return tuple(sorted(set[float]().union(*(jumps(one.load, name) for one in machine.loads))))
+    return tuple(sorted(set[float]().union(*(jumps(load.load, name) for load in machine.loads))))
 
 
 def _with_jumps(values: FloatArray, at: Sequence[float], turning: bool) -> FloatArray:

@@ -172,9 +172,9 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
     motion = solve(plan, *driven.rates, progress=progress.part(0.0, 1.0, "motion"))
     if (motion.status != Status.OK).all():
         raise _closes_elsewhere(plan, motion, driven)
-    made = run_of(machine, plan, motion, driven, over=request.over)
-    _check_ranges(made)
-    return made
+    run = run_of(machine, plan, motion, driven, over=request.over)
+    _check_ranges(run)
+    return run
 
 
 def run_of(

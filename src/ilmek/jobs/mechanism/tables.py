@@ -85,7 +85,7 @@ def _study_table(study: StudyOfSpeeds) -> Table:
 def _events_table(forward: "OwnForward") -> Table:
     position, speed = ("deg", "rpm") if forward.turning else ("mm", "m/s")
     heads = columns("event", "time [s]", f"position [{position}]", f"speed [{speed}]")
-    rows = tuple((one.name, one.time, one.state.position, one.state.speed) for one in forward.run.events)
+    rows = tuple((event.name, event.time, event.state.position, event.state.speed) for event in forward.run.events)
     return Table("events", "Events of the forward run", heads, rows, brief=True)
 
 
@@ -175,7 +175,7 @@ def _points_table(run: MechanismRun) -> Table:
     for body, point in moving_points(run.plan.mechanism):
         moved = run.motion.point(body, point)
         fields = (moved.position, moved.velocity, moved.acceleration)
-        at, velocity, acceleration = (np.where(open_samples, np.nan, one) for one in fields)
+        at, velocity, acceleration = (np.where(open_samples, np.nan, field) for field in fields)
         level = ROUNDING * greatest(at)
         ends = (*_ends(at.real, level), *_ends(at.imag, level))
         rows.append((f"{point} of {body}", *ends, greatest(velocity), greatest(acceleration)))
@@ -189,7 +189,7 @@ def _bodies_table(run: MechanismRun) -> Table:
     rows = []
     for body in run.plan.mechanism.moving:
         fields = (motion.angle(body), motion.omega(body), motion.alpha(body))
-        angle, omega, alpha = (np.where(open_samples, np.nan, one) for one in fields)
+        angle, omega, alpha = (np.where(open_samples, np.nan, field) for field in fields)
         rows.append((body, *_ends(angle), greatest(omega), greatest(alpha)))
     return Table("bodies", "Bodies", heads, tuple(rows), brief=True)
 

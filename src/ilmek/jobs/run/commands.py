@@ -64,4 +64,4 @@ def waits(session: ControlSession) -> bool:
 
 def _answer(session: ControlSession, *inputs: ControlInput) -> Answer:
     refusals = session.react(inputs).refusals
-    return Answer(not refusals, "; ".join(one.text for one in refusals))
+    return Answer(not refusals, "; ".join(refusal.text for refusal in refusals))

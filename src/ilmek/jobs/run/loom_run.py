@@ -137,8 +137,8 @@ class LoomRun:
         """The carpet compared with its chart, and the state of the controller."""
         now = self._snapshot
         state = COMPLETE if self._session.status().complete else now.state
-        found = compare(self.woven, self.programme, progress)
-        return RunResult(now, state, self.begun, found, str(self.folder.path))
+        woven_result = compare(self.woven, self.programme, progress)
+        return RunResult(now, state, self.begun, woven_result, str(self.folder.path))
 
     def recorded(self) -> str:
         """The inputs of the loom since the run began, as the text of a recording; "" where none are kept."""
@@ -235,8 +235,8 @@ class LoomRun:
 
 def _require_proved(file: Path, progress: Progress) -> None:
     """Raise LoomError for a programme that breaks a rule, with the line of its text form."""
-    found = check_programme(file, progress=progress)
-    if not found.ok:
-        first = found.errors[0]
-        more = f"`ilmek check {file}` lists all {found.count:,} errors"
+    check_result = check_programme(file, progress=progress)
+    if not check_result.ok:
+        first = check_result.errors[0]
+        more = f"`ilmek check {file}` lists all {check_result.count:,} errors"
         raise LoomError(f"{file}, line {first.line} of its text: {first.what}", do=more)

@@ -88,8 +88,8 @@ class Operator:
         state, setup = self._port.state, self._programme.setup
         wefts = all(state.condition.wefts[index] == setup.wefts[index].rows for index in stop.wefts)
         tubes = (
-            state.heads[one.head].condition.yarns[one.tube] == one.yarn
-            and state.heads[one.head].left[one.tube] == nanometres(one.length)
-            for one in stop.tubes
+            state.heads[tube.head].condition.yarns[tube.tube] == tube.yarn
+            and state.heads[tube.head].left[tube.tube] == nanometres(tube.length)
+            for tube in stop.tubes
         )
         return wefts and all(tubes)

@@ -50,13 +50,15 @@ class RunResult:
             "double": found.double,
             "wrong": found.wrong,
             "row_end_faults": found.ends,
-            "faulty": [{"row": one.row + 1, "column": one.column + 1, "fault": one.kind} for one in found.faults],
+            "faulty": [
+                {"row": fault.row + 1, "column": fault.column + 1, "fault": fault.kind} for fault in found.faults
+            ],
             "time": now.time / BILLION,
             "repairs": now.faults,
             "begun": self.begun,
             "programme": now.programme,
             "journal": self.journal,
-            "alarms": [{"name": one.name, "cause": one.cause, "remedy": one.remedy} for one in now.alarms],
+            "alarms": [{"name": alarm.name, "cause": alarm.cause, "remedy": alarm.remedy} for alarm in now.alarms],
         }
 
     def in_words(self) -> list[tuple[str, str]]:
@@ -73,13 +75,13 @@ class RunResult:
             ("repairs", f"{now.faults:,}"),
             ("digest", found.digest),
             ("journal", self.journal),
-            *(("alarm", one.cause) for one in now.alarms),
+            *(("alarm", alarm.cause) for alarm in now.alarms),
         ]
 
 
 def snapshot_json(snapshot: Snapshot, setup: LoomSetup) -> dict[str, Json]:
     """A snapshot as JSON, SI; rows, warp pairs, heads and tubes count from 1, yarns are names."""
-    names = [one.name for one in setup.yarns]
+    names = [yarn.name for yarn in setup.yarns]
 
     def named(index: int | None) -> str | None:
         return None if index is None else names[index]
@@ -91,18 +93,18 @@ def snapshot_json(snapshot: Snapshot, setup: LoomSetup) -> dict[str, Json]:
     found |= {"time": snapshot.time / BILLION, "left": snapshot.left / BILLION, "row": snapshot.row + 1}
     found["heads"] = [
         {
-            "column": counted(one.column),
-            "tube": counted(one.tube),
-            "yarn": named(one.yarn),
-            "tied": one.tied,
-            "knots": one.knots,
-            "next_yarn": named(one.next_yarn),
+            "column": counted(head.column),
+            "tube": counted(head.tube),
+            "yarn": named(head.yarn),
+            "tied": head.tied,
+            "knots": head.knots,
+            "next_yarn": named(head.next_yarn),
         }
-        for one in snapshot.heads
+        for head in snapshot.heads
     ]
-    found["alarms"] = [{**asdict(one), "time": one.time / BILLION} for one in snapshot.alarms]
+    found["alarms"] = [{**asdict(alarm), "time": alarm.time / BILLION} for alarm in snapshot.alarms]
     found["yarns"] = [
-        {"head": one.head + 1, "tube": one.tube + 1, "yarn": names[one.yarn], "left": one.left}
-        for one in snapshot.yarns
+        {"head": yarn.head + 1, "tube": yarn.tube + 1, "yarn": names[yarn.yarn], "left": yarn.left}
+        for yarn in snapshot.yarns
     ]
     return found

@@ -81,7 +81,7 @@ class ControlSession:
             self.port.set_speed(outputs.speed)
         if outputs.orders and self.failure is None:
             self.port.send(outputs.orders)
-        following += [Sensed(one, self._sensed(one)) for one in outputs.questions]
+        following += [Sensed(question, self._sensed(question)) for question in outputs.questions]
         return tuple(following) if following or outputs.halt else None
 
     def _stored(self, outputs: ControlOutputs) -> bool:

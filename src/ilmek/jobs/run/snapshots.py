@@ -41,7 +41,7 @@ class SnapshotMaker:
             programme=self._programme.digest,
             state=state_name(status.state),
             mode=status.mode.name.capitalize(),
-            commands=tuple(one.name.lower() for one in allowed_commands(status.mode, status.state)),
+            commands=tuple(command.name.lower() for command in allowed_commands(status.mode, status.state)),
             row=row,
             rows=setup.rows,
             knots=status.knots,
@@ -52,10 +52,11 @@ class SnapshotMaker:
             speed=speed,
             faults=status.faults,
             stop=_stop_words(status, setup),
-            requests=tuple(one.text for one in status.requests),
+            requests=tuple(request.text for request in status.requests),
             heads=tuple(self._head(head, tied[head], operations) for head in range(setup.heads)),
             alarms=tuple(
-                AlarmView(one.kind.name, one.text, one.kind.remedy, one.kind.latched, one.time) for one in status.alarms
+                AlarmView(alarm.kind.name, alarm.text, alarm.kind.remedy, alarm.kind.latched, alarm.time)
+                for alarm in status.alarms
             ),
             yarns=self._meter.views(tied),
             wefts=self._meter.wefts(),
@@ -101,9 +102,9 @@ def _stop_words(status: ControllerStatus, setup: LoomSetup) -> str:
         return ""
     stop = operation.stop
     wefts = [f"bobbin of {setup.wefts[index].yarn}" for index in stop.wefts]
-    names = [one.name for one in setup.yarns]
+    names = [yarn.name for yarn in setup.yarns]
     tubes = [
-        f"{names[one.yarn]} ({format_quantity(one.length, 'm', 3)}) on tube {one.tube + 1} of head {one.head + 1}"
-        for one in stop.tubes
+        f"{names[tube.yarn]} ({format_quantity(tube.length, 'm', 3)}) on tube {tube.tube + 1} of head {tube.head + 1}"
+        for tube in stop.tubes
     ]
     return "; ".join((*wefts, *tubes))

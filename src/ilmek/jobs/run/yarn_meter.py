@@ -61,9 +61,9 @@ class YarnMeter:
         while self._stops < len(stops) and stops[self._stops].phase <= self._phase:
             for index in stops[self._stops].wefts:
                 self._wefts[index] = self.row
-            for one in stops[self._stops].tubes:
-                self.loading[one.head, one.tube] = one.yarn
-                self._left[one.head, one.tube] = one.length
+            for tube in stops[self._stops].tubes:
+                self.loading[tube.head, tube.tube] = tube.yarn
+                self._left[tube.head, tube.tube] = tube.length
             self._stops += 1
 
     def _use(self, left: FloatArray, begins: IntArray, ends: IntArray) -> None:

@@ -51,7 +51,7 @@ class Context:
 
 def alike(kind: Callable[..., T], source: object, /, **more: object) -> T:
     """A record of a class, with what a source has under the names of its fields, but for the fields that are given."""
-    names = (one.name for one in fields(kind) if one.name not in more and hasattr(source, one.name))  # type: ignore[arg-type]
+    names = (field.name for field in fields(kind) if field.name not in more and hasattr(source, field.name))  # type: ignore[arg-type]
     return kind(**{name: getattr(source, name) for name in names}, **more)
 
 

@@ -101,17 +101,21 @@ def _machine(path: Path, target: Path, name: str, outputs: Outputs, progress: Pr
     order = read_machine_order(str(path), {})
     _expect(target, name, outputs)
     workshop = WorkshopOrder(target) if name == "parts" else None
-    made = design_machine(order.machine, order.settings, workshop, outputs=outputs, progress=progress.part(0.0, 0.8))
+    design_result = design_machine(
+        order.machine, order.settings, workshop, outputs=outputs, progress=progress.part(0.0, 0.8)
+    )
     if name == "mechanism":
-        if made.mechanism is None:
+        if design_result.mechanism is None:
             raise ParameterError(f"{path} has no solution, so that there is no linkage to write")
-        outputs.write(target, mechanism_text(made.mechanism, target))
-    elif name == "space" and made.loom is not None:
-        outputs.write(target, loom_glb(made.loom, made.report))
-    elif name == "parts" and made.workshop is None:
+        outputs.write(target, mechanism_text(design_result.mechanism, target))
+    elif name == "space" and design_result.loom is not None:
+        outputs.write(target, loom_glb(design_result.loom, design_result.report))
+    elif name == "parts" and design_result.workshop is None:
         raise ParameterError(f"{path} has no solution, so that there are no links to make")
-    more = _write_report(made.report, made.as_json, target, name, outputs=outputs, progress=progress.part(0.8, 1.0))
-    return made.report.all_checks, (*made.warnings, *more)
+    more = _write_report(
+        design_result.report, design_result.as_json, target, name, outputs=outputs, progress=progress.part(0.8, 1.0)
+    )
+    return design_result.report.all_checks, (*design_result.warnings, *more)
 
 
 def _linkage(path: Path, target: Path, name: str, outputs: Outputs, progress: Progress) -> Result:

@@ -49,20 +49,20 @@ def attach(group: Group, joint: Joint, body: str) -> Attachment:
 
 def find_attachments(group: Group) -> tuple[Attachment, ...] | None:
     """Attachments of a group's bodies in order, one joint each; None where a body has another number of joints."""
-    found: list[Attachment] = []
+    attachments: list[Attachment] = []
     done: set[str] = set()
     for _ in group.bodies:
         for joint in group.joints:
             ends = [body for body in joint.bodies if body in group.bodies and body not in done]
-            if len(ends) == 1 and joint.name not in {one.joint for one in found}:
-                found.append(attach(group, joint, ends[0]))
+            if len(ends) == 1 and joint.name not in {attachment.joint for attachment in attachments}:
+                attachments.append(attach(group, joint, ends[0]))
                 done.add(ends[0])
-    return tuple(found) if len(found) == len(group.bodies) == len(group.joints) else None
+    return tuple(attachments) if len(attachments) == len(group.bodies) == len(group.joints) else None
 
 
 def locate_all(attached: tuple[Attachment, ...], known: Known, columns: Mapping[str, Columns]) -> dict[str, BodyMotion]:
     """The motions of bodies attached in order to known bodies and to one another."""
     located = dict(known)
-    for one in attached:
-        located[one.body] = one.locate(located[one.on], columns[one.body])
-    return {one.body: located[one.body] for one in attached}
+    for attachment in attached:
+        located[attachment.body] = attachment.locate(located[attachment.on], columns[attachment.body])
+    return {attachment.body: located[attachment.body] for attachment in attached}

@@ -30,7 +30,7 @@ class Geared(Step):
     @property
     def bodies(self) -> tuple[str, ...]:
         """The driven bodies."""
-        return tuple(one.body for one in self.attachments)
+        return tuple(attachment.body for attachment in self.attachments)
 
     @property
     def parents(self) -> tuple[str, ...]:
@@ -73,9 +73,9 @@ class Geared(Step):
         attached = find_attachments(group) if group.couplings else None
         if attached is None:
             return None
-        found = linear_relations(group.mechanism)
+        relations = linear_relations(group.mechanism)
         keys = [("angle", one.body) if one.track is None else ("travel", one.joint) for one in attached]
-        if not all(key in found for key in keys):
+        if not all(key in relations for key in keys):
             return None
         through = tuple(coupling.name for coupling in group.couplings)
-        return cls(attached, tuple(found[key] for key in keys), through, group.parents)
+        return cls(attached, tuple(relations[key] for key in keys), through, group.parents)

@@ -122,7 +122,9 @@ class GeneralGroup(Step):
 
         def system(x: FloatArray) -> tuple[FloatArray, FloatArray]:
             found = self.equations(at(x), drives)
-            return _stack([one.value * self._unit(one) for one in found], samples), self._matrix(found, samples)
+            return _stack([equation.value * self._unit(equation) for equation in found], samples), self._matrix(
+                found, samples
+            )
 
         return at, system
 
@@ -165,12 +167,15 @@ class GeneralGroup(Step):
         moving = dict(posed) | {body: self._anchored(known[body], body) for body in self.parents}
         loop_equations = self.equations(moving, drives)
         speeds = {body: (moving[body].anchor.velocity, moving[body].omega) for body in self.parents}
-        demand = [(one.rate - _share(one, speeds)) * self._unit(one) for one in loop_equations]
+        demand = [(equation.rate - _share(equation, speeds)) * self._unit(equation) for equation in loop_equations]
         v = solve_many(matrix, _stack(demand, samples))
         moving |= {body: self._with_velocity(posed[body], v, k) for k, body in enumerate(self.bodies)}
         loop_equations = self.equations(moving, drives)
         gains = {body: (moving[body].anchor.acceleration, moving[body].alpha) for body in self.parents}
-        demand = [(one.second_rate - one.bias - _share(one, gains)) * self._unit(one) for one in loop_equations]
+        demand = [
+            (equation.second_rate - equation.bias - _share(equation, gains)) * self._unit(equation)
+            for equation in loop_equations
+        ]
         a = solve_many(matrix, _stack(demand, samples))
         columns = {body: self._columns(moving[body], a, k) for k, body in enumerate(self.bodies)}
         return GroupSolution(columns, reciprocal_condition(matrix))
@@ -260,7 +265,7 @@ class GeneralGroup(Step):
 
 def upright(loop_equations: list[Equation]) -> bool:
     """Whether no angle is off by half a turn: there its equation, a sine, is solved too."""
-    return all(np.all(next(iter(one.row.values()))[2] > 0) for one in loop_equations if not one.length)
+    return all(np.all(next(iter(equation.row.values()))[2] > 0) for equation in loop_equations if not equation.length)
 
 
 def _share(one: Equation, rates: Mapping[str, tuple[ComplexField, RealField]]) -> RealField:

@@ -134,7 +134,7 @@ ALARMS: Mapping[str, AlarmKind] = MappingProxyType(
 )
 """All alarms by name: of interlocks, `Fault`, `JournalFault` and `ControlFault`."""
 
-ALARM_NUMBERS: Mapping[int, AlarmKind] = MappingProxyType({one.number: one for one in ALARMS.values()})
+ALARM_NUMBERS: Mapping[int, AlarmKind] = MappingProxyType({alarm.number: alarm for alarm in ALARMS.values()})
 """All alarms by number."""
 
 

@@ -51,7 +51,7 @@ class Controller(ControlCore):
         super().__init__(programme, journal, settings)
         if journal.uncertain:
             doubts.add_frontier(self.state, trusted=False)
-        watching.restore(self.state, [ALARM_NUMBERS[one] for one in journal.alarms if one in ALARM_NUMBERS])
+        watching.restore(self.state, [ALARM_NUMBERS[alarm] for alarm in journal.alarms if alarm in ALARM_NUMBERS])
         self._handlers: dict[type, Callable[[Any, Draft], None]] = {
             Done: self._done,
             Failed: self._failed,
@@ -341,7 +341,7 @@ class Controller(ControlCore):
             row=sequence.row,
             phase=sequence.phase,
             knots=sequence.knots,
-            uncertain=sum(not one.trusted for one in state.doubts.values()),
+            uncertain=sum(not doubt.trusted for doubt in state.doubts.values()),
             retries=state.retries,
             faults=state.faults,
             speed=state.speed,

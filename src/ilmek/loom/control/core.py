@@ -54,7 +54,7 @@ class ControlCore:
         """Record state and mode, durably, and whether operations may be in progress from here on."""
         state = self.state
         weaves = state.state is PackState.EXECUTE and state.mode is not PackMode.MANUAL
-        unsure = any(not one.trusted for one in state.doubts.values())
+        unsure = any(not doubt.trusted for doubt in state.doubts.values())
         moving = weaves or unsure or any(key != JOG for key in state.progress)
         draft.record(state, RecordKind.STATE, state.state, state.sequence.row, state.mode, int(moving), 0)
         draft.sync = True

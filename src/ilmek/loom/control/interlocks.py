@@ -231,9 +231,10 @@ WATCHED: Mapping[LoomAxis, str] = MappingProxyType({LoomAxis.BEATER: "beater_bac
 def contradictions(sensors: Sensors) -> tuple[Contradiction, ...]:
     """The rows of `CONTRADICTIONS` that the sensors show."""
     return tuple(
-        one
-        for one in CONTRADICTIONS
-        if _level(sensors, one.sensor) is one.value and _level(sensors, one.other) is one.other_value
+        contradiction
+        for contradiction in CONTRADICTIONS
+        if _level(sensors, contradiction.sensor) is contradiction.value
+        and _level(sensors, contradiction.other) is contradiction.other_value
     )
 
 

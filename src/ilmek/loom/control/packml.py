@@ -164,7 +164,7 @@ def mode_refused(mode: PackMode, state: PackState) -> Refusal | None:
     """Why a mode cannot be chosen in a state; None: it can."""
     if state in MODE_CHANGES:
         return None
-    allowed = ", ".join(state_name(one) for one in sorted(MODE_CHANGES))
+    allowed = ", ".join(state_name(change) for change in sorted(MODE_CHANGES))
     return Refusal(f"{mode.name.lower()} mode in state {state_name(state)}", f"the mode changes in {allowed}")
 
 

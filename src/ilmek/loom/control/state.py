@@ -94,12 +94,12 @@ class ControllerState:
 
     def copy(self) -> "ControllerState":
         """The same state, to go on by itself."""
-        made = ControllerState(self.sequence.copy(), self.seed, self.crc, self.records, self.speed, self.time)
+        state = ControllerState(self.sequence.copy(), self.seed, self.crc, self.records, self.speed, self.time)
         for name in ControllerState.__slots__:
             value = getattr(self, name)
             if name != "sequence":
-                setattr(made, name, value.copy() if isinstance(value, dict | set) else value)
-        return made
+                setattr(state, name, value.copy() if isinstance(value, dict | set) else value)
+        return state
 
 
 def state_of(journal: OpenedJournal) -> ControllerState:

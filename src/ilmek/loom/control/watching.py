@@ -70,10 +70,10 @@ def refused(state: ControllerState, command: PackCommand) -> Refusal | None:
     if command is PackCommand.CLEAR:
         if state.store_failed:
             return Refusal("Clear while the journal cannot be written", "the journal must be opened again")
-        grave = [one for one in state.alarms.values() if one.kind.reaction is Reaction.ABORT and one.present]
+        grave = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is Reaction.ABORT and alarm.present]
         return Refusal(f"Clear with {grave[0].kind.name}", grave[0].kind.remedy) if grave else None
     if command in _GOING_ON and state.mode is not PackMode.MANUAL:
-        stopping = [one for one in state.alarms.values() if one.kind.reaction is not Reaction.NONE]
+        stopping = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is not Reaction.NONE]
         if stopping:
             one = stopping[0]
             do = "remove the cause" if one.acknowledged else f"remove the cause and acknowledge alarm {one.kind.number}"
@@ -83,7 +83,7 @@ def refused(state: ControllerState, command: PackCommand) -> Refusal | None:
 
 def suspending(state: ControllerState) -> bool:
     """Whether an alarm is active that suspends the machine."""
-    return any(one.kind.reaction is Reaction.SUSPEND for one in state.alarms.values())
+    return any(alarm.kind.reaction is Reaction.SUSPEND for alarm in state.alarms.values())
 
 
 def compared(
@@ -96,7 +96,7 @@ def compared(
         state.watch = {name for name in state.watch if getattr(sensors, name)}
     opposed = contradictions(sensors)
     _end_causes(state, sensors, limits, bool(opposed), draft)
-    found = [(str(ControlFault.CONTRADICTION), one.name) for one in opposed]
+    found = [(str(ControlFault.CONTRADICTION), contradiction.name) for contradiction in opposed]
     if state.progress:
         axes = frozenset[LoomAxis]().union(*(axes_of(order) for order in state.progress.values()))
         found += [(rule.name, "") for rule in broken_guards(axes, sensors, limits)]

@@ -275,7 +275,7 @@ def _require_setup(setup: LoomSetup) -> None:
         "loading": setup.loading.shape == shape and bool((loaded < yarns).all()),
         "packages": setup.packages.shape == shape and bool((np.isfinite(setup.packages) & (setup.packages >= 0)).all()),
         "yarn of a knot": len(setup.knot_yarn) == yarns and all(0 < one < math.inf for one in setup.knot_yarn),
-        "times": _are_times(setup.times) and all(0 <= one.time < math.inf for one in setup.wefts),
+        "times": _are_times(setup.times) and all(0 <= weft.time < math.inf for weft in setup.wefts),
     }
     for name, holds in sound.items():
         if not holds:
@@ -285,4 +285,4 @@ def _require_setup(setup: LoomSetup) -> None:
 def _are_times(times: OperationTimes) -> bool:
     ends = times.row_ends
     all_times = (times.knot, times.colour_change, times.travel, times.tube_change, *ends)
-    return len(ends) == len(ROW_ENDS) and list(ends) == sorted(ends) and all(0 <= one < math.inf for one in all_times)
+    return len(ends) == len(ROW_ENDS) and list(ends) == sorted(ends) and all(0 <= time < math.inf for time in all_times)

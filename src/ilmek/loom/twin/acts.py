@@ -60,12 +60,12 @@ def changed_packages(plant: PlantModel, loom: LoomCondition, heads: Heads, stop:
         plant.setup.wefts[index].rows if index in stop.wefts else rows for index, rows in enumerate(loom.wefts)
     )
     found = list(heads)
-    for one in stop.tubes:
-        head = found[one.head]
+    for tube in stop.tubes:
+        head = found[tube.head]
         left, yarns = list(head.left), list(head.condition.yarns)
-        left[one.tube], yarns[one.tube] = nanometres(one.length), one.yarn
-        broken = head.condition.broken & ~(1 << one.tube)
-        found[one.head] = replace(
+        left[tube.tube], yarns[tube.tube] = nanometres(tube.length), tube.yarn
+        broken = head.condition.broken & ~(1 << tube.tube)
+        found[tube.head] = replace(
             head, left=tuple(left), condition=replace(head.condition, yarns=tuple(yarns), broken=broken)
         )
     return replace(loom, wefts=wefts), found

@@ -43,7 +43,7 @@ def stop_words(stop: Stop) -> str:
     >>> stop_words(Stop(3, 0, (1,), (TubeChange(0, 2, 4, 0.5),)))
     '3 0 1 / 0 2 4 500000000'
     """
-    tubes = (f"{one.head} {one.tube} {one.yarn} {round(BILLION * one.length)}" for one in stop.tubes)
+    tubes = (f"{tube.head} {tube.tube} {tube.yarn} {round(BILLION * tube.length)}" for tube in stop.tubes)
     return " ".join([str(stop.row), str(stop.phase), *map(str, stop.wefts), "/", *tubes])
 
 

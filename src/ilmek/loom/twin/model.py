@@ -96,11 +96,11 @@ class PlantModel:
     def change_time(self, stop: Stop) -> int:
         """Duration of a stop: its changes one after the other [ns]. Raises LoomError for one that does not exist."""
         setup = self.setup
-        for one in stop.tubes:
-            inside = 0 <= one.head < setup.heads and 0 <= one.tube < setup.tubes and 0 <= one.yarn < len(setup.yarns)
-            if not inside or not 0 <= one.length <= LONGEST_PACKAGE:
+        for tube in stop.tubes:
+            inside = 0 <= tube.head < setup.heads and 0 <= tube.tube < setup.tubes and 0 <= tube.yarn < len(setup.yarns)
+            if not inside or not 0 <= tube.length <= LONGEST_PACKAGE:
                 raise LoomError(
-                    f"a package of {one.length:g} m of yarn {one.yarn} for tube {one.tube} of head {one.head}",
+                    f"a package of {tube.length:g} m of yarn {tube.yarn} for tube {tube.tube} of head {tube.head}",
                     allowed=f"{len(setup.yarns)} yarns, {setup.tubes} tubes, {setup.heads} heads, all from 0",
                 )
         if any(not 0 <= index < len(setup.wefts) for index in stop.wefts):

@@ -46,10 +46,10 @@ class Packages:
 
     def change(self, stop: Stop, walk: Walk) -> None:
         """Take the packages of a stop off, before the walk has the new ones."""
-        for one in stop.tubes:
-            self._take_off(walk, one.head, one.tube)
-            self.lengths[one.head, one.tube] = one.length
-            self.lost[one.head, one.tube] = 0
+        for tube in stop.tubes:
+            self._take_off(walk, tube.head, tube.tube)
+            self.lengths[tube.head, tube.tube] = tube.length
+            self.lost[tube.head, tube.tube] = 0
 
     def finish(self, walk: Walk) -> None:
         """Take the last packages off."""

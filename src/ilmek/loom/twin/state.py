@@ -186,7 +186,7 @@ def first_state(plant: PlantModel) -> PlantState:
         PlantHead(NOWHERE, NOWHERE, full_tubes(plant, head), HeadCondition(tuple(plant.setup.loading[head].tolist())))
         for head in range(plant.setup.heads)
     )
-    return PlantState(0, heads, LoomCondition(tuple(one.rows for one in plant.setup.wefts)))
+    return PlantState(0, heads, LoomCondition(tuple(weft.rows for weft in plant.setup.wefts)))
 
 
 def full_tubes(plant: PlantModel, head: int) -> tuple[int, ...]:
@@ -205,7 +205,7 @@ def sensors_of(plant: PlantModel, state: PlantState) -> Sensors:
     loom = state.condition
     closed = [gripping(head, state.time) for head in state.heads]
     top, bottom = SLACK if loom.slack else (1, 1) if loom.shed_closed else OPEN_SHED
-    answers: dict[str, bool | float | None] = {one.sensor: one.value for one in loom.faulty}
+    answers: dict[str, bool | float | None] = {fault.sensor: fault.value for fault in loom.faulty}
     tension = answers.get("warp_tension", plant.tension * top // bottom / 1000)
     return Sensors(
         door_closed=bool(answers.get("door_closed", loom.door_closed)),

@@ -233,7 +233,7 @@ class CarpetStatistics:
     def yarn(self) -> list[dict[str, Any]]:
         found = []
         for index, yarn in enumerate(self.setup.yarns):
-            own = [one for one in self.packages_used if one.yarn == index]
+            own = [use for use in self.packages_used if use.yarn == index]
             knots = sum(one.knots for one in own)
             found.append(
                 {
@@ -251,14 +251,14 @@ class CarpetStatistics:
     def packages(self) -> list[dict[str, Any]]:
         return [
             {
-                "head": one.head + 1,
-                "tube": one.tube + 1,
-                "yarn": self.setup.yarns[one.yarn].name,
-                "length": one.length,
-                "used": one.used,
-                "left": one.left,
+                "head": use.head + 1,
+                "tube": use.tube + 1,
+                "yarn": self.setup.yarns[use.yarn].name,
+                "length": use.length,
+                "used": use.used,
+                "left": use.left,
             }
-            for one in self.packages_used
+            for use in self.packages_used
         ]
 
     @property

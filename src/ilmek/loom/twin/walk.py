@@ -77,10 +77,10 @@ class Walk:
 
     def change(self, stop: Stop) -> None:
         """Put new packages on tubes."""
-        for one in stop.tubes:
-            self.loaded[one.head, one.tube] = one.yarn
-            self.yarns[one.head, one.tube] = yarn_of_a_knot(self.setup, one.yarn)
-            self.tied[one.head, one.tube] = 0
+        for tube in stop.tubes:
+            self.loaded[tube.head, tube.tube] = tube.yarn
+            self.yarns[tube.head, tube.tube] = yarn_of_a_knot(self.setup, tube.yarn)
+            self.tied[tube.head, tube.tube] = 0
 
 
 def stops_before(row: RowOperations, phase: int) -> tuple[Stop, ...]:

@@ -103,10 +103,10 @@ def woven_size(setup: LoomSetup) -> int:
 
 def state_words(state: PlantState) -> tuple[int, ...]:
     """What a loom keeps without its control, as whole numbers: see the module."""
-    found = [state.time, *state.condition.wefts]
+    state_words = [state.time, *state.condition.wefts]
     for head in state.heads:
-        found += [head.column, head.tube, *head.left, *head.condition.yarns]
-    return tuple(found)
+        state_words += [head.column, head.tube, *head.left, *head.condition.yarns]
+    return tuple(state_words)
 
 
 def state_of_words(plant: PlantModel, words: Sequence[int]) -> PlantState:

@@ -68,7 +68,7 @@ def by_hand(params: AutomatedLoomParams) -> tuple[AnyComponent, Params] | None:
     if HAND not in (params.shed, params.beat):
         return None
     loom = MACHINES["hand-loom"]
-    return loom, loom.params(**{one.name: getattr(params, one.name) for one in fields(params)})
+    return loom, loom.params(**{field.name: getattr(params, field.name) for field in fields(params)})
 
 
 MACHINE: Component[AutomatedLoomParams, LoomDesign, LoomAnalysis] = Component(

@@ -148,7 +148,7 @@ class Brackets:
     @property
     def face(self) -> float:
         """Inner face of the columns from the middle of the width [m]."""
-        return max(one.outer for one in self.plates)
+        return max(plate.outer for plate in self.plates)
 
 
 @lru_cache(maxsize=4)
@@ -343,13 +343,15 @@ def bracket_checks(loom: LoomDesign, made: Brackets, column: HollowSquare) -> tu
     limit, side = STEEL.strength / loom.params.column_safety, loom.side
     stresses = (
         at_most(
-            f"frame: stress of the {one.title}", one.stress, limit, "MPa", "yield of S235 over column_safety"
-        ).with_cure(_CURE, part_id(one.name))
-        for one in made.plates
+            f"frame: stress of the {plate.title}", plate.stress, limit, "MPa", "yield of S235 over column_safety"
+        ).with_cure(_CURE, part_id(plate.name))
+        for plate in made.plates
     )
     behind, before = side.column_room
     gap = (before - behind - column.side) / 2
     source = "between the bearings of upper and lower cylinders; assumed by this project"
     room = at_least("frame: room of a column", gap, ROOM, "mm", source).with_cure(_CURE, part_id("column"))
-    seats = (one.seat.check(f"frame: bearing on the {one.title}", _CURE, part_id(one.name)) for one in made.plates)
+    seats = (
+        plate.seat.check(f"frame: bearing on the {plate.title}", _CURE, part_id(plate.name)) for plate in made.plates
+    )
     return (*stresses, *seats, *_beam_checks(loom, made.beam, made.pull), room)

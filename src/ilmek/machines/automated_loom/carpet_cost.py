@@ -89,7 +89,7 @@ class CarpetCost:
 
     @computed("", "steps of making: time [s] and cost of each, without yarn")
     def making_steps(self) -> list[Json]:
-        return [one.as_json() for one in self.steps]
+        return [step.as_json() for step in self.steps]
 
     @property
     def steps(self) -> list[MakingStep]:

@@ -314,7 +314,7 @@ def _slide(beat: Beat, period: float, back: float) -> tuple[Track, ...]:
         ("across", first, last, beat.park, beat.park + beat.slide),
         ("out", back, back + parked, beat.park + beat.slide, whole),
     )
-    there = [TrackSegment(*one, law) for one in runs if one[3] != one[4]]
+    there = [TrackSegment(*run, law) for run in runs if run[3] != run[4]]
     again = [
         TrackSegment(f"{name} again", _HALF + start, _HALF + end, whole - begin, whole - finish, law)
         for name, start, end, begin, finish in runs

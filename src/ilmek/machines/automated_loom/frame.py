@@ -208,7 +208,7 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], Iterable[Check]] = 
 
 def rail_for(task: RailTask) -> tuple[HollowSquare, tuple[Choice, ...]]:
     """The lightest section of the heads' rail that keeps its checks, and the choice of it."""
-    high = [(1, one) for one in ascending() if one.side >= task.least]
+    high = [(1, square) for square in ascending() if square.side >= task.least]
     (_, rail), choice = _chosen("rail", high, lambda one: rail_checks(task, one[1]))
     return rail, (choice,)
 

@@ -113,8 +113,8 @@ def carried_masses(loom: LoomDesign) -> tuple[tuple[float, float], ...]:
         machine = loom.machines.get(name)
         mass = 0.0 if machine is None else sum(machine.number * part.mass_all for part in machine.parts)
         carried += [(mass / len(own), height - side.floor) for height in own]
-    for one in brackets_of(loom).plates:
-        carried.append((2 * one.plate.volume * STEEL.density, float(one.nodes.imag.mean()) - side.floor))
+    for plate in brackets_of(loom).plates:
+        carried.append((2 * plate.plate.volume * STEEL.density, float(plate.nodes.imag.mean()) - side.floor))
     return tuple(carried)
 
 

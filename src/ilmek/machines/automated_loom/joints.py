@@ -53,8 +53,8 @@ class Seam:
 @lru_cache(maxsize=4)
 def seams(loom: LoomDesign, frame: LoomFrame) -> tuple[Seam, ...]:
     """The welds of brackets and posts."""
-    made = brackets_of(loom)
-    return (*(_of_bracket(frame, made.face, plate) for plate in made.plates), *_of_posts(loom, frame))
+    brackets = brackets_of(loom)
+    return (*(_of_bracket(frame, brackets.face, plate) for plate in brackets.plates), *_of_posts(loom, frame))
 
 
 def with_throats(body: RigidBody, made: tuple[Seam, ...]) -> RigidBody:

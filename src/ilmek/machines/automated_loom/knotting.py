@@ -253,8 +253,8 @@ def require_knot(params: AutomatedLoomParams) -> None:
 @lru_cache(maxsize=32)
 def _designed(params: KnottingDyadParams) -> KnottingDyad:
     """The arms, designed once for each set of parameters."""
-    made: KnottingDyad = MACHINES[DYAD].design(params)
-    return made
+    dyad: KnottingDyad = MACHINES[DYAD].design(params)
+    return dyad
 
 
 def with_arms(weaver: Weaver, arms: KnottingDyad) -> Cyclogram:

@@ -35,12 +35,12 @@ class NearestFit:
 
 def nearest_fits(params: AutomatedLoomParams, progress: Progress = SILENT) -> tuple[NearestFit, ...]:
     """The nearest carpets that a loom for these wishes can weave, one for each wish that helps when it is relaxed."""
-    found: list[NearestFit] = []
+    nearest_fits: list[NearestFit] = []
     steps = (_coarser, _narrower, _other_knots)
     for number, step in enumerate(steps):
         progress.part(number / len(steps), (number + 1) / len(steps), "nearest carpet that can be woven")
-        found += step(params)
-    return tuple(found)
+        nearest_fits += step(params)
+    return tuple(nearest_fits)
 
 
 def weaves(params: AutomatedLoomParams, *, in_space: bool = True) -> bool:

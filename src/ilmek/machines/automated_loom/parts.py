@@ -107,7 +107,8 @@ def _rail_holds(loom: LoomDesign, frame: LoomFrame) -> bool:
 def own_lines(loom: LoomDesign, listed: PartsList) -> tuple[BillLine, ...]:
     """The lines of the loom's own parts, of those with the parts of its machines."""
     machines = {
-        line.part for line in (*chain.from_iterable(one.parts for one in loom.machines.values()), *loom.beat.parts)
+        line.part
+        for line in (*chain.from_iterable(machine.parts for machine in loom.machines.values()), *loom.beat.parts)
     }
     return tuple(line for line in listed.parts if line.part not in machines)
 

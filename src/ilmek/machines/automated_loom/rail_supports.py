@@ -186,7 +186,7 @@ def _lightest(
     stiff: Callable[[Iterator[HollowSquare]], HollowSquare | None],
 ) -> RailSupport:
     """The support of the lightest sections that keep its checks, of stiff posts; of the largest where none does."""
-    posts = [one for one in ascending() if RAIL_AXIS <= one.side <= most]
+    posts = [square for square in ascending() if RAIL_AXIS <= square.side <= most]
     arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
     post = stiff(one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))) or posts[-1]
     arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])

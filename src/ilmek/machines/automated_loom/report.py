@@ -115,7 +115,7 @@ class LoomAnalysis:
     cloth_clearance = computed(
         "mm",
         "least distance of what moves in a row from warps and carpet; below 0 it is in them",
-        lambda it: min((one.value for one in cloth_clearances(it.loom)), default=HORIZON),
+        lambda it: min((clearance.value for clearance in cloth_clearances(it.loom)), default=HORIZON),
     )
     tension = computed("N", "tension of a warp", lambda it: it.loom.warp_tension.params.cloth.warp_tension)
 
@@ -331,7 +331,7 @@ def _rates_table(found: LoomAnalysis) -> tuple[Table, ...]:
     rivals = tuple(_rivals(found, search))
     limits = rate_limits(found.cost, [cost for _, cost in rivals])
     names = [search.unlike(offer) for offer, _ in rivals]
-    rows = tuple((one.rate.name, one.rate.doc, *_moved(one, names)) for one in limits)
+    rows = tuple((limit.rate.name, limit.rate.doc, *_moved(limit, names)) for limit in limits)
     title = f"Rates: how far each can move before another of {len(rivals) + 1} designed looms is the cheapest"
     return (Table("loom-rates", title, columns("rate | what it is | now | down to | then | up to | then"), rows),)
 

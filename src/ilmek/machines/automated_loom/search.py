@@ -78,7 +78,7 @@ class LoomSearch:
     def others(self) -> tuple[tuple[LoomOffer, CarpetCost], ...]:
         """The other looms that were designed and not refused, with the cost of a carpet, the least first."""
         refused = {self.chosen.key, *(offer.key for offer, _ in self.lost)}
-        good = (one for one in self.costs if one[0].key not in refused)
+        good = (cost for cost in self.costs if cost[0].key not in refused)
         return tuple(sorted(good, key=lambda one: float(one[1].cost_per_carpet)))
 
     @property

@@ -78,21 +78,21 @@ def standing_frame(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds) -> R
 
     needs  of the control
     """
-    made = brackets_of(loom)
+    brackets = brackets_of(loom)
     parts = (
-        *_uprights(loom, frame, made),
-        *_across(loom, frame, made),
-        *_feet(loom, frame, made),
-        *(own for one in made.plates for own in _bracket(loom, frame, made, one)),
-        *_carried(loom, made),
+        *_uprights(loom, frame, brackets),
+        *_across(loom, frame, brackets),
+        *_feet(loom, frame, brackets),
+        *(own for plate in brackets.plates for own in _bracket(loom, frame, brackets, plate)),
+        *_carried(loom, brackets),
         *control_parts(
-            made.face + frame.column.side,
+            brackets.face + frame.column.side,
             loom.side.floor,
             loom.side.column - frame.column.side / 2 - frame.task.depth,
             needs,
         ),
-        *support_bodies(loom, frame, made.face),
-        *steady_posts(loom, frame, made),
+        *support_bodies(loom, frame, brackets.face),
+        *steady_posts(loom, frame, brackets),
     )
     return RigidBody(part_id("frame"), parts)
 
@@ -253,7 +253,7 @@ def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) 
 
 def _both(sides: Iterable[float]) -> Iterator[float]:
     """Distances from the middle to both sides [m]."""
-    return (x for one in sides for x in (-one, one))
+    return (x for side in sides for x in (-side, side))
 
 
 def _placed(part: Part, positions: Iterable[Placement]) -> Occurrence:

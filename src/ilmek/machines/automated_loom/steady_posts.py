@@ -63,7 +63,7 @@ def cam_beam_section(frame: LoomFrame, made: Brackets) -> HollowSquare:
 def _between(made: Brackets) -> tuple[float, float]:
     """Heights of the upper end of the spacer's bracket and of the lower end of the lowest cam bracket [m]."""
     spacer, _, *of_cams = made.shafts
-    lowest = min(float(one.nodes.imag.min()) - one.radius for one in of_cams)
+    lowest = min(float(cam.nodes.imag.min()) - cam.radius for cam in of_cams)
     return float(spacer.nodes.imag.max()) + spacer.radius, lowest
 
 
@@ -84,9 +84,9 @@ def steady_post(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> SteadyPos
     height = max(y + own.half_height for _, y, own, _ in held) - bottom
     arm, force = max(y for _, y, _, _ in held) - bottom, sum(shaft.shaft.seat.reaction for *_, shaft in held)
     number = held[0][3].params.spans - 1
-    offered = [one for one in ascending() if one.side <= frame.column.side]
+    offered = [square for square in ascending() if square.side <= frame.column.side]
     posts = (SteadyPost(one, height, arm, force, 2 * made.face, number) for one in offered)
-    chosen = (one for one in posts if all(check.ok for check in _post_checks(one)))
+    chosen = (post for post in posts if all(check.ok for check in _post_checks(post)))
     return next(chosen, SteadyPost(offered[-1], height, arm, force, 2 * made.face, number))
 
 

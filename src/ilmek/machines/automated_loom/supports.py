@@ -136,7 +136,7 @@ def supports(loom: LoomDesign, frame: LoomFrame) -> LoomSupports:
         weight=loom.weft.bodies.tree.mass * GRAVITY,
         inertia=loom.weft.axis.mass * loom.weft.passage.acceleration,
     )
-    tube = next((one for one in ascending() if all(c.ok for c in loads.checks(one))), ascending()[-1])
+    tube = next((square for square in ascending() if all(c.ok for c in loads.checks(square))), ascending()[-1])
     return LoomSupports(post, height, force, across, tube, loads, None)
 
 
@@ -150,7 +150,9 @@ def post_for(height: float, force: float, mass: float, least: float, *, across: 
 
     height  [m]      force, mass  at its end [N, kg]      least  natural frequency of the frame [Hz]
     """
-    strong = (one for one in ascending() if all(check.ok for check in post_checks(one, height, force, across=across)))
+    strong = (
+        square for square in ascending() if all(check.ok for check in post_checks(square, height, force, across=across))
+    )
     return stiff_post(strong, height, mass, least) or ascending()[-1]
 
 
@@ -206,7 +208,7 @@ def post_depth(loom: LoomDesign, frame: LoomFrame) -> float:
 
 def base_section(loom: LoomDesign, frame: LoomFrame) -> HollowSquare:
     """Section of feet and beams at the floor: the columns', or the largest that has room under the lowest bracket."""
-    lowest = min(float(one.nodes.imag.min()) - one.radius for one in brackets_of(loom).plates)
+    lowest = min(float(plate.nodes.imag.min()) - plate.radius for plate in brackets_of(loom).plates)
     return within(frame.column, lowest - ROOM - loom.side.floor - FOOT)
 
 

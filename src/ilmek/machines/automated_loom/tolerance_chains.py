@@ -44,7 +44,7 @@ def _stacks(loom: LoomDesign) -> Iterator[ToleranceStack]:
     loose = _on_bar(tree) / 2
     cams += [ToleranceLink(f"{which} cam on its bar", loose, ratio, play=True) for which in ("upper", "lower")]
     yield ToleranceStack("height of the shed", shedding.shed_opening - params.shuttle_height, tuple(cams))
-    met = [(one.bore.part.id, one.inner.part.id) for one in meetings(tree)] if loom.heads else []
+    met = [(meeting.bore.part.id, meeting.inner.part.id) for meeting in meetings(tree)] if loom.heads else []
     if (PARTITION, ROD) not in met:
         return
     own, opener = loom.weaver.params.opener, loom.weaver.opener
@@ -62,7 +62,11 @@ def _stacks(loom: LoomDesign) -> Iterator[ToleranceStack]:
     room = (opener.pitch - loom.weaver.params.warp - own.tip) / 2
     head = ToleranceLink("head on its rail", own.placing)
     yield ToleranceStack("opener between two warps", room, (*warps, head, *on_rods))
-    guided = [one for one in meetings(tree) if one.inner.part.id == GRIPPER and one.bore.part.id in {FACE, BAR}]
+    guided = [
+        meeting
+        for meeting in meetings(tree)
+        if meeting.inner.part.id == GRIPPER and meeting.bore.part.id in {FACE, BAR}
+    ]
     if len({one.bore.part.id for one in guided}) == len((FACE, BAR)):
         yield ToleranceStack("gripper beside a warp", loom.weaver.params.clearance, (*_guides(loom, guided), *on_rods))
 
@@ -77,7 +81,7 @@ def _on_bar(tree: Tree) -> float:
 
 def _guides(loom: LoomDesign, guided: list[Meeting]) -> Iterator[ToleranceLink]:
     """Play and position of the two bores of a gripper, in the ratio in which they move its tip."""
-    near, far = (next(one for one in guided if one.bore.part.id == part) for part in (FACE, BAR))
+    near, far = (next(meeting for meeting in guided if meeting.bore.part.id == part) for part in (FACE, BAR))
     first, second = (sum(one.along) / 2 for one in (near, far))
     for part, ratio in ((FACE, second / (second - first)), (BAR, first / (first - second))):
         title = "face" if part == FACE else "opener's cross-bar"
@@ -87,8 +91,10 @@ def _guides(loom: LoomDesign, guided: list[Meeting]) -> Iterator[ToleranceLink]:
 
 def _placed(loom: LoomDesign, part: str, mate: str) -> float:
     """How far a bore of a part for another may be beside its place [m]; 0: all others are measured from it."""
-    features = (one for one in tolerances_of(loom_tree(loom))[part] if mate in one.mates)
-    positions = (own for one in features for own in one.geometric if own.characteristic is Characteristic.POSITION)
+    features = (tolerance for tolerance in tolerances_of(loom_tree(loom))[part] if mate in tolerance.mates)
+    positions = (
+        own for feature in features for own in feature.geometric if own.characteristic is Characteristic.POSITION
+    )
     return max((own.value / 2 for own in positions), default=0.0)
 
 
@@ -97,10 +103,10 @@ def chain_checks(loom: LoomDesign) -> tuple[Check, ...]:
     source = "fits of ISO 286; 99.7 % of all looms"
     cures = {"height of the shed": "set a larger lift"}
     return tuple(
-        at_most(f"tolerance chain: {one.title}", one.statistical, one.room, "mm", source).with_cure(
-            cures.get(one.title, "set a coarser quality, or thinner warps")
+        at_most(f"tolerance chain: {stack.title}", stack.statistical, stack.room, "mm", source).with_cure(
+            cures.get(stack.title, "set a coarser quality, or thinner warps")
         )
-        for one in tolerance_stacks(loom)
+        for stack in tolerance_stacks(loom)
     )
 
 
@@ -109,12 +115,12 @@ def chain_table(loom: LoomDesign) -> Table:
     heads = columns("chain", "link", "to each side [mm]", "ratio", "share [mm]")
     rows = [
         row
-        for one in tolerance_stacks(loom)
+        for stack in tolerance_stacks(loom)
         for row in (
-            *((one.title, link.name, link.deviation, link.ratio, link.share) for link in one.links),
-            (one.title, "worst case", one.worst, 1.0, one.worst),
-            (one.title, "statistical", one.statistical, 1.0, one.statistical),
-            (one.title, "room", one.room, 1.0, one.room),
+            *((stack.title, link.name, link.deviation, link.ratio, link.share) for link in stack.links),
+            (stack.title, "worst case", stack.worst, 1.0, stack.worst),
+            (stack.title, "statistical", stack.statistical, 1.0, stack.statistical),
+            (stack.title, "room", stack.room, 1.0, stack.room),
         )
     ]
     return Table("loom-tolerance-chains", "Tolerance chains", heads, tuple(rows))

@@ -64,7 +64,7 @@ def ground_beside_heads(
 def room_under_baulks(outlines: Sequence[ComplexArray], side: SideView) -> float:
     """Least room of polygons in the side view under the baulks of reeds [m]; inf where there is none over them."""
     edges = np.concatenate(
-        [one + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (np.roll(one, 1) - one) for one in outlines]
+        [outline + np.linspace(0.0, 1.0, _SAMPLES)[:, None] * (np.roll(outline, 1) - outline) for outline in outlines]
     )
     rooms = [math.inf]
     for cam in side.cams:

@@ -161,15 +161,15 @@ def start_checks(start: CrankStart) -> tuple[Check, ...]:
     motor = must("a motor starts and stops the crank", start.pair is not None, source).with_cure(slower, *driven)
     every, source = start.duty.every, "time from beat to beat"
     in_time = every and at_most("time of a beat", start.beat_time, every, "s", source).with_cure(slower, *driven)
-    made = (motor, in_time) if in_time else (motor,)
+    start_checks = (motor, in_time) if in_time else (motor,)
     if start.drive == "servo":
-        return made
+        return start_checks
     largest = f"sizes of clutches, up to {format_quantity(CLUTCHES[-1], 'Nm')}"
     clutch = (CLUTCH,)
     torque = at_most("torque of the clutch", start.clutch_torque, CLUTCHES[-1], "Nm", largest).with_cure(
         slower, *clutch
     )
-    return *made, torque, _wheel_check(start)
+    return *start_checks, torque, _wheel_check(start)
 
 
 def _wheel_check(start: CrankStart) -> Check:

@@ -127,13 +127,13 @@ def planned_beat(task: LoomTask, _kind: str) -> TravellingBeat:
         made = design(task.parameters("beat-up", usual))
         ground = ground_beside_heads(made, task.side, SPARE * task.params.clearance, parked=True)
         made = design(task.parameters("beat-up", replace(usual, ground=ground)))
-        found = in_use(made, fabric)
+        use = in_use(made, fabric)
         given = (made.params.width, made.params.thickness) != (width, thickness)
-        if given or all(check.ok for check in beat_up_strength_checks(found.strength)):
+        if given or all(check.ok for check in beat_up_strength_checks(use.strength)):
             break
     if task.weaver is None:
-        beside = beside_beater(made, found) + SPARE * task.params.clearance
+        beside = beside_beater(made, use) + SPARE * task.params.clearance
         travel = replace(usual.travel, park=beside)
         made = design(task.parameters("beat-up", replace(usual, ground=made.params.ground, travel=travel)))
-        found = in_use(made, fabric)
-    return TravellingBeat(made, found)
+        use = in_use(made, fabric)
+    return TravellingBeat(made, use)

@@ -212,6 +212,8 @@ def _peak_table(design: BeatUp) -> Table:
 def _front_table(family: FamilyResult) -> Table:
     """Some members of the front, and the beat-up itself."""
     members = (*family.some(SHOWN), family.own)
-    rows = tuple(("this" if one is family.own else "front", *(one[name] for name in COLUMNS)) for one in members)
+    rows = tuple(
+        ("this" if member is family.own else "front", *(member[name] for name in COLUMNS)) for member in members
+    )
     heads = columns("member", *(Column(*QUANTITIES[name]) for name in COLUMNS))
     return Table("beat-up-front", "Members on the Pareto front, and this beat-up", heads, rows)

@@ -70,10 +70,10 @@ def beat_up_strength(
 ) -> BeatUpStrength:
     """Stresses of the links and pins of a beat-up; pin: diameter that the pins have [m]."""
     limits, sections = params.strength, dict.fromkeys(POINTS, (params.width, params.thickness))
-    found = linkage_strength(loads, limits, sections, name=duty.limits)
-    if found.pin_diameter != pin:
-        found = linkage_strength(loads, replace(limits, pin_diameter=pin), sections, name=duty.limits)
-    return BeatUpStrength(duty, min(lengths[name] for name in LINKS) / found.pin_diameter, found)
+    strength = linkage_strength(loads, limits, sections, name=duty.limits)
+    if strength.pin_diameter != pin:
+        strength = linkage_strength(loads, replace(limits, pin_diameter=pin), sections, name=duty.limits)
+    return BeatUpStrength(duty, min(lengths[name] for name in LINKS) / strength.pin_diameter, strength)
 
 
 def beat_up_strength_checks(strength: BeatUpStrength) -> tuple[Check, ...]:

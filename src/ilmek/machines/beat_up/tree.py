@@ -103,7 +103,7 @@ def beater_shift(design: BeatUp, beater: Beater) -> float:
 
 def beside_beater(design: BeatUp, use: BeatUpUse) -> float:
     """The run beside a cloth in which all that travels clears it: how far that reaches beyond the beater [m]."""
-    riding = (one for one in extents(travelling(design, use), ()) if one.body != RAIL)
+    riding = (extent for extent in extents(travelling(design, use), ()) if extent.body != RAIL)
     ends = around(riding)
     return use.travel.beater.width / 2 + max(float(ends[1][2]), -float(ends[0][2]))
 

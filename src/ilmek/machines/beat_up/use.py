@@ -63,7 +63,9 @@ def on_its_beam(design: BeatUp, across: BeaterTravel, start: CrankStart) -> Beat
     high = 0.0
     for _ in range(_ROUNDS):
         standing = math.fsum(
-            one.part.mass * len(one.positions) for one in on_slide(design, high, drive) if not math.isnan(one.part.mass)
+            occurrence.part.mass * len(occurrence.positions)
+            for occurrence in on_slide(design, high, drive)
+            if not math.isnan(occurrence.part.mass)
         )
         mass = across.params.slide_mass or moving + standing + BLOCK_MASS
         beam = beam_for(length, mass, force)
@@ -81,5 +83,5 @@ def use_checks(use: BeatUpUse) -> tuple[Check, ...]:
 
 def use_choices(design: BeatUp) -> tuple[Choice, ...]:
     """What was chosen of pins, start and stop."""
-    found = in_use(design)
-    return (*found.strength.choices, *found.start.choices, found.beam.choice)
+    use = in_use(design)
+    return (*use.strength.choices, *use.start.choices, use.beam.choice)

@@ -52,38 +52,48 @@ def _pressure_angle_checks(analysis: CamAnalysis) -> tuple[Check, ...]:
 def _shape_checks(design: CamDesign) -> tuple[Check, ...]:
     params, radius, programme = design.params, design.cam.roller_radius, design.programme
     hollow, convex = design.concave_radius_min, design.curvature_radius_min
-    made = []
+    shape_checks = []
     if convex is not None:
         source = f"{NORTON}, 7: rho > roller radius"
-        made.append(at_least("convex radius of curvature (no undercut)", convex, radius, "mm", source))
+        shape_checks.append(at_least("convex radius of curvature (no undercut)", convex, radius, "mm", source))
     if params.kind in ("grooved", "barrel") and hollow is not None:
-        made.append(at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: outer flank"))
+        shape_checks.append(
+            at_least("concave radius of the pitch curve", hollow, radius, "mm", f"{NORTON}, 7: outer flank")
+        )
     if not params.led and math.isfinite(design.lift_off.speed):
         source = "m w^2 s'' + k s + P + load >= 0"
-        made.append(at_least("speed of lift-off", design.lift_off.speed, params.speed, "rpm", source))
+        shape_checks.append(at_least("speed of lift-off", design.lift_off.speed, params.speed, "rpm", source))
     drop, bump = (
         max((abs(jump.after - jump.before) * params.per_unit * params.speed**order for jump in found), default=0.0)
         for order, found in ((order, jumps(programme, order)) for order in (1, 2))
     )
-    made.append(at_most("jump of the velocity", drop, 0.0, "m/s", "an infinite force"))
-    made.append(at_most("jump of the acceleration", bump, params.jump_limit, "m/s^2", "jump_limit"))
+    shape_checks.append(at_most("jump of the velocity", drop, 0.0, "m/s", "an infinite force"))
+    shape_checks.append(at_most("jump of the acceleration", bump, params.jump_limit, "m/s^2", "jump_limit"))
     room = least_surface_radius(design) - design.hub.reach
     if room < math.inf:
-        made.append(at_least("wall between keyway and surface", room, params.wall, "mm", "wall"))
+        shape_checks.append(at_least("wall between keyway and surface", room, params.wall, "mm", "wall"))
     largest = largest_cutter(design)
     if params.cutter_radius is not None and largest < math.inf:
         source, cure = "least hollow of the cam, or its groove", "leave cutter_radius out, or set a smaller one"
-        made.append(at_most("radius of the cutter", params.cutter_radius, largest, "mm", source).with_cure(cure))
+        shape_checks.append(
+            at_most("radius of the cutter", params.cutter_radius, largest, "mm", source).with_cure(cure)
+        )
     if params.follower == "roller" and params.roller_radius is None:
         cure = "set a larger prime_radius, or a roller_radius of your own"
-        made.append(
+        shape_checks.append(
             must("a roller of the table fits the cam", design.roller is not None, "roller table").with_cure(cure)
         )
-    return tuple(made)
+    return tuple(shape_checks)
 
 
 def _load_checks(design: CamDesign) -> tuple[Check, ...]:
-    params, roller, duty, pressure, made = design.params, design.roller, design.duty, design.extremes.pressure, []
+    params, roller, duty, pressure, load_checks = (
+        design.params,
+        design.roller,
+        design.duty,
+        design.extremes.pressure,
+        [],
+    )
     if design.extremes.jammed:
         along = infimum(lambda angle: design.state(angle).along, design.cam.knots).value
         source = "0 and below it jams: friction is greater than the force along the motion"
@@ -91,13 +101,15 @@ def _load_checks(design: CamDesign) -> tuple[Check, ...]:
         return (Check(share, along, 0.0, "1", False, source, ">"),)
     if pressure is not None and not math.isnan(pressure.value):
         source = "pressure_limit" if params.pressure_limit else "first yield below the surface, Johnson"
-        made.append(at_most("Hertz pressure", pressure.value, design.pressure_limit, "MPa", source))
+        load_checks.append(at_most("Hertz pressure", pressure.value, design.pressure_limit, "MPa", source))
     if roller is not None and duty is not None:
         life, most = duty.time(roller), roller.force_limit
         if math.isfinite(life):
-            made.append(at_least("life of the roller", life, params.life, "h", "ISO 281, roller bearings"))
-        made.append(at_most("force on the roller", duty.largest, most, "N", "largest force of the roller's table"))
-    return tuple(made)
+            load_checks.append(at_least("life of the roller", life, params.life, "h", "ISO 281, roller bearings"))
+        load_checks.append(
+            at_most("force on the roller", duty.largest, most, "N", "largest force of the roller's table")
+        )
+    return tuple(load_checks)
 
 
 def largest_cutter(design: CamDesign) -> float:
@@ -119,25 +131,25 @@ def least_surface_radius(design: CamDesign) -> float:
 def warnings(analysis: CamAnalysis) -> tuple[str, ...]:
     """Reasons why the cam cannot be made or run as it is, and remedies."""
     design = analysis.design
-    params, cam, made = design.params, design.cam, []
+    params, cam, warnings = design.params, design.cam, []
     smallest, limit = design.size.smallest.value, params.limit
     if params.follower != "flat" and params.pressure_angle_limit and cam.prime_radius < smallest * (1 - 1e-9):
         shown, least = (format_quantity(value, "mm") for value in (cam.prime_radius, smallest))
         angle = format_quantity(limit, "deg")
-        made.append(f"prime_radius={shown} is too small for a pressure angle of {angle}: the smallest is {least}")
+        warnings.append(f"prime_radius={shown} is too small for a pressure angle of {angle}: the smallest is {least}")
     if design.undercut:
-        made.append(_undercut_warning(design))
+        warnings.append(_undercut_warning(design))
     if jumps(design.programme, 1):
-        made.append("the velocity jumps: the cam would need an infinite force; take a law from rest to rest")
+        warnings.append("the velocity jumps: the cam would need an infinite force; take a law from rest to rest")
     if least_surface_radius(design) <= design.hub.reach:
         bore = format_quantity(design.hub.bore, "mm")
-        made.append(f"the bore of {bore} does not fit into the cam, which is drawn without it")
+        warnings.append(f"the bore of {bore} does not fit into the cam, which is drawn without it")
     if design.roller is None and params.follower == "roller" and params.roller_radius is None:
         radius = format_quantity(cam.roller_radius, "mm")
-        made.append(f"no roller of the table fits this cam: computed with a radius of {radius}")
+        warnings.append(f"no roller of the table fits this cam: computed with a radius of {radius}")
     if design.extremes.jammed:
-        made.append("the follower jams in its guide: lower the friction or the pressure angle")
-    return tuple(made)
+        warnings.append("the follower jams in its guide: lower the friction or the pressure angle")
+    return tuple(warnings)
 
 
 def _undercut_warning(design: CamDesign) -> str:

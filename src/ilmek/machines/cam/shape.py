@@ -72,10 +72,10 @@ def smallest_of(params: CamParams, programme: CamProgramme) -> Extremum:
     For a slide with a roller the pressure angle alone decides; for any other cam a surface must exist too.
     """
     if params.motion == "translating" and params.follower != "flat" and not params.laid_flat:
-        found = pressure_prime(programme, limits_of(params), params.offset)
+        extremum = pressure_prime(programme, limits_of(params), params.offset)
         # A nearly flat rise hardly limits the circle: it must still be larger than offset and roller.
         room = max(abs(params.offset), params.roller_radius or 0.0)
-        return found if found.value > room else Extremum(found.at, room * (1 + 1e-9))
+        return extremum if extremum.value > room else Extremum(extremum.at, room * (1 + 1e-9))
     try:
         size = smallest_prime(_cam(params, programme, None, params.roller_radius or 0.0), limits_of(params))
     except ParameterError:

@@ -221,7 +221,9 @@ def _estimated(params: HammerParams, fabric: Fabric, needed: float) -> float:
     torque = unit.drive_torque_max * (comb + ballast) * speed**2 / params.start.efficiency
     wheel = work / (params.start.speed_drop * speed**2 * FLYWHEEL_RADIUS**2)
     clutch = PRICES["clutch and brake"].price(CLUTCH_MASS * torque) + steel.price(wheel) + 200.0
-    powers = [one.power for one in MOTORS if one.kind == SERVO and one.peak * one.speed / speed >= MARGIN * torque]
+    powers = [
+        motor.power for motor in MOTORS if motor.kind == SERVO and motor.peak * motor.speed / speed >= MARGIN * torque
+    ]
     servo = PRICES["servo"].price(power=min(powers)) + 300.0 if powers else math.inf
     if torque > CLUTCHES[-1]:
         clutch = math.inf

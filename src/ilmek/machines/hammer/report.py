@@ -120,19 +120,19 @@ def _across_table(design: Hammer) -> Table:
 
 def warnings(design: Hammer) -> tuple[str, ...]:
     """A comb that leaves the fell, rows too loose, and axes that no servo drives."""
-    found, required = [], design.params.cloth.row_distance
+    warnings, required = [], design.params.cloth.row_distance
     if design.comb.line.least <= 0:
-        found.append("the comb bends so much that it leaves the fell: set more supports or a deeper comb")
+        warnings.append("the comb bends so much that it leaves the fell: set more supports or a deeper comb")
     if design.spacing > required * (1 + 1e-9):
         rows, wanted = (1 / pitch * dm for pitch in (design.spacing, required))
         force, speed = format_quantity(design.needed, "N"), design.linkage.speed_needed if design.linkage else None
         how = f" or turn the cranks at {format_quantity(speed, 'rad/s')}" if speed else ""
-        found.append(f"{rows:.4g} rows a decimetre where {wanted:.4g} are required: press with {force} a warp{how}")
+        warnings.append(f"{rows:.4g} rows a decimetre where {wanted:.4g} are required: press with {force} a warp{how}")
     if design.axis is not None and design.axis.drive is None:
-        found.append(
+        warnings.append(
             "no servo of the table is enough for an axis: set more axes, a smaller lead or a slower shed_speed"
         )
-    return tuple(found)
+    return tuple(warnings)
 
 
 def cam_tables(design: Hammer) -> tuple[CamTable, ...]:

@@ -103,7 +103,7 @@ def design(params: HandBeatParams) -> HandBeat:
     cloth, leaf = params.cloth, leaf_of(params)
     stiffness = cloth.carpet_yarns.warp.stiffness
     fabric = assumed_fabric(cloth.row_distance, cloth.warp_tension, stiffness, params.warp_length)
-    mass = sum(one.part.mass * len(one.positions) for one in comb_parts(params, leaf, warps_under(params)))
+    mass = sum(part.part.mass * len(part.positions) for part in comb_parts(params, leaf, warps_under(params)))
     energy = mass * params.hands.blow_speed**2 / 2 / warps_under(params)
     needed = float(fabric.resistance(cloth.row_distance))
     return HandBeat(params, fabric, leaf, mass, blow_forces(fabric, energy, needed, params.most_blows))

@@ -89,13 +89,13 @@ def _arms_checks(site: LoomSite) -> tuple[Check, ...]:
     shoulder = station_of(site).bench.shoulder
     slope, half = shoulder.imag / shoulder.real, site.width / 2
     rooms = [
-        slope * float(one.low[2]) - float(one.high[1])
-        for one in site.near.extents
-        if not one.moving
-        and 0 < one.low[2] < shoulder.real
-        and one.high[1] < shoulder.imag
-        and one.low[0] < half
-        and one.high[0] > -half
+        slope * float(extent.low[2]) - float(extent.high[1])
+        for extent in site.near.extents
+        if not extent.moving
+        and 0 < extent.low[2] < shoulder.real
+        and extent.high[1] < shoulder.imag
+        and extent.low[0] < half
+        and extent.high[0] > -half
     ]
     if not rooms:
         return ()

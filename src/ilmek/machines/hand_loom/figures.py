@@ -22,7 +22,9 @@ from ilmek.timing.figures import draw
 
 def figures(found: HandLoomAnalysis) -> tuple[Figure, ...]:
     """The loom from the side and from the front, the change of its shed, and the cyclograms of a driven beat."""
-    timings = (draw(one, *_TITLES[one.name], drive=Axis("angle", "deg")) for one in found.loom.cyclograms)
+    timings = (
+        draw(cyclogram, *_TITLES[cyclogram.name], drive=Axis("angle", "deg")) for cyclogram in found.loom.cyclograms
+    )
     return (_side(found), _front(found), _moving(found), *timings)
 
 

@@ -106,7 +106,7 @@ class HandLoomLayout:
     @property
     def face(self) -> float:
         """Inner face of the columns from the middle of the width [m]."""
-        return max(one.outer for one in self.brackets)
+        return max(bracket.outer for bracket in self.brackets)
 
     @property
     def reach(self) -> float:
@@ -150,7 +150,10 @@ def _column(task: FrameTask, beside: float) -> tuple[HollowSquare, FrameTask]:
 
     beside  from the cylinders' axes to a column's face [m]
     """
-    loads = [(one, replace(task, lever=beside + one.side / 2, height=task.height + one.side)) for one in ascending()]
+    loads = [
+        (square, replace(task, lever=beside + square.side / 2, height=task.height + square.side))
+        for square in ascending()
+    ]
     return next((own for own in loads if all(check.ok for check in column_checks(own[1], own[0]))), loads[-1])
 
 

@@ -173,11 +173,14 @@ def assembly(loom: HandLoom) -> HandAssembly:
     near = approaches(whole, SHED, _HORIZON)
     if drive is not None:
         near = (*near, *approaches(whole, BEAT, _HORIZON, row_windows(two_beats(drive.beat), drive.path)))
-    return HandAssembly(loom, contacts(whole), nearest_of(NearParts(one) for one in near))
+    return HandAssembly(loom, contacts(whole), nearest_of(NearParts(approach) for approach in near))
 
 
 def _worst(through: tuple[Approach, ...]) -> str:
-    return "; ".join(" in ".join(one.parts) for one in through[:3]) or "meshes of all parts over a change of the shed"
+    return (
+        "; ".join(" in ".join(approach.parts) for approach in through[:3])
+        or "meshes of all parts over a change of the shed"
+    )
 
 
 @lru_cache(maxsize=4)
@@ -226,7 +229,7 @@ def checks(found: HandLoomAnalysis) -> tuple[Check, ...]:
         *late,
         pile_check(params.cloth.carpet_yarns.pile, params.quality),
         *column_checks(layout.task, layout.column, 1),
-        *(check for one in layout.brackets for check in _bracket_checks(one, layout.column, limit)),
+        *(check for bracket in layout.brackets for check in _bracket_checks(bracket, layout.column, limit)),
         at_most(
             "stress of a beam of the hand shed", beam_stress(loom), limit, "MPa", "yield of S235 over column_safety"
         ).with_cure(cure, "hand-shed/beam"),

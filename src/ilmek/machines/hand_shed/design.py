@@ -247,9 +247,9 @@ def design(params: HandShedParams) -> HandShed:
     needed = params.opening * params.rod_low / params.weft_height
     wide = [tube for tube in tubes if tube.outer >= needed * (1 - 1e-9)] or tubes[-1:]
     for tube in wide[:-1]:
-        made = _with_rod(params, tube, tubes)
-        if _holds(made):
-            return made
+        shed = _with_rod(params, tube, tubes)
+        if _holds(shed):
+            return shed
     return _with_rod(params, wide[-1], tubes)
 
 
@@ -263,25 +263,25 @@ def _with_rod(params: HandShedParams, rod: Tube, tubes: Sequence[Tube]) -> HandS
 
     How far the warps are pulled makes up for the rod's sag, which grows with it.
     """
-    made, sag = _pulled(params, rod, tubes[-1], 0.0), 0.0
+    shed, sag = _pulled(params, rod, tubes[-1], 0.0), 0.0
     for _ in range(_ROUNDS):
-        if abs(made.rod_deflection - sag) < _SAME or made.rod_deflection > params.rod_sag:
+        if abs(shed.rod_deflection - sag) < _SAME or shed.rod_deflection > params.rod_sag:
             break
-        sag = made.rod_deflection
-        made = _pulled(params, rod, tubes[-1], sag)
-    force, length, limit = made.heddle_force, made.length, STEEL.strength / params.safety
+        sag = shed.rod_deflection
+        shed = _pulled(params, rod, tubes[-1], sag)
+    force, length, limit = shed.heddle_force, shed.length, STEEL.strength / params.safety
     kept = (
         tube
         for tube in tubes
-        if sag_of(tube, force, length) <= made.bar_limit and stress_of(tube, force, length) <= limit
+        if sag_of(tube, force, length) <= shed.bar_limit and stress_of(tube, force, length) <= limit
     )
     bar = next(kept, tubes[-1])
-    allowed = made.hands_on_levers * params.hand_limit
-    least = max(bar.outer_radius + SHAFT.outer_radius + GAP, made.stroke / (2 * math.sin(SWING)))
+    allowed = shed.hands_on_levers * params.hand_limit
+    least = max(bar.outer_radius + SHAFT.outer_radius + GAP, shed.stroke / (2 * math.sin(SWING)))
     arm = params.arm or max(min(ARM, allowed * params.lever_limit / force), least)
     lever = force * arm / allowed
     long = min(max(math.ceil(lever / _STEP - 1e-9) * _STEP, 2 * LOCK_ARM), params.lever_limit)
-    return replace(made, bar=bar, arm=arm, lever=long)
+    return replace(shed, bar=bar, arm=arm, lever=long)
 
 
 _ROUNDS, _SAME = 50, 1e-12

@@ -61,5 +61,7 @@ def still(shed: HandShed, *, high: bool) -> Drawing:
     """A shed from the side."""
     name, title = ("high", "The rod up, the strings pulled") if high else ("low", "The rod pulled down")
     lines = strokes(shed, np.array([turn / 2 if high else 0.0]))
-    drawn = tuple(Stroke(one.points[0], one.role, one.label, closed=one.closed, filled=one.closed) for one in lines)
+    drawn = tuple(
+        Stroke(line.points[0], line.role, line.label, closed=line.closed, filled=line.closed) for line in lines
+    )
     return Drawing(f"hand-shed-{name}", title, drawn, unit="mm", note=_NOTE)

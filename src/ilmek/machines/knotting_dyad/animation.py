@@ -46,7 +46,7 @@ def animation(head: Head, cycle: KnotCycle) -> Animation:
 def _at(cycle: KnotCycle, time: Float[np.ndarray, " n"]) -> tuple[FloatArray, FloatArray, FloatArray]:
     """S of both arms, and the height of the centre gripper's tip at times [s]."""
     positions = cycle.arms[LEFT].s, cycle.arms[RIGHT].s, cycle.centre[0]
-    left, right, centre = (np.interp(time, cycle.time, one) for one in positions)
+    left, right, centre = (np.interp(time, cycle.time, position) for position in positions)
     return left, right, centre
 
 

@@ -130,7 +130,10 @@ def carried(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, tu
 def moved_to(z: float, occurrences: Iterable[Occurrence]) -> tuple[Occurrence, ...]:
     """Occurrences in a gripper's axes, whose needle's middle is at a height z [m]."""
     up = placement(z=z)
-    return tuple(replace(one, positions=tuple(up.after(own) for own in one.positions)) for one in occurrences)
+    return tuple(
+        replace(occurrence, positions=tuple(up.after(own) for own in occurrence.positions))
+        for occurrence in occurrences
+    )
 
 
 def _elbow_load(mass: float, x: float, z: float) -> Iterator[Occurrence]:

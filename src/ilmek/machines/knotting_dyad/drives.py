@@ -89,7 +89,7 @@ class HeadMotion:
 
     @computed("mN*m", "greatest root mean square of the torque at a joint, over the cycle")
     def torque_rms(self) -> float:
-        return max(one.torque_rms for one in self.joints)
+        return max(joint.torque_rms for joint in self.joints)
 
     joint_speed_max = computed("rad/s", "greatest speed of a joint", lambda it: max(one.speed_max for one in it.joints))
 
@@ -121,7 +121,7 @@ def head_motion(params: KnottingDyadParams, head: Head) -> HeadMotion:
     while needed > hole:
         hole = needed
         arms, joints = drives_of(params, head, cycle, hole)
-        loaded = [one.loaded for one in arms.values()]
+        loaded = [arm.loaded for arm in arms.values()]
         strength = arm_strength(loaded, cycle.time, params.strength, section, rate)
         needed = bore_for(strength.pin_diameter, params.link_width)
     if needed < hole:

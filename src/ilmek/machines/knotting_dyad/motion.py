@@ -142,7 +142,7 @@ def _quickest(params: KnottingDyadParams, s: FloatArray, *nodes: FloatArray) -> 
 @lru_cache(maxsize=8)
 def _kept_motion(limits: tuple[float, float, float], *nodes: bytes) -> PathMotion:
     """The same, computed once for a path and its limits: arms that differ elsewhere share it."""
-    s, *every = (np.frombuffer(one) for one in nodes)
+    s, *every = (np.frombuffer(node) for node in nodes)
     path = JointPath(s, *(one.reshape(len(s), -1) for one in every))
     axes = path.positions.shape[1]
     return quickest_motion(path, AxesLimits(*(np.full(axes, limit) for limit in limits)), INTERVALS)
@@ -185,7 +185,7 @@ def _arm(along: Trajectory, motions: _Motions, axis: int, leads: np.ndarray) -> 
     of = slice(axis, axis + 2)
     s = along.s if axis or along.position.shape[1] == 2 else 1 - along.s
     rates = along.position, along.speed, along.acceleration, along.jerk
-    angle, speed, acceleration, jerk = (one[:, of] @ motions.absolute for one in rates)
+    angle, speed, acceleration, jerk = (rate[:, of] @ motions.absolute for rate in rates)
     return ArmMotion(s, angle, speed, acceleration, jerk, leads)
 
 
@@ -219,7 +219,9 @@ def _centre(motions: _Motions, phase: Phase, time: FloatArray) -> FloatArray:
 
 def _joined(motions: tuple[ArmMotion, ...]) -> ArmMotion:
     """One motion after the other."""
-    return ArmMotion(*(np.concatenate([getattr(one, part.name) for one in motions]) for part in fields(ArmMotion)))
+    return ArmMotion(
+        *(np.concatenate([getattr(motion, part.name) for motion in motions]) for part in fields(ArmMotion))
+    )
 
 
 def _use(params: KnottingDyadParams, arms: Mapping[str, ArmMotion]) -> FloatArray:

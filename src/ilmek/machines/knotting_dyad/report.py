@@ -124,22 +124,22 @@ def _motion_tables(motion: HeadMotion) -> tuple[Table, Table]:
     )
     rows = tuple(
         (
-            one.joint,
-            one.torque_max,
-            one.torque_rms,
-            one.speed_max,
-            one.gear_ratio,
-            one.servo_torque_max,
-            one.servo or "none is enough",
+            joint.joint,
+            joint.torque_max,
+            joint.torque_rms,
+            joint.speed_max,
+            joint.gear_ratio,
+            joint.servo_torque_max,
+            joint.servo or "none is enough",
         )
-        for one in motion.joints
+        for joint in motion.joints
     )
     drives = Table("knotting-dyad-drives", "Drives, for the worse arm; servos with their rotors", heads, rows)
     cycle = Table(
         "knotting-dyad-cycle",
         "The cycle in time",
         columns("part", "begins [ms]", "takes [ms]", "grippers"),
-        tuple((one.name, one.start, one.end - one.start, ", ".join(one.grippers)) for one in motion.cycle.parts),
+        tuple((part.name, part.start, part.end - part.start, ", ".join(part.grippers)) for part in motion.cycle.parts),
     )
     return drives, cycle
 

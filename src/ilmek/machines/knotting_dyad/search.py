@@ -109,7 +109,7 @@ def _tried(params: KnottingDyadParams, section: WarpSection, at: Float[np.ndarra
             bent >= np.sin(params.bend_limit),
             _pivot_clear(params, section, pivot),
         )
-        missed = np.sum([~one for one in limits], axis=0)
+        missed = np.sum([~limit for limit in limits], axis=0)
         turns = np.abs(np.angle((E1 - pivot) / (E0 - pivot))) + np.abs(tilt - section.tilt)
         effort = (first**2 + second**2) * turns
         before = np.where(there, effort + MISSED * missed, np.inf)

@@ -209,7 +209,7 @@ def _centre(dyad: KnottingDyad, head: Head, jaws: Jaws, of_arm: tuple[Occurrence
     nose = tip + head.section.front - behind(head)
     rear = tip + head.section.front - _depth(params, head, jaws) - head.centre_stroke
     made = (*on_link(params, head, jaws), *centre_parts(params, head, jaws, (nose, rear)))
-    shared = {one.part.id: one.part for one in of_arm}
+    shared = {occurrence.part.id: occurrence.part for occurrence in of_arm}
     return tuple(
         Occurrence(shared.get(one.part.id, one.part), tuple(at.after(own) for own in one.positions)) for one in made
     )

@@ -169,17 +169,17 @@ def design(params: KnottingFourBarParams) -> KnottingFourBar:
     Raises ParameterError where no ground closes the stated pose, or no four-bar takes the poses, MechanismError where
     it does not close at the crank angle.
     """
-    found = None
+    synthesis = None
     if params.poses is not None:
-        found = synthesised(read_three_poses(params.poses), params.ground_angle)
+        synthesis = synthesised(read_three_poses(params.poses), params.ground_angle)
     hole = smallest_pin(params.strength, params.width)
     while True:
-        made = _bored(params, found, hole)
-        needed = bore_for(made.strength_of(params.strength).pin_diameter, params.width)
+        bar = _bored(params, synthesis, hole)
+        needed = bore_for(bar.strength_of(params.strength).pin_diameter, params.width)
         if params.link_mass == "bars":
-            return dataclasses.replace(made, hole=needed)
+            return dataclasses.replace(bar, hole=needed)
         if needed <= hole:
-            return made
+            return bar
         hole = needed
 
 
@@ -234,7 +234,9 @@ def parameters(design: KnottingFourBar) -> KnottingFourBarParams:
     if design.posed is None:
         return design.params
     found = design.posed.synthesis
-    own: dict[str, Any] = {one.name: getattr(design.params, one.name) for one in dataclasses.fields(design.params)}
+    own: dict[str, Any] = {
+        field.name: getattr(design.params, field.name) for field in dataclasses.fields(design.params)
+    }
     return PosedParams(**{**own, "poses": found.poses.text, "ground_angle": found.ground_angle})
 
 

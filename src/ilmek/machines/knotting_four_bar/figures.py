@@ -226,11 +226,11 @@ def _sides_moving(design: KnottingFourBar, sides: KnottingSides) -> Animation:
 def _grippers(design: KnottingFourBar, sides: KnottingSides, motion: Motion) -> tuple[Stroke, ...]:
     """Outlines of holders and grippers."""
     shapes = outlines(design.params, sides.plan.mechanism, "coupler").outlines[1:]
-    found: list[Stroke] = []
+    grippers: list[Stroke] = []
     for body in ("coupler", other("coupler")):
         origin, along = complex(motion.origin(body)[0]), complex(motion.direction(body)[0])
-        found += [Stroke(origin + along * np.asarray(shape.corners), "outline", closed=True) for shape in shapes]
-    return tuple(found)
+        grippers += [Stroke(origin + along * np.asarray(shape.corners), "outline", closed=True) for shape in shapes]
+    return tuple(grippers)
 
 
 def _gears(sides: KnottingSides) -> tuple[Stroke, ...]:

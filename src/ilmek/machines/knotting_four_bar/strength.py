@@ -15,7 +15,7 @@ def four_bar_strength(
     params: KnottingFourBarParams, state: KnottingState, bodies: Mapping[str, Inertia], limits: StrengthParams
 ) -> LinkageStrength:
     """Stresses of links and pins in the states given, of bodies with these inertias."""
-    found = linkage_loads(
+    loads = linkage_loads(
         state.forces,
         bodies,
         loads_of(params),
@@ -24,4 +24,4 @@ def four_bar_strength(
         speed=abs(params.speed),
         line_mass=params.width * params.thickness * params.density,
     )
-    return linkage_strength(found, limits, dict.fromkeys(LINKS, (params.width, params.thickness)))
+    return linkage_strength(loads, limits, dict.fromkeys(LINKS, (params.width, params.thickness)))

@@ -148,7 +148,7 @@ def _guides(params: MotionFourBarParams, poses: BodyPoses) -> tuple[Guide, ...] 
 
 def _pairs(params: MotionFourBarParams, inside: Sequence[Guide]) -> list[tuple[Guide, Guide]]:
     """Pairs of links, the driven one first."""
-    pairs = [(one, other) for one in inside for other in inside if one is not other]
+    pairs = [(guide, other) for guide in inside for other in inside if guide is not other]
     if params.driven == "either":
         return pairs
     return pairs[:1] if params.driven == "first" else pairs[1:]
@@ -187,7 +187,7 @@ def _searched(params: MotionFourBarParams, poses: BodyPoses, limits: MotionLimit
             task = PrecisionTask(points=poses.points, coupler=poses.angles)
             return judge(_drawn(pins, tracer), task)
 
-        cured = tuple(one.words for one in cures(space, judged, progress.part(0.5, 1.0, "loosen")))
+        cured = tuple(cure.words for cure in cures(space, judged, progress.part(0.5, 1.0, "loosen")))
     return MotionFourBar(
         choice=replace(choice, family=family, cures=cured),
         params=params,

@@ -77,14 +77,14 @@ def _bar(first: Eye, other: Eye, width: float, thickness: float) -> Layer:
     radii = max(first.radius, half), max(other.radius, half)
     cuts = [math.sqrt(radius**2 - half**2) for radius in radii]
     if sum(cuts) >= length:
-        made = eyed_link(length, *radii)
+        contour = eyed_link(length, *radii)
         radius = max(radii)
         outlines: tuple[Outline, ...] = (Outline((first.at, other.at), radius),)
     else:
-        made = _dumbbell(length, half, radii, cuts)
+        contour = _dumbbell(length, half, radii, cuts)
         discs = (Outline((eye.at,), radius) for eye, radius in zip((first, other), radii, strict=True) if radius > half)
         outlines = (Outline((first.at, other.at), half), *discs)
-    return Layer(Contour(first.at + along * made.points, made.bulges), outlines, 0.0, thickness)
+    return Layer(Contour(first.at + along * contour.points, contour.bulges), outlines, 0.0, thickness)
 
 
 def _dumbbell(length: float, half: float, radii: tuple[float, float], cuts: Sequence[float]) -> Contour:

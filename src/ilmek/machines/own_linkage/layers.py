@@ -196,8 +196,8 @@ class _Search:
                 for pair in self.pairs
                 if body in pair[0].joins + pair[1].joins and RoomKind.RING not in {pair[0].kind, pair[1].kind}
             ]
-            self.slides[body] = [one for one in self.rooms if one.kind is RoomKind.SLIDE and body in one.joins]
-        self.rings = [one for one in self.rooms if one.kind is RoomKind.RING]
+            self.slides[body] = [room for room in self.rooms if room.kind is RoomKind.SLIDE and body in room.joins]
+        self.rings = [room for room in self.rooms if room.kind is RoomKind.RING]
         self.bodies = tuple(sorted(self.bodies, key=lambda body: -len(self.concerned[body])))
 
     def fill(self, at: int) -> None:
@@ -220,7 +220,7 @@ class _Search:
     def length(self) -> float:
         """Sum of the lengths of pins and slides, in slots; of what is placed."""
         slots = (room.slots(self.layers) for room in self.rooms if room.kind is not RoomKind.PLATE)
-        return sum(last - first for first, last in (one for one in slots if one is not None))
+        return sum(last - first for first, last in (slot for slot in slots if slot is not None))
 
     def ringed(self, at: int, sides: dict[str, RingSide]) -> bool:
         """Whether the rings from one on have a side on which they meet nothing; sides  of those before it."""

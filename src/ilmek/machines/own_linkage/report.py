@@ -45,7 +45,7 @@ def _layer_checks(built: Construction) -> Iterator[Check]:
     ids = tuple(body_id(built.name, body) for body in mechanism.moving)
     yield at_most("bodies without a layer in which they meet nothing", without, 0, "1", source).with_cure(cure, *ids)
     if mechanism.couplings:
-        source = f"gears, belts and racks are not made: {', '.join(one.name for one in mechanism.couplings)}"
+        source = f"gears, belts and racks are not made: {', '.join(coupling.name for coupling in mechanism.couplings)}"
         cure = "order them by their ratio, and leave them room"
         yield at_most("couplings without parts", len(mechanism.couplings), 0, "1", source).with_cure(cure)
 

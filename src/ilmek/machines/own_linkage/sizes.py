@@ -164,7 +164,7 @@ def _shaft(
 ) -> StudSize:
     """A driven shaft: as thick as its torque and its bearings ask for; the diameter that is given, or the next."""
     least = given.diameter if given is not None else max(default, bore_for(loads.torques.get(axis.driven, 0.0)))
-    size = next(one for one in SHAFTS if one >= least * (1 - 1e-9) or one == SHAFTS[-1])
+    size = next(shaft for shaft in SHAFTS if shaft >= least * (1 - 1e-9) or shaft == SHAFTS[-1])
     member = given or PinMember(size, max(thick.values()))
     return StudSize(axis, size, size, None, dict(thick), member, given=given is not None)
 

@@ -70,10 +70,10 @@ def _seats(
         return ()
     fixed = built.fixed(axis)
     pins = (
-        one.part.id
-        for one in placed
-        if one.body == fixed and JOURNAL in one.part.seats
-        if abs(complex(*one.position.origin[:2]) - axis.points[fixed]) < _FLUSH
+        part.part.id
+        for part in placed
+        if part.body == fixed and JOURNAL in part.part.seats
+        if abs(complex(*part.position.origin[:2]) - axis.points[fixed]) < _FLUSH
     )
     pin = next(pins, "")
     return (f"{parts[body_id(built.name, body)].id}:{axis.name}", f"{pin}:{JOURNAL}") if pin else ()

@@ -104,12 +104,12 @@ class PathFourBar(FourBarDesign):
 
 def _proven(complete: CompleteSearch) -> tuple[FourBarOption, ...]:
     """The four-bars of complete synthesis that are judged."""
-    found = []
+    options = []
     for one, candidate in complete.judged:
         proof: dict[str, Json] = {"within": one.distance if math.isfinite(one.distance) else None, "curve": one.family}
         details = errors(candidate) | proof
-        found.append(FourBarOption(candidate, "complete", details, certified=one.certified))
-    return tuple(found)
+        options.append(FourBarOption(candidate, "complete", details, certified=one.certified))
+    return tuple(options)
 
 
 def design(params: PathFourBarParams, progress: Progress = SILENT) -> PathFourBar:
@@ -140,10 +140,10 @@ def _exact(params: PathFourBarParams, points: ComplexArray) -> tuple[tuple[FourB
     """All four-bars that meet the timed points, and descriptions of what is none."""
     timing = params.angles()
     assert timing is not None
-    found = timed_four_bars(points, timing, pivots=params.both_pivots(), samples=CURVES)
+    bars = timed_four_bars(points, timing, pivots=params.both_pivots(), samples=CURVES)
     task = PrecisionTask(points=points, crank=timing)
-    candidates = [judge(one.four_bar, task) for one in found if one.four_bar is not None]
-    other = dict.fromkeys(one.description for one in found if one.four_bar is None)
+    candidates = [judge(bar.four_bar, task) for bar in bars if bar.four_bar is not None]
+    other = dict.fromkeys(bar.description for bar in bars if bar.four_bar is None)
     return tuple(FourBarOption(candidate, "exact", errors(candidate)) for candidate in candidates), tuple(other)
 
 

@@ -98,11 +98,11 @@ def nearest(params: PathFourBarParams, progress: Progress) -> Nearest:
 def _record(searches: Sequence[Search]) -> SearchRecord:
     """The record of the searches of all classes."""
     return SearchRecord(
-        starts=sum(one.starts for one in searches),
-        runs=sum(one.runs for one in searches),
-        optima=sum(one.optima for one in searches),
-        missed=1.0 - math.prod(1.0 - one.missed for one in searches),
-        share_excluded=max(share_excluded(one.runs) for one in searches),
+        starts=sum(search.starts for search in searches),
+        runs=sum(search.runs for search in searches),
+        optima=sum(search.optima for search in searches),
+        missed=1.0 - math.prod(1.0 - search.missed for search in searches),
+        share_excluded=max(share_excluded(search.runs) for search in searches),
     )
 
 
@@ -175,7 +175,7 @@ def _apart(params: PathFourBarParams, ranked: Sequence[FourBarOption]) -> list[F
         return []
     extent = extent_of_points(params.positions())
     most = max(EXACT * extent, NEAR_EQUAL * min(map(_error, ranked)))
-    best = [one for one in ranked if params.error_max is not None or _error(one) <= most]
+    best = [option for option in ranked if params.error_max is not None or _error(option) <= most]
     for least in APART:
         chosen = _spaced(best if least > APART[-1] else ranked, least * extent)
         if len(chosen) >= params.count:

@@ -125,7 +125,9 @@ def _cognates(design: PathFourBar) -> tuple[Drawing, ...]:
         return ()
     original = design.best.candidate
     others = [one.four_bar for _, one in design.cognates]
-    outlines = (Stroke(one.points, "construction", closed=one.closed) for four_bar in others for one in links(four_bar))
+    outlines = (
+        Stroke(link.points, "construction", closed=link.closed) for four_bar in others for link in links(four_bar)
+    )
     pivot = Dot(others[0].a0 if design.cognates[0][0] == "timed" else others[0].b0, "C0", "pivot")
     joints = (Dot(at, "") for four_bar in others for at in (four_bar.a, four_bar.b))
     note = "Dashed: on C0 and B0 the one that turns with the crank, on A0 and C0 the one that turns with the coupler."

@@ -243,7 +243,9 @@ def _shafts(params: SheddingParams, chosen: ChosenStack, slender: float) -> tupl
             cam_shaft(of_shaft(params, beyond, along[-1], sum(number)), number, chosen.shares, beyond)
             for beyond, number in zip(along, numbers, strict=True)
         )
-        enlarged = [one.cam.prime_radius for one in shafts if one.cam.prime_radius > one.params.lift * slender + _SAME]
+        enlarged = [
+            shaft.cam.prime_radius for shaft in shafts if shaft.cam.prime_radius > shaft.params.lift * slender + _SAME
+        ]
         if max(enlarged, default=0.0) <= needed:
             break
         needed = max(enlarged)

@@ -61,12 +61,12 @@ def fit(task: LoomTask) -> SheddingParams:
     usual_outline = prime, prime + usual.lift - usual.roller_radius + usual.guide_height
     outline = _Outline(usual_outline, usual_outline, 0.0)
     for _ in range(ITERATIONS):
-        found = _with_spans(task, room, outline, given)
-        made = _outline_of(design(found))
+        params = _with_spans(task, room, outline, given)
+        made = _outline_of(design(params))
         if not made.differs(outline):
             break
         outline = made
-    return found
+    return params
 
 
 def _usual(task: LoomTask, given: Mapping[str, Any]) -> SheddingParams:

@@ -41,13 +41,13 @@ def positions(params: SheddingParams, shafts: int, slender: float, least_prime: 
     lift, spans = params.lift, params.spans_of_warp
     rate = lift / spans[0] if spans else 0.0
     beyond = params.guide_height - params.roller_radius
-    found = [0.0]
+    positions = [0.0]
     before = max(slender * lift, least_prime) + lift + beyond
     for _ in range(1, shafts):
-        near = found[-1] + before + params.shaft_gap + beyond
+        near = positions[-1] + before + params.shaft_gap + beyond
         lines = (((slender + 1) * lift, (slender + 1) * rate), (least_prime + lift, rate))
         solved = [(near + height) / (1 - slope) if slope < 1 else math.inf for height, slope in lines]
-        found.append(min(max(solved), FARTHEST))
-        own = lift + rate * found[-1]
+        positions.append(min(max(solved), FARTHEST))
+        own = lift + rate * positions[-1]
         before = max(slender * own, least_prime) + own + beyond
-    return tuple(found)
+    return tuple(positions)

@@ -155,14 +155,14 @@ def synthesise(params: TensionCompensatorParams, task: BarTask, radius: float, s
         rate = (force - preload) / (lengths(0.0) - lengths(angle))
         energy = np.where((rate > 0) & (arms(angle) > 0), force**2 / (2 * rate), np.inf)
     best = int(np.argmin(energy))
-    found = SprungLever(
+    lever = SprungLever(
         replace(upright, lean=float(LEANS[best])),
         *(task, angle, 1, float(preload[best]), float(force[best]), float(rate[best]), None),
     )
     if np.isfinite(energy[best]):
-        return with_springs(params, found)
+        return with_springs(params, lever)
     # No lean gives such torques: the lever counts as fixed, and its check fails.
-    return replace(found, angle=0.0, force=found.preload, rate=found.preload / params.strut)
+    return replace(lever, angle=0.0, force=lever.preload, rate=lever.preload / params.strut)
 
 
 def spring_room(params: TensionCompensatorParams, number: int) -> float:

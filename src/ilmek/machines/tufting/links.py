@@ -64,11 +64,11 @@ class NeedleSizes(NamedTuple):
 def link_sections(params: TuftingParams) -> dict[str, tuple[float, float]]:
     """Width and thickness of each link [m]: as given, or by its mass."""
     density = params.strength.of_links.density
-    found = {}
+    link_sections = {}
     for link in LINKS:
         width, thickness = largest_bar(getattr(params, f"{link}_mass"), getattr(params, link), density)
-        found[link] = params.link_width or width, params.link_thickness or thickness
-    return found
+        link_sections[link] = params.link_width or width, params.link_thickness or thickness
+    return link_sections
 
 
 @lru_cache(maxsize=16)
@@ -97,8 +97,8 @@ def needle_parts(params: TuftingParams, sizes: NeedleSizes) -> LinkageParts:
 def made_inertias(params: TuftingParams, sizes: NeedleSizes) -> dict[str, Inertia]:
     """Inertias of the links as made with their pins, the driven shaft with the rocker."""
     shaft = driven_shaft(params, sizes)
-    found = link_inertias(needle_parts(params, sizes), mechanism(params), {"rocker": (shaft,)})
-    return found | ({} if params.needle_mass > 0 else {"needle": Inertia(0.0, 0j, 0.0)})
+    inertias = link_inertias(needle_parts(params, sizes), mechanism(params), {"rocker": (shaft,)})
+    return inertias | ({} if params.needle_mass > 0 else {"needle": Inertia(0.0, 0j, 0.0)})
 
 
 def mechanism_depth(params: TuftingParams, sizes: NeedleSizes) -> tuple[float, float]:

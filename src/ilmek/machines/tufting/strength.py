@@ -120,10 +120,10 @@ def design(params: TuftingParams) -> Tufting:
         return loaded(params)
     sizes = needle_sizes(loaded(params))
     while True:
-        made = loaded(params, sizes)
-        needed = _required(needle_strength(made))
+        tufting = loaded(params, sizes)
+        needed = _required(needle_strength(tufting))
         if sizes.covers(needed):
-            return made
+            return tufting
         sizes = sizes.with_least(needed)
 
 
@@ -157,7 +157,7 @@ def _shaft(duty: PinDuty, torque: tuple[float, float], limits: NeedleStrengthPar
     if not fitting:  # The largest bearing does not fit on the shaft: no life.
         return ShaftStrength(diameter, safety, max(ROLLING_BEARINGS.values(), key=lambda one: one.bore), 0.0)
     lives = sorted(((one.mass, bearing_life(half, one), one) for one in fitting), key=lambda one: one[:2])
-    _, life, bearing = next((one for one in lives if one[1] >= limits.bearing_life), lives[-1])
+    _, life, bearing = next((live for live in lives if live[1] >= limits.bearing_life), lives[-1])
     return ShaftStrength(diameter, safety, bearing, life)
 
 

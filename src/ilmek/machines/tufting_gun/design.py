@@ -148,7 +148,8 @@ def tufted_by_gun(
     """A plan on a gun and gantry; deadline  for the whole carpet [s]."""
     per_stitch = float(tuft_yarn(params.pile_height, params.backing_thickness, params.stitch))
     yarn = {
-        one.label: one.length * per_stitch / params.stitch + 2 * params.waste * len(one.strokes) for one in plan.colours
+        colour.label: colour.length * per_stitch / params.stitch + 2 * params.waste * len(colour.strokes)
+        for colour in plan.colours
     }
     return TuftedByGun(params, plan, cones, per_stitch, yarn, np.cumsum([*_spans(params, plan)]), deadline)
 

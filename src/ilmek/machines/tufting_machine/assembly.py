@@ -41,7 +41,7 @@ class TuftingAssembly:
                 "set fewer drives, or shorter links", *dict.fromkeys(part for one in through for part in one.parts)
             ),
             at_most("groups of parts that touch", len(groups), 1, "1", "meshes of all parts at rest").with_cure(
-                "set a smaller needle_bar.joint", *dict.fromkeys(part for one in groups[1:] for part in one.parts)
+                "set a smaller needle_bar.joint", *dict.fromkeys(part for group in groups[1:] for part in group.parts)
             ),
         )
 

@@ -89,11 +89,11 @@ class LooperDrive:
     def checks(self) -> tuple[Check, ...]:
         """Transmission angle."""
         limit = self.params.transmission
-        found = at_least(
+        check = at_least(
             "transmission angle of the looper's rocker", self.looper_transmission, limit, "deg", "parameter looper"
         )
         return (
-            found.with_cure(
+            check.with_cure(
                 "set a longer looper.ground, or leave looper.crank_rotation open", "tufting-machine/looper-rocker"
             ),
         )

@@ -80,8 +80,8 @@ class LooperForces:
     @property
     def checks(self) -> tuple[Check, ...]:
         """Links and pins."""
-        found = strength_checks(self.strength, name="looper.strength", drive="the looper crank's", parts=self.ids)
-        return tuple(replace(one, name=f"looper: {one.name}") for one in found)
+        checks = strength_checks(self.strength, name="looper.strength", drive="the looper crank's", parts=self.ids)
+        return tuple(replace(check, name=f"looper: {check.name}") for check in checks)
 
 
 def looper_pivots(drive: LooperDrive, loop: Loop, needle: TuftingParams, lowest: float) -> tuple[complex, complex]:
@@ -128,8 +128,8 @@ def looper_forces(
     mechanism, tip = looper_mechanism(drive, *looper_pivots(drive, loop, params.needle, lowest))
     planned, angle = plan(mechanism), np.linspace(0.0, turn, SAMPLES + 1)
     motion = solve(planned, {CRANK: angle + drive.offset}, {CRANK: speed}).require()
-    made = looper_parts(params, drive, mechanism, carpet.needles)
-    bodies = link_inertias(made.linkage, mechanism, {ROCKER: made.carried(0)})
+    parts = looper_parts(params, drive, mechanism, carpet.needles)
+    bodies = link_inertias(parts.linkage, mechanism, {ROCKER: parts.carried(0)})
     hooks = carpet.needles / params.drives
     held = np.mod(angle - loop.catch, turn) < loop.release - loop.catch
     cutting = (drive.deviation(angle) > CUTTING * drive.swing / 2) & (params.pile == "cut")
@@ -143,7 +143,7 @@ def looper_forces(
         speed=speed, line_mass=line, times=angle / speed,
     )  # fmt: skip
     return LooperForces(
-        made,
+        parts,
         planned,
         tip,
         angle,

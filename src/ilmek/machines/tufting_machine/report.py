@@ -89,7 +89,7 @@ def self_tests(machine: TuftingMachine) -> tuple[Check, ...]:
     motion, drive, needle = forces.motion, machine.looper, machine.params.needle
     across = motion.point(ROCKER, "tip").position.real - needle.shaft_distance - needle.needle_distance
     apart = float(np.max(np.abs(drive.sense * across - drive.ahead(forces.angle))))
-    own = (replace(one, name=f"needle drive: {one.name}") for one in needle_report.self_tests(_drive(machine)))
+    own = (replace(test, name=f"needle drive: {test.name}") for test in needle_report.self_tests(_drive(machine)))
     return (
         *own,
         at_most("power balance of the looper's forces", forces.forces.power_error, BALANCE, "1", "virtual power"),

@@ -43,7 +43,8 @@ def _choices(design: WarpTensionDesign) -> Iterator[Choice]:
         most = max(cylinders(design), key=lambda one: one.reaction)
         given = most.reaction, most.torque, most.slope
         yield choose(
-            "bearing", [Alternative(one.name, bearing_checks(params, one, *given)) for one in bearings_offered()]
+            "bearing",
+            [Alternative(bearing.name, bearing_checks(params, bearing, *given)) for bearing in bearings_offered()],
         )[1]
     if params.by_hand:
         return
@@ -51,7 +52,9 @@ def _choices(design: WarpTensionDesign) -> Iterator[Choice]:
         by_power = sorted(MOTORS, key=lambda motor: motor.power)
         yield choose("motor", [Alternative(one.name, motor_checks(design, one)) for one in by_power])[1]
     if params.motor_torque is None and params.ratio is None and design.motor is not None:
-        yield choose("ratio", [Alternative(f"{one:g}", ratio_checks(design, one, design.motor)) for one in RATIOS])[1]
+        yield choose(
+            "ratio", [Alternative(f"{ratio:g}", ratio_checks(design, ratio, design.motor)) for ratio in RATIOS]
+        )[1]
 
 
 def tube_checks(params: WarpTensionParams, tube: Tube, depth: float, load: complex) -> tuple[Check, ...]:
@@ -69,7 +72,7 @@ def motor_checks(design: WarpTensionDesign, motor: Motor) -> tuple[Check, ...]:
     """Torque of a motor behind the largest of the ratios at which it is quick enough; its speed where none is."""
     params, rate = design.params, peak_rate(design.params, design.outer_radius)
     ratios = RATIOS if params.ratio is None else (params.ratio,)
-    quick = max((one for one in ratios if one * rate <= motor.speed), default=0.0)
+    quick = max((ratio for ratio in ratios if ratio * rate <= motor.speed), default=0.0)
     if not quick:
         return (at_most("motor speed", min(ratios) * rate, motor.speed, "rpm", "its rated speed"),)
     torque = design.torque_full / (quick * params.efficiency)

@@ -288,7 +288,11 @@ def bearing_for(params: WarpTensionParams, reaction: float, torque: float, slope
     if params.bearing is not None:
         return find_bearing(params.bearing)
     offered = bearings_offered()
-    enough = (one for one in offered if all(one.ok for one in bearing_checks(params, one, reaction, torque, slope)))
+    enough = (
+        bearing
+        for bearing in offered
+        if all(check.ok for check in bearing_checks(params, bearing, reaction, torque, slope))
+    )
     return next(enough, max(offered, key=lambda one: one.static * (one.kind == DEEP_GROOVE)))
 
 

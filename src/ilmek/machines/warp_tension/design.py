@@ -88,7 +88,7 @@ class WarpTensionDesign:
 
     @computed("", "kinds of bearings that allow the slope, own weight included")
     def bearings(self) -> list[str]:
-        return [one.name for one in bearings_for(self.slope_loaded)]
+        return [bearing.name for bearing in bearings_for(self.slope_loaded)]
 
     ratio = computed("1", "ratio of the reducer", lambda it: it.reducer.ratio)
     self_locking = computed("", "whether the reducer holds the warps by itself", lambda it: it.reducer.self_locking)

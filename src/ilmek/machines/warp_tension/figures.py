@@ -75,18 +75,21 @@ def moving(analysis: WarpTensionAnalysis) -> Animation:
     fixed = (
         Stroke(side.path, "yarn", "warps"),
         *(
-            Stroke(side.middle[one.name] + one.outer * _RING, "outline", one.name, closed=True, filled=True)
-            for one in analysis.cylinders
+            Stroke(
+                side.middle[cylinder.name] + cylinder.outer * _RING, "outline", cylinder.name, closed=True, filled=True
+            )
+            for cylinder in analysis.cylinders
         ),
     )
     spokes = tuple(
         MovingStroke(
-            side.middle[one.name] + one.outer * np.exp(1j * turned[one.name])[:, None] * np.array([-1.0, 1.0]),
+            side.middle[cylinder.name]
+            + cylinder.outer * np.exp(1j * turned[cylinder.name])[:, None] * np.array([-1.0, 1.0]),
             "path",
-            f"{one.name} cylinder",
+            f"{cylinder.name} cylinder",
         )
-        for one in analysis.cylinders
-        if one.name in turned
+        for cylinder in analysis.cylinders
+        if cylinder.name in turned
     )
     marks = MovingDot(_along(side.path, released), "", "point")
     rows = woven / params.cloth.row_distance

@@ -18,9 +18,9 @@ def tensions_of(params: WarpTensionParams) -> TakeUpTension:
     rate = cloth.carpet_yarns.warp.stiffness / params.free_length
     woven = params.rows_between * cloth.row_distance
     lengthening = float(shed_lengthening(params.shed_lift, params.shed_span, params.shed_span))
-    found = take_up_tension(cloth.warp_tension, rate, woven, params.crimp, lengthening)
+    tension = take_up_tension(cloth.warp_tension, rate, woven, params.crimp, lengthening)
     given = params.tension_shed
-    return found if given is None else replace(found, shed=given + found.woven - found.rest)
+    return tension if given is None else replace(tension, shed=given + tension.woven - tension.rest)
 
 
 def loads_of(params: WarpTensionParams) -> WarpLoads:

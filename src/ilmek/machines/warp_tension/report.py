@@ -89,10 +89,14 @@ def _slope_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
     """Slopes of the cylinders within their limit, but more than the kinds of their bearings allow."""
     return tuple(
         at_most(
-            f"slope of {one.bearing.name}, {one.name}", one.slope, slope_limit(one.bearing), "rad", "its kind"
-        ).with_cure("set a stiffer tube", part_id(f"{one.name}-bearing"))
-        for one in analysis.cylinders
-        if slope_limit(one.bearing) < one.slope <= analysis.design.params.slope_limit
+            f"slope of {cylinder.bearing.name}, {cylinder.name}",
+            cylinder.slope,
+            slope_limit(cylinder.bearing),
+            "rad",
+            "its kind",
+        ).with_cure("set a stiffer tube", part_id(f"{cylinder.name}-bearing"))
+        for cylinder in analysis.cylinders
+        if slope_limit(cylinder.bearing) < cylinder.slope <= analysis.design.params.slope_limit
     )
 
 
@@ -163,17 +167,17 @@ def _warp_checks(analysis: WarpTensionAnalysis) -> tuple[Check, ...]:
 
 def warnings(analysis: WarpTensionAnalysis) -> tuple[str, ...]:
     """Drives that do not hold the warps or are too weak."""
-    design, made = analysis.design, []
+    design, warnings = analysis.design, []
     params, efficiency = design.params, format_number(design.params.efficiency)
     if params.self_locking and not design.reducer.self_locking:
         needed = format_quantity(design.torque_full / (design.reducer.ratio * LOCKING), "Nm")
-        made.append(
+        warnings.append(
             f"a reducer of efficiency {efficiency} does not lock itself: one that does (at most {LOCKING:g}) "
             f"requires {needed} or more of the motor; or set self_locking=no and hold the warps by a brake"
         )
     if not params.by_hand and params.motor_torque is None and design.motor is None:
-        made.append(no_motor(design.motor_torque, design.motor_speed))
-    return tuple(made)
+        warnings.append(no_motor(design.motor_torque, design.motor_speed))
+    return tuple(warnings)
 
 
 def tables(analysis: WarpTensionAnalysis) -> tuple[Table, ...]:
@@ -200,10 +204,19 @@ def _cylinder_table(three: tuple[Cylinder, ...]) -> Table:
     )
     rows = tuple(
         (
-            *(one.name, one.tube_name, abs(one.load), one.slope, one.deflection, one.reaction, one.torque, one.mass),
-            *(one.bearing.name, one.static_safety, one.life, one.stub_stress),
+            *(
+                cylinder.name,
+                cylinder.tube_name,
+                abs(cylinder.load),
+                cylinder.slope,
+                cylinder.deflection,
+                cylinder.reaction,
+                cylinder.torque,
+                cylinder.mass,
+            ),
+            *(cylinder.bearing.name, cylinder.static_safety, cylinder.life, cylinder.stub_stress),
         )
-        for one in three
+        for cylinder in three
     )
     return Table("warp-tension-cylinders", "The three cylinders", heads, rows)
 

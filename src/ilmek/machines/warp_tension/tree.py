@@ -130,7 +130,7 @@ def _end_shape(params: WarpTensionParams, cylinder: Cylinder) -> Turned:
     rim, journal = min(FLANGE, params.stub / 2), cylinder.seat.bearing.bore
     length = params.stub - rim + cylinder.seat.journal
     steps = _spigot(cylinder), (2 * cylinder.flange, rim), (journal, length)
-    return stepped(*(one for one in steps if min(one) > 0))
+    return stepped(*(step for step in steps if min(step) > 0))
 
 
 def _spigot(cylinder: Cylinder) -> tuple[float, float]:
@@ -185,7 +185,7 @@ def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
 
     The reducers are alike but for the bores of their hollow shafts.
     """
-    ends = {one.name: one.driven_end for one in cylinders(design)}
+    ends = {cylinder.name: cylinder.driven_end for cylinder in cylinders(design)}
     longest = {end.diameter: end for end in sorted(ends.values(), key=lambda end: end.length)}
     thickest = ends[UPPER].diameter
     geared = {

@@ -54,11 +54,11 @@ def head_checks(weaver: Weaver, limits: HeadLimits) -> tuple[Check, ...]:
 def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
     """Limits of every track, the carriage's step, the hand weaver's time."""
     params = weaver.params
-    found: list[Check] = []
+    checks: list[Check] = []
     for name, peak in weaver.peaks.items():
         speed, acceleration = (rounded(value, 12) for value in (peak.speed, peak.acceleration))
         source, moved = ("parameter speed_limit", "acceleration_limit"), _moved(name)
-        found += [
+        checks += [
             at_most(f"{name}: speed", speed, params.speed_limit, "m/s", source[0]).with_cure(LONGER, *moved),
             at_most(f"{name}: acceleration", acceleration, params.acceleration_limit, "m/s^2", source[1]).with_cure(
                 LONGER, *moved
@@ -68,7 +68,7 @@ def _tool_checks(weaver: Weaver) -> tuple[Check, ...]:
     case = case_plates(weaver)
     step, hand = "set a longer knot_cycle, or a faster carriage", "set a shorter knot_cycle, or higher limits"
     return (
-        *found,
+        *checks,
         at_most(
             "carriage: step to the next knot", weaver.carriage_step, weaver.carriage_window, "s", "tools out"
         ).with_cure(step, *case),

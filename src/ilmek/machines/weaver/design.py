@@ -230,7 +230,7 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
     arms = params.arms
     outside = params.pair / 2 + (arms.outer or cloth.warp_pitch)
     reach = arms.depth if params.with_arms else params.opening + grippers.crossing
-    made = opener_for(
+    opener = opener_for(
         params.pair,
         outside if params.with_arms else abs(grippers.warps[-1].real),
         params.opening,
@@ -241,8 +241,8 @@ def _opener(params: WeaverParams, grippers: Grippers) -> Opener:
         (own.wall or TEETH[-1], 2 * own.plate, reach),
     )
     if own.wall is not None:
-        return made
-    return next((one for one in (replace(made, wall=wall) for wall in TEETH) if one.bend <= own.bend_limit), made)
+        return opener
+    return next((one for one in (replace(opener, wall=wall) for wall in TEETH) if one.bend <= own.bend_limit), opener)
 
 
 def _magazine(params: WeaverParams, rest: float) -> Magazine:

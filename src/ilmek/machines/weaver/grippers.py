@@ -195,8 +195,8 @@ def taut_max(grippers: Grippers) -> float:
 
 
 def _reaches(params: WeaverParams, drawn: float) -> bool:
-    made = grippers_for(params, drawn)
-    return taut_max(made) <= made.apart + YARN_TOLERANCE
+    grippers = grippers_for(params, drawn)
+    return taut_max(grippers) <= grippers.apart + YARN_TOLERANCE
 
 
 def taut(grippers: Grippers, position: FloatArray) -> FloatArray:

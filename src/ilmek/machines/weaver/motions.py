@@ -97,25 +97,25 @@ class ToolAngles(Params):
     @property
     def given(self) -> dict[str, float]:
         """The angles that are set [rad]."""
-        values = {one.name: getattr(self, one.name) for one in fields(self)}
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
         return {name: value for name, value in values.items() if value is not None}
 
 
 def motion_angles(track: str, steps: CycleSteps, angles: ToolAngles) -> dict[str, tuple[float, float]]:
     """Begin and end of each motion of a track [rad], and of its instants, by name."""
-    found: dict[str, tuple[float, float]] = {}
+    motion_angles: dict[str, tuple[float, float]] = {}
     starts, spans = (angles.start, angles.return_start), (angles.rise, angles.fall)
     for motions, start, span in zip(MOTIONS[track], starts, spans, strict=True):
         usual = {name: (steps.angle(step, one), steps.angle(step, then)) for name, step, one, then in motions}
         if start is None and span is None:
-            found |= usual
+            motion_angles |= usual
             continue
         first, last = usual[motions[0][0]][0], usual[motions[-1][0]][1]
         begin, scale = first if start is None else start, 1.0 if span is None else span / (last - first)
-        found |= {
+        motion_angles |= {
             name: (begin + scale * (one - first), begin + scale * (then - first)) for name, (one, then) in usual.items()
         }
-    return found
+    return motion_angles
 
 
 def require_order(tool: str, track: str, steps: CycleSteps, angles: ToolAngles) -> None:

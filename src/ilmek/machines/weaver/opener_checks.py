@@ -91,7 +91,7 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
     """The magazine within the head; the arms too."""
     params, magazine = weaver.params, weaver.magazine
     fewer = "set fewer colours, more weaver.tube_tiers, or leave head_width to the design"
-    found = (
+    room_checks = (
         at_most("tubes on the head", magazine.width, weaver.width, "mm", "head_width").with_cure(fewer, TUBE),
         at_most("tiers of the tubes", magazine.height, params.magazine_room, "mm", "parameter magazine_room").with_cure(
             "set a larger weaver.magazine_room, or fewer colours", TUBE
@@ -105,10 +105,10 @@ def room_checks(weaver: Weaver) -> tuple[Check, ...]:
         ).with_cure("set a larger weaver.tube_pitch", TUBE, COLOUR_MOTOR, INDEX_SENSOR),
     )
     if not params.with_arms:
-        return found
+        return room_checks
     cure = "leave head_width to the design"
     return (
-        *found,
+        *room_checks,
         at_most("arms on the head", params.arms.width, weaver.width, "mm", "head_width").with_cure(cure),
         at_least(
             "yarn drawn",

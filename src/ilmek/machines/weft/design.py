@@ -107,7 +107,7 @@ class Weft:
         params = replace(self.params, cloth=replace(self.params.cloth, warps=warps, yarns=yarns))
         lengths = weft_lengths(params.cloth.width, params.cloth.warp_pitch, params.cloth.carpet_yarns, params.turn)
         wound = windings(params, self.carried.bobbin, lengths)
-        return tuple(Bobbin(one.name, max(1, one.rows), params.change_time) for one in wound)
+        return tuple(Bobbin(winding.name, max(1, winding.rows), params.change_time) for winding in wound)
 
     @property
     def parts(self) -> tuple[BillLine, ...]:
@@ -175,10 +175,10 @@ def _axis(params: WeftParams, passage: WeftPassage, carried: Carrier, resisting:
     row = LINEAR_GUIDES[0]
     while True:
         axis = belt_axis(params, passage, carriage_mass(params, carried, row) + carried.full, resisting)
-        found = guide_for(axis)
-        if found.height <= row.height:
+        guide = guide_for(axis)
+        if guide.height <= row.height:
             return axis
-        row = found
+        row = guide
 
 
 def _passage(params: WeftParams, carried: Carrier) -> WeftPassage:

@@ -52,13 +52,13 @@ def certify(
     free = np.flatnonzero(~task.pose)
     numbers = np.concatenate([pins, turns[:, free]], axis=1)
     near = np.stack([numbers.real, numbers.imag], -1).reshape(len(pins), -1)
-    found = certified_roots(_System(task), near)
-    improved = found.roots[:, ::2] + 1j * found.roots[:, 1::2]
-    errors = np.hypot(found.radius[:, ::2], found.radius[:, 1::2])
+    roots = certified_roots(_System(task), near)
+    improved = roots.roots[:, ::2] + 1j * roots.roots[:, 1::2]
+    errors = np.hypot(roots.radius[:, ::2], roots.radius[:, 1::2])
     turned = turns.copy()
     turned[:, free] = improved[:, len(PINS) :]
     pin_error, turn_error = errors[:, : len(PINS)].max(axis=1), errors[:, len(PINS) :].max(axis=1, initial=0.0)
-    return Certificate(found.certified, improved[:, : len(PINS)], turned, pin_error, turn_error)
+    return Certificate(roots.certified, improved[:, : len(PINS)], turned, pin_error, turn_error)
 
 
 def unit_length(task: PosesAndPoints) -> float:

@@ -84,13 +84,13 @@ def _drawn(task: PosesAndPoints, family: int, proof: Certificate, k: int) -> Com
     A, x, B, y = proof.pins[k] * unit_length(task)
     origin, first = task.points[task.reference], task.points[0]
     try:
-        found = FourBar(origin + A, origin + B, first + turns[0] * x, first + turns[0] * y, complex(first))
+        bar = FourBar(origin + A, origin + B, first + turns[0] * x, first + turns[0] * y, complex(first))
     except MechanismError:
         return None
-    if found.reversed().grashof.crank_turns and not found.grashof.crank_turns:
-        found = found.reversed()
+    if bar.reversed().grashof.crank_turns and not bar.grashof.crank_turns:
+        bar = bar.reversed()
     return CompleteFourBar(
-        found, np.asarray(np.angle(turns / turns[0])), family, bool(proof.certified[k]), _distance(task, proof, k)
+        bar, np.asarray(np.angle(turns / turns[0])), family, bool(proof.certified[k]), _distance(task, proof, k)
     )
 
 

@@ -138,12 +138,12 @@ def complete(begin: SolvedTask, task: Complex[np.ndarray, "3 positions"], progre
     A special task, where solutions merge or form families, lacks many ends: none is tracked again. The lines are the
     same in every run. Raises Cancelled.
     """
-    found = track(begin, task, progress)
-    collected = Collected(found)
+    tracked = track(begin, task, progress)
+    collected = Collected(tracked)
     followed = collected.slots.copy()
     if not 0 < len(followed) <= max(FEW, SHARE * len(begin.unknowns)):
-        return found
-    collected.add(found.only(np.flatnonzero(repeated(found.distinct_keys))))
+        return tracked
+    collected.add(tracked.only(np.flatnonzero(repeated(tracked.distinct_keys))))
     tries = [(share, share * distance, followed) for distance in DISTANCES for share in SHARES]
     tries += [(0.5, distance, np.arange(len(begin.unknowns))) for distance in OTHER_LINES]
     for seed, (share, distance, which) in enumerate(tries):

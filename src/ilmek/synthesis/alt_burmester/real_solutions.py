@@ -48,7 +48,7 @@ def real_solutions(task: PosesAndPoints, found: Tracked) -> RealSolutions:
     real = alone & (apart <= REAL * (1 + np.abs(u).max(axis=1)))
     left_out[COMPLEX] = int(np.sum(alone & ~real))
     pins = u[real][:, PLAIN]
-    proper = np.all([_proper(one) for one in _variants(pins, found.solved.nine_points)], axis=0)
+    proper = np.all([_proper(variant) for variant in _variants(pins, found.solved.nine_points)], axis=0)
     left_out[DEGENERATE] = int(np.sum(~proper))
     variants = _variants(pins[proper], found.solved.nine_points)
     family = np.tile(np.arange(int(np.sum(proper))), len(variants))

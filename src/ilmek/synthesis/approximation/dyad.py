@@ -97,7 +97,7 @@ def dyads_along(points: ComplexArray, first_angles: FloatArray, criterion: str =
     size = float(np.max(np.abs(points - centre)))
     p, u = (points - centre) / size, np.exp(1j * first_angles)
     starts, left_out = _starts(p, u, criterion)
-    found: list[DyadApproximation] = []
+    approximations: list[DyadApproximation] = []
     for start in starts:
         end, bound, gap = _descent(p, u, criterion, start)
         if not np.max(np.abs(end)) <= FAR:
@@ -105,13 +105,13 @@ def dyads_along(points: ComplexArray, first_angles: FloatArray, criterion: str =
             continue
         errors = size * _deviations(p, u, end)[0]
         dyad = _dyad(end, centre, size)
-        if all(_apart(dyad, other.dyad) > SAME * size for other in found):
+        if all(_apart(dyad, other.dyad) > SAME * size for other in approximations):
             rms, worst = float(np.sqrt(np.mean(errors**2))), float(np.max(np.abs(errors)))
-            found.append(DyadApproximation(dyad, errors, worst, rms, size * bound, gap))
-    proven = [one for one in found if one.proven]
-    if len(proven) < len(found):
+            approximations.append(DyadApproximation(dyad, errors, worst, rms, size * bound, gap))
+    proven = [approximation for approximation in approximations if approximation.proven]
+    if len(proven) < len(approximations):
         left_out.append("a search that does not converge")
-    ranked = sorted(proven or found, key=lambda one: one.rms if criterion == "least squares" else one.worst)
+    ranked = sorted(proven or approximations, key=lambda one: one.rms if criterion == "least squares" else one.worst)
     return DyadApproximations(tuple(ranked), tuple(dict.fromkeys(left_out)))
 
 

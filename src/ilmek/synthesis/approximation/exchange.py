@@ -243,19 +243,19 @@ def minimax_over_range(errors: Errors, start: Parameters, x: FloatArray, *, leas
     The arguments are those of `minimax_descent`. The lower bound of the points also holds for the range; `worst` is the
     greatest error over the range.
     """
-    points, found = x, Descent(np.asarray(start, dtype=float), 0.0, np.inf)
+    points, descent = x, Descent(np.asarray(start, dtype=float), 0.0, np.inf)
     for _ in range(12):
-        found = minimax_descent(errors, found.parameters, points, least=least)
-        if not np.isfinite(found.worst):
+        descent = minimax_descent(errors, descent.parameters, points, least=least)
+        if not np.isfinite(descent.worst):
             break
-        at = extremes(partial(_error_alone, errors, found.parameters), points)
-        worst = float(np.max(np.abs(_error_alone(errors, found.parameters, at))))
-        done = worst <= max(least, found.worst * (1 + 1e-9)) or found.gap > PROVEN
-        found = found._replace(worst=max(worst, found.worst))
+        at = extremes(partial(_error_alone, errors, descent.parameters), points)
+        worst = float(np.max(np.abs(_error_alone(errors, descent.parameters, at))))
+        done = worst <= max(least, descent.worst * (1 + 1e-9)) or descent.gap > PROVEN
+        descent = descent._replace(worst=max(worst, descent.worst))
         if done:
             break
         points = np.union1d(points, at)
-    return found
+    return descent
 
 
 def _error_alone(errors: Errors, parameters: Parameters, x: FloatArray) -> FloatArray:

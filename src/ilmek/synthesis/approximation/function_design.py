@@ -124,7 +124,7 @@ def design_generators(
         raise ParameterError(
             f"criterion {criterion!r} of a design error", allowed="interpolation, least squares, minimax"
         )
-    found = [GeneratorDesign(_generator(one.parameters, crank_start, rocker_start), one) for one in answers]
+    found = [GeneratorDesign(_generator(answer.parameters, crank_start, rocker_start), answer) for answer in answers]
     return GeneratorDesigns(tuple(found), words)
 
 
@@ -133,7 +133,7 @@ def _generator(parameters: FloatArray, crank_start: float | None, rocker_start: 
     if crank_start is not None and rocker_start is not None:
         r1, r2, r3 = (float(ratio) for ratio in parameters)
         return Generator(r1, r2, r3, crank_start, rocker_start)
-    p0, x, y, by_other = (float(one) for one in parameters)
+    p0, x, y, by_other = (float(parameter) for parameter in parameters)
     by_own, start = 1 / np.hypot(x, y), float(np.arctan2(y, x))
     if crank_start is None:
         assert rocker_start is not None

@@ -125,7 +125,7 @@ def margin(function: Function, one: Generator) -> float:
     cosines = [math.cos(low), math.cos(high)]
     cosines += [(-1.0) ** k for k in range(math.ceil(low / math.pi), math.floor(high / math.pi) + 1)]
     r1, r2, r3 = (float(ratio) for ratio in one[:3])
-    return min(1 - (r2 * one - r3) ** 2 / max(r1 * r1 + 1 - 2 * r1 * one, 1e-300) for one in cosines)
+    return min(1 - (r2 * cosine - r3) ** 2 / max(r1 * r1 + 1 - 2 * r1 * cosine, 1e-300) for cosine in cosines)
 
 
 def structural_error(function: Function, one: Generator, sense: int, x: FloatArray) -> FloatArray:

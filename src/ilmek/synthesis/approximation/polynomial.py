@@ -100,12 +100,12 @@ class SynthesisPolynomial:
         """
         weight = np.ones(len(x)) if self.weight is None else np.asarray(self.weight(x), dtype=float)
         products = np.zeros((len(x), 0)) if self.product_terms is None else self.product_terms(x)
-        found = EquationRows(weight[:, None] * self.terms(x), weight[:, None] * products, weight * self.target(x))
-        if not all(np.isfinite(part).all() for part in found):
+        rows = EquationRows(weight[:, None] * self.terms(x), weight[:, None] * products, weight * self.target(x))
+        if not all(np.isfinite(part).all() for part in rows):
             raise ParameterError("the synthesis polynomial is not finite everywhere", do="choose another range of x")
         if not np.min(weight) > 0:
             raise ParameterError(f"a weight of the error is {np.min(weight):g}", allowed="above 0")
-        return found
+        return rows
 
     def errors(self, parameters: FloatArray, x: FloatArray) -> FloatArray:
         """Weighted errors e at x, in the unit of the target."""
@@ -266,7 +266,10 @@ def _different(ends: Iterable[Descent]) -> list[Descent]:
     """The ends without duplicates."""
     kept: list[Descent] = []
     for end in ends:
-        if all(np.max(np.abs(end.parameters - one.parameters)) > SAME * np.max(np.abs(one.parameters)) for one in kept):
+        if all(
+            np.max(np.abs(end.parameters - descent.parameters)) > SAME * np.max(np.abs(descent.parameters))
+            for descent in kept
+        ):
             kept.append(end)
     return kept
 
@@ -290,7 +293,7 @@ def _starts(
     for one in least_squares(polynomial, points).found:
         yield one.parameters / sizes
     even = scaled(rows, products, sizes)
-    yield from (one[:count] for one in _equal_error_starts(even, products))
+    yield from (start[:count] for start in _equal_error_starts(even, products))
     common = common_factor(products)
     if common is not None:
         yield from _common_factor_starts(even, products, common)

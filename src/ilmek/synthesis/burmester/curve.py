@@ -110,7 +110,7 @@ class BurmesterCurve:
 
     def guides(self) -> tuple[Guide, ...]:
         """The link of every sample, in order."""
-        return tuple(one for loop in self.loops for one in guides(loop.centres, loop.circles, self.centre_frame))
+        return tuple(guide for loop in self.loops for guide in guides(loop.centres, loop.circles, self.centre_frame))
 
 
 def burmester_curve(points: ComplexArray, angles: FloatArray, samples: int = SAMPLES) -> BurmesterCurve:
@@ -296,13 +296,13 @@ def _branches(loop: FloatArray, frame: TaskFrame) -> list[CurveBranch]:
     points = frame.to_world((loop[:, 0] + 1j * loop[:, 1]) / np.where(finite, loop[:, 2], 1.0))
     if not cuts:
         return [CurveBranch(points, closed=True)]
-    found = []
+    branches = []
     for low, high in zip(cuts, [*cuts[1:], cuts[0] + count], strict=True):
         index = np.arange(low, high) % count
         index = index[finite[index]]
         if len(index):
-            found.append(CurveBranch(points[index], closed=False))
-    return found
+            branches.append(CurveBranch(points[index], closed=False))
+    return branches
 
 
 def _asymptote(G: FloatArray, frame: TaskFrame) -> Asymptote | None:

@@ -185,10 +185,10 @@ def common_solutions(G: Float[np.ndarray, "4 3 3"]) -> tuple[FloatArray, FloatAr
     _, sizes, basis = np.linalg.svd(rows)
     plane = basis[4:]
     C, D = (plane @ conic @ plane.T for conic in CONICS)
-    found = meet(C, D)
-    if sizes[-1] < FAMILY * sizes[0] or found.share or max(np.abs(C).max(), np.abs(D).max()) < FAMILY:
+    intersections = meet(C, D)
+    if sizes[-1] < FAMILY * sizes[0] or intersections.share or max(np.abs(C).max(), np.abs(D).max()) < FAMILY:
         return None
-    return _ends(_with_fixed_angle(rows, found.points[found.real].real @ plane))
+    return _ends(_with_fixed_angle(rows, intersections.points[intersections.real].real @ plane))
 
 
 def other_ends(ends: Float[np.ndarray, "n 3"], G: Float[np.ndarray, "2 3 3"]) -> Float[np.ndarray, "n 3"]:

@@ -31,9 +31,9 @@ def certified(pins: Complex[np.ndarray, "4"], poses: BodyPoses) -> bool:
     unit = float(2.0 ** np.round(np.log2(size)))  # division by it is exact
     ends = (pins - points[0]).reshape(2, 2).T / unit
     near = np.stack([ends.real, ends.imag], axis=-1).reshape(2, 4)
-    found = certified_roots(_Links(poses, unit, near), near)
-    away = np.abs(found.roots - near) + found.radius
-    return bool(found.certified.all() and np.max(away) * unit <= RADIUS * size)
+    roots = certified_roots(_Links(poses, unit, near), near)
+    away = np.abs(roots.roots - near) + roots.radius
+    return bool(roots.certified.all() and np.max(away) * unit <= RADIUS * size)
 
 
 class _Links:

@@ -88,7 +88,7 @@ class MotionLimits:
         limits[measures.CRANK_LOW], limits[measures.CRANK_HIGH] = self.crank_swing
         limits[measures.ROCKER_LOW], limits[measures.ROCKER_HIGH] = self.rocker_swing
         polygons = (frame.to_frame(one) for one in (self.crank_region, self.rocker_region, self.keep_out))
-        return measures.SearchBounds(limits, np.array([_box(one, frame) for one in self.boxes]), *polygons)
+        return measures.SearchBounds(limits, np.array([_box(box, frame) for box in self.boxes]), *polygons)
 
 
 def _box(box: tuple[Bounds, Bounds], frame: TaskFrame) -> Sequence[float]:
@@ -99,7 +99,7 @@ def _box(box: tuple[Bounds, Bounds], frame: TaskFrame) -> Sequence[float]:
 
 def breaches(one: Candidate, limits: MotionLimits) -> dict[str, str]:
     """Every limit and filter that a candidate does not keep -> reason as a sentence."""
-    found = defects(one, limits.filters, task_only=limits.task_only)
+    breaches = defects(one, limits.filters, task_only=limits.task_only)
     pivots = (one.four_bar.a0, one.four_bar.b0)
     for name, pivot, box, corners in zip(
         ("crank_region", "rocker_region"), pivots, limits.boxes, limits.polygons, strict=True
@@ -107,7 +107,7 @@ def breaches(one: Candidate, limits: MotionLimits) -> dict[str, str]:
         sides = np.array([end for bounds in box for end in bounds])
         outside = -float(regions.region_margin(pivot, sides, corners))
         if outside > KEPT * one.size:
-            found[name] = f"{name.split('_')[0]}'s pivot {format_quantity(outside, 'mm')} outside its region"
+            breaches[name] = f"{name.split('_')[0]}'s pivot {format_quantity(outside, 'mm')} outside its region"
     for name, bounds, swing in (
         ("crank_swing", limits.crank_swing, crank_swing),
         ("rocker_swing", limits.rocker_swing, rocker_swing),
@@ -116,10 +116,10 @@ def breaches(one: Candidate, limits: MotionLimits) -> dict[str, str]:
             angle = swing(one)
             if not bounds[0] - SWING <= angle <= bounds[1] + SWING:
                 allowed = f"{format_quantity(bounds[0], 'deg')} to {format_quantity(bounds[1], 'deg')}"
-                found[name] = f"{name.replace('_', ' ')} {format_quantity(angle, 'deg')}, allowed {allowed}"
+                breaches[name] = f"{name.replace('_', ' ')} {format_quantity(angle, 'deg')}, allowed {allowed}"
     if len(limits.keep_out) and one.reached and one.one_circuit and not clear_of(one, limits.keep_out):
-        found["keep_out"] = "a link touches the region to keep clear"
-    return found
+        breaches["keep_out"] = "a link touches the region to keep clear"
+    return breaches
 
 
 def crank_swing(one: Candidate) -> float:

@@ -145,8 +145,8 @@ def _cure(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], name:
     if not len(near.scores):
         return []
     if name in FLAGS:
-        found = search_pairs(without, 1, progress.part(0.5, 1.0))
-        return [Cure(name, f"{name}=no", "yes", found.found, 1.0)] if found.pairs else []
+        search = search_pairs(without, 1, progress.part(0.5, 1.0))
+        return [Cure(name, f"{name}=no", "yes", search.found, 1.0)] if search.pairs else []
     # Those that miss the given limit least come first.
     missed = space.repaired(near, space.bounds, 0, progress)
     near = near.only(np.argsort(missed.scores, kind="stable")[:BASINS])
@@ -181,9 +181,9 @@ def _stated(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], nam
     limits = loosened(space.limits, name, share * 1.002 + 1e-4, space.extent or space.frame.size)
     setting, instead, limits = in_words(space.limits, limits, name, share)
     trial = MotionSpace(space.poses, space.curve, limits, space.most)
-    found: PairSearch = search_pairs(trial, 3)
-    good = [pair for pair in found.pairs if not breaches(judged(pair.pins), limits)]
-    return [Cure(name, setting, instead, found.found, share)] if good else []
+    search: PairSearch = search_pairs(trial, 3)
+    good = [pair for pair in search.pairs if not breaches(judged(pair.pins), limits)]
+    return [Cure(name, setting, instead, search.found, share)] if good else []
 
 
 def in_words(given: MotionLimits, loose: MotionLimits, name: str, share: float) -> tuple[str, str, MotionLimits]:

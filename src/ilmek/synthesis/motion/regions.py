@@ -57,10 +57,10 @@ def region_margin(point: complex, box: FloatArray, corners: ComplexArray) -> flo
 def circle_about(corners: ComplexArray) -> tuple[complex, float]:
     """Middle and radius of a circle about a polygon."""
     middle, radius = 0j, 0.0
-    for one in corners:
-        middle += one / len(corners)
-    for one in corners:
-        radius = max(radius, abs(one - middle))
+    for corner in corners:
+        middle += corner / len(corners)
+    for corner in corners:
+        radius = max(radius, abs(corner - middle))
     return middle, radius
 
 

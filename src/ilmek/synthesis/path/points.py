@@ -270,13 +270,13 @@ def _cranks_of_four(points: NumberArray, crank_angles: FloatArray) -> tuple[Time
 
 def _others(crank: TimedCrank, points: NumberArray, angles: FloatArray) -> tuple[Guide, ...]:
     """The guides of five poses of a coupler, without its crank."""
-    found = arms_through_five_poses(np.asarray(points, dtype=complex), angles)
+    guides = arms_through_five_poses(np.asarray(points, dtype=complex), angles)
     itself = min(
-        (one for one in found if one.kind is GuideKind.CRANK),
+        (guide for guide in guides if guide.kind is GuideKind.CRANK),
         key=lambda one: abs(one.pivot - crank.pivot) + abs(one.pin - crank.pin),
         default=None,
     )
-    return tuple(one for one in found if one is not itself)
+    return tuple(guide for guide in guides if guide is not itself)
 
 
 def _joined(
@@ -286,7 +286,7 @@ def _joined(
     others: Callable[[TimedCrank, NumberArray, FloatArray], Sequence[Guide]],
 ) -> tuple[TimedFourBar, ...]:
     """Each crank with each of its possible second links."""
-    return tuple(one for crank in cranks for one in _of_crank(crank, points, crank_angles, others))
+    return tuple(bar for crank in cranks for bar in _of_crank(crank, points, crank_angles, others))
 
 
 def _of_crank(

@@ -69,11 +69,11 @@ def varied_until_quiet(
         if same == rounds.quiet or not len(pool.errors) or pool.errors[0] <= scaled.exact:
             break
         best = float(pool.errors[0])
-        made = varied(scaled, pool.only(slice(rounds.pool)), rounds.variations, rng)
-        if len(made.errors):
-            made, more = optimised(scaled, made)
+        ends = varied(scaled, pool.only(slice(rounds.pool)), rounds.variations, rng)
+        if len(ends.errors):
+            ends, more = optimised(scaled, ends)
             evaluations += more
-            pool = different(scaled, joined([pool, made]), kept)
+            pool = different(scaled, joined([pool, ends]), kept)
         same = 0 if pool.errors[0] < best * (1 - BETTER) else same + 1
     return pool, evaluations
 

@@ -81,7 +81,7 @@ class PathMotion:
         s = self.path.s[0] + g
         square = _derivatives(self.square, u)
         moves = (time >= 0) & (time <= self.duration)
-        s1, s2, s3 = (np.where(moves, one, 0.0) for one in rates((slopes[0], slopes[1], slopes[2]), square))
+        s1, s2, s3 = (np.where(moves, rate, 0.0) for rate in rates((slopes[0], slopes[1], slopes[2]), square))
         every = rates(self.path.derivatives(u), (square[0][:, None], square[1][:, None], square[2][:, None]))
         speed, acceleration, jerk = (np.where(moves[:, None], one, 0.0) for one in every)
         return Trajectory(time, s, s1, s2, s3, self.path.at(s), speed, acceleration, jerk)
@@ -141,8 +141,8 @@ def _found(
 def _derivatives_at(path: JointPath, knots: FloatArray) -> tuple[Three, Three]:
     """The path's derivatives at the fine shares of every interval, and at the points."""
     every = [
-        one.reshape(len(knots) - 1, -1, one.shape[-1])
-        for one in path.derivatives(_at(knots, np.append(_FINE, _POINTS)))
+        derivative.reshape(len(knots) - 1, -1, derivative.shape[-1])
+        for derivative in path.derivatives(_at(knots, np.append(_FINE, _POINTS)))
     ]
     fine, points = (
         [one[:, part].reshape(-1, one.shape[-1]) for one in every]
@@ -163,7 +163,7 @@ def _best(
 
 def _slowness(slopes: Three, limits: AxesLimits) -> float:
     """Factor of time by which the motion u = t must be slowed down to keep every limit where its derivatives are."""
-    q1, q2, q3 = (np.abs(one) for one in slopes)
+    q1, q2, q3 = (np.abs(slope) for slope in slopes)
     return float(
         max(np.max(q1 / limits.speed), np.sqrt(np.max(q2 / limits.acceleration)), np.cbrt(np.max(q3 / limits.jerk)))
     )
@@ -171,7 +171,7 @@ def _slowness(slopes: Three, limits: AxesLimits) -> float:
 
 def _task(points: Three, limits: AxesLimits, knots: FloatArray) -> SpeedTask:
     """The limits at the points, each over its value: speeds together, then accelerations and jerks of both signs."""
-    q1, q2, q3 = (one[..., None] for one in points)
+    q1, q2, q3 = (point[..., None] for point in points)
     b0, b1, b2 = (local_basis(knots, _POINTS, order) for order in range(3))
     quick = np.max((q1[..., 0] / limits.speed) ** 2, axis=1)[:, None, None] * b0[:, None]
     bend = (q2 * b0[:, None] + q1 * b1[:, None] / 2) / limits.acceleration[:, None]
@@ -194,7 +194,7 @@ def _overstep(fine: Three, limits: AxesLimits, knots: FloatArray, square: "scipy
 
 def _used(slopes: Three, limits: AxesLimits, u: FloatArray, square: "scipy.interpolate.BSpline") -> Three:
     """Speed, acceleration and jerk over their limits, signed, (points, axes) each; slopes: of the path at u."""
-    w, w1, w2 = (one[:, None] for one in _derivatives(square, u))
+    w, w1, w2 = (derivative[:, None] for derivative in _derivatives(square, u))
     speed, acceleration, jerk = rates(slopes, (w, w1, w2))
     return speed / limits.speed, acceleration / limits.acceleration, jerk / limits.jerk
 
@@ -208,7 +208,7 @@ def _knots(path: JointPath, square: "scipy.interpolate.BSpline", intervals: int)
     slope, bend, twist = (np.linalg.norm(path.at(s, order), axis=1) for order in (1, 2, 3))
     slope = np.maximum(slope, 1e-6 * slope.max())
     shares = (np.ones(len(middle)), 1 / np.sqrt(square(middle)), (bend / slope + np.sqrt(twist / slope)) * leading[1])
-    density = sum(one / one.sum() for one in shares if one.any())
+    density = sum(share / share.sum() for share in shares if share.any())
     grown = np.append(0.0, np.cumsum(density))
     return np.interp(np.linspace(0.0, grown[-1], intervals + 1), grown, u)
 

@@ -221,7 +221,7 @@ def _projected(views: dict[str, DrawnView]) -> list[SheetPicture]:
         view = views["below"]
         pictures.append(view.picture.moved(1j * (front.box[1] - BETWEEN - view.picture.box[3])))
     if "corner" in views:
-        view, box = views["corner"], joined_box([one.box for one in pictures])
+        view, box = views["corner"], joined_box([picture.box for picture in pictures])
         left = pictures[1].box[0] if "right" in views else box[2] + BETWEEN
         top = min(front.box[1], pictures[1].box[1] if "right" in views else box[1]) - PAD
         pictures.append(top_left(view.picture, complex(left, top)))
@@ -233,7 +233,7 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
     return SheetPicture(
         tuple(line for picture in pictures for line in picture.lines),
         tuple(text for picture in pictures for text in picture.texts),
-        tuple(one for picture in pictures for one in picture.dimensions),
+        tuple(dimension for picture in pictures for dimension in picture.dimensions),
     )
 
 

@@ -123,7 +123,7 @@ def step_detail(view: DrawnView, contour: Contour) -> SheetPicture | None:
     sizes = np.where(small, np.abs(ends - starts), np.inf)
     first = int(np.flatnonzero(sizes < sizes.min() + SAME)[0])
     centre, width = complex(starts[first] + ends[first]) / 2, float(sizes[first])
-    least = next((1e3 / one for one in reversed(SCALES) if width * 1e3 / one >= CLEAR), 1e3 / SCALES[0])
+    least = next((1e3 / scale for scale in reversed(SCALES) if width * 1e3 / scale >= CLEAR), 1e3 / SCALES[0])
     detail = DetailCircle(_LETTERS[0], centre, 4 * width, least)
     far = centre.real - float(starts.real.min()) > whole / 2  # a shortened view keeps distances from its ends
     shift = view.body[2] / view.scale - float(starts.real.max()) if far else 0.0

@@ -44,7 +44,9 @@ class Fits:
 
         centre  of a bore in the section of a plate; None: anywhere
         """
-        there = (one for one in self.features if one.kind is kind and abs(one.nominal - size) < 2 * SAME)
+        there = (
+            feature for feature in self.features if feature.kind is kind and abs(feature.nominal - size) < 2 * SAME
+        )
         return self.joined(
             [one for one in there if centre is None or abs(complex(*one.position.origin[:2]) - centre) < 2 * SAME]
         )
@@ -52,17 +54,17 @@ class Fits:
     def along(self, size: float, kind: FeatureKind) -> Mapping[FeatureNote, list[Span]]:
         """What features of a size [m] and kind on one axis must hold, and where they begin and end on it [m]."""
         notes: dict[FeatureNote, list[Span]] = {}
-        for one in self.features:
-            if one.kind is kind and abs(one.nominal - size) < 2 * SAME:
-                notes.setdefault(self.joined([one]), []).append(span_of(one))
+        for feature in self.features:
+            if feature.kind is kind and abs(feature.nominal - size) < 2 * SAME:
+                notes.setdefault(self.joined([feature]), []).append(span_of(feature))
         return notes
 
     def joined(self, alike: Sequence[ToleratedFeature]) -> FeatureNote:
         """What alike features must hold, as one note."""
-        words = dict.fromkeys(f" {one.tolerance}{limits(one.lower, one.upper)}" for one in alike)
-        frames = dict.fromkeys(_frame(limit) for one in alike for limit in one.geometric)
-        rough = {f"Ra {one.roughness / um:g}" for one in alike if one.roughness != self.general}
-        datums = sorted({one.datum for one in alike if one.datum})
+        words = dict.fromkeys(f" {feature.tolerance}{limits(feature.lower, feature.upper)}" for feature in alike)
+        frames = dict.fromkeys(_frame(limit) for feature in alike for limit in feature.geometric)
+        rough = {f"Ra {feature.roughness / um:g}" for feature in alike if feature.roughness != self.general}
+        datums = sorted({feature.datum for feature in alike if feature.datum})
         return FeatureNote(",".join(words), tuple(frames), tuple(datums), min(rough, default=""))
 
     def depth(self, size: float) -> str:
@@ -78,14 +80,14 @@ class Fits:
         return table(HEADER, rows, Sentence("sheet.fits")) if rows else None
 
     def _rows(self) -> Iterator[tuple[str, ...]]:
-        for one in self.features:
-            if one.tolerance:
-                ends = one.nominal + one.lower, one.nominal + one.upper
-                least, greatest = map(millimetres, ends) if one.lower or one.upper else ("", "")
-                sign = _SIGNS.get(one.kind, "")
-                size = f"{sign}{millimetres(one.nominal)} {one.tolerance}"
-                kind = Sentence(f"sheet.kind-{one.kind.name.lower().replace('_', '-')}")
-                yield kind, size, least, greatest, Sentence(f"sheet.duty-{one.duty.name.lower()}")
+        for feature in self.features:
+            if feature.tolerance:
+                ends = feature.nominal + feature.lower, feature.nominal + feature.upper
+                least, greatest = map(millimetres, ends) if feature.lower or feature.upper else ("", "")
+                sign = _SIGNS.get(feature.kind, "")
+                size = f"{sign}{millimetres(feature.nominal)} {feature.tolerance}"
+                kind = Sentence(f"sheet.kind-{feature.kind.name.lower().replace('_', '-')}")
+                yield kind, size, least, greatest, Sentence(f"sheet.duty-{feature.duty.name.lower()}")
 
 
 def span_of(feature: ToleratedFeature) -> Span:

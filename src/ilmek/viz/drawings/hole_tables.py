@@ -89,10 +89,10 @@ def _note(hole: Drilling, fits: Fits) -> tuple[bool, FeatureNote]:
     size, lies = hole.steps[-1][0], hole.position
     for kind in (FeatureKind.THREAD, FeatureKind.BORE):
         there = [
-            one
-            for one in fits.features
-            if one.kind is kind and abs(one.nominal - size) < 2 * SAME
-            if np.linalg.norm(np.cross(one.position.origin - lies.origin, lies.rotation[:, 2])) < 2 * SAME
+            feature
+            for feature in fits.features
+            if feature.kind is kind and abs(feature.nominal - size) < 2 * SAME
+            if np.linalg.norm(np.cross(feature.position.origin - lies.origin, lies.rotation[:, 2])) < 2 * SAME
         ]
         if there:
             return kind is FeatureKind.THREAD, fits.joined(there)

@@ -211,10 +211,10 @@ def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fi
     right, up, eye = axes
     seen = _seen(fits, eye)
     sizes: dict[tuple[float, FeatureKind], list[complex]] = {}
-    for one in seen.features:
-        if one.kind in {FeatureKind.BORE, FeatureKind.JOURNAL}:
-            centre = complex(float(one.position.origin @ right), float(one.position.origin @ up))
-            centres = sizes.setdefault((one.nominal, one.kind), [])
+    for feature in seen.features:
+        if feature.kind in {FeatureKind.BORE, FeatureKind.JOURNAL}:
+            centre = complex(float(feature.position.origin @ right), float(feature.position.origin @ up))
+            centres = sizes.setdefault((feature.nominal, feature.kind), [])
             if all(abs(centre - other) > SAME for other in centres):
                 centres.append(centre)
     _squares(view, (right, up), seen)
@@ -236,18 +236,18 @@ def _fitted(view: DrawnView, axes: tuple[FloatArray, FloatArray, FloatArray], fi
 
 def _seen(fits: Fits, eye: FloatArray) -> Fits:
     """The features whose axis points to the eye."""
-    facing = (one for one in fits.features if abs(one.position.rotation[:, 2] @ eye) > 1 - 1e-9)
+    facing = (feature for feature in fits.features if abs(feature.position.rotation[:, 2] @ eye) > 1 - 1e-9)
     return replace(fits, features=tuple(facing))
 
 
 def _squares(view: DrawnView, axes: tuple[FloatArray, FloatArray], seen: Fits) -> None:
     """Labels of the fitted square bores that a view shows as squares, those on one axis once; axes  right and up."""
     labelled: dict[complex, complex] = {}
-    for one in seen.features:
-        if one.kind is FeatureKind.SQUARE_BORE:
+    for feature in seen.features:
+        if feature.kind is FeatureKind.SQUARE_BORE:
             centre, side = (
                 complex(*(round(float(own @ axis), 9) for axis in axes))
-                for own in (one.position.origin, one.nominal * one.position.rotation[:, 0])
+                for own in (feature.position.origin, feature.nominal * feature.position.rotation[:, 0])
             )
             labelled.setdefault(centre, side)
     for centre, side in labelled.items():

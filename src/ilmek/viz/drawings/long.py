@@ -106,7 +106,11 @@ def turned_view(
     features = contour_features(contour)
     corners = features.corners
     low, high = bounds(contour)
-    held = [span for one in fits.features if one.length > 0 for span in [span_of(one)]] if features.fully else []
+    held = (
+        [span for feature in fits.features if feature.length > 0 for span in [span_of(feature)]]
+        if features.fully
+        else []
+    )
     levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *held) for z in ends[:2])])
     cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
     gap = 1.2 / scale
@@ -148,16 +152,18 @@ def turned_view(
 
 def _seat_ends(view: DrawnView, cut: Shortening, fits: Fits, *, levels: Sequence[float]) -> None:
     """Thin lines where a seat ends on a diameter that goes on."""
-    for one in fits.features:
-        if one.kind is FeatureKind.JOURNAL:
-            for end in (z for z in span_of(one) if all(abs(z - level) > SAME for level in levels)):
-                half = one.nominal / 2 * 1j
+    for feature in fits.features:
+        if feature.kind is FeatureKind.JOURNAL:
+            for end in (z for z in span_of(feature) if all(abs(z - level) > SAME for level in levels)):
+                half = feature.nominal / 2 * 1j
                 view.line(LineKind.DIMENSION, float(cut.drawn(end)) + np.array([-half, half]), body=False)
 
 
 def threads_of(fits: Fits) -> Iterator[tuple[float, Span]]:
     """Radius, begin and end along the axis of the threads of a turned part [m]."""
-    yield from ((one.nominal / 2, span_of(one)) for one in fits.features if one.kind is FeatureKind.THREAD)
+    yield from (
+        (feature.nominal / 2, span_of(feature)) for feature in fits.features if feature.kind is FeatureKind.THREAD
+    )
 
 
 def with_cores(contour: Contour, fits: Fits) -> Contour:

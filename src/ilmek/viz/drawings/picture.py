@@ -82,7 +82,7 @@ class SheetPicture:
     @cached_property
     def box(self) -> Box:
         """The room that it takes."""
-        every = (*self.lines, *(line for one in self.dimensions for line in one.lines))
+        every = (*self.lines, *(line for dimension in self.dimensions for line in dimension.lines))
         points = [line_points(line) for line in every]
         boxes = [box_around(np.concatenate(points))] if points else []
         return joined_box([*boxes, *(text_box(text) for text in self.all_texts)])
@@ -90,7 +90,7 @@ class SheetPicture:
     @property
     def all_texts(self) -> tuple[SheetText, ...]:
         """Its texts, those of the dimensions too."""
-        return (*self.texts, *(one.text for one in self.dimensions))
+        return (*self.texts, *(dimension.text for dimension in self.dimensions))
 
     def moved(self, by: complex) -> "SheetPicture":
         """The same at another position."""
@@ -99,14 +99,14 @@ class SheetPicture:
             tuple(replace(text, position=text.position + by) for text in self.texts),
             tuple(
                 replace(
-                    one,
-                    points=(one.points[0] + by, one.points[1] + by),
-                    line=one.line + by,
-                    text=replace(one.text, position=one.text.position + by),
-                    lines=tuple(_moved(line, by) for line in one.lines),
-                    arrows=tuple((tip + by, direction) for tip, direction in one.arrows),
+                    dimension,
+                    points=(dimension.points[0] + by, dimension.points[1] + by),
+                    line=dimension.line + by,
+                    text=replace(dimension.text, position=dimension.text.position + by),
+                    lines=tuple(_moved(line, by) for line in dimension.lines),
+                    arrows=tuple((tip + by, direction) for tip, direction in dimension.arrows),
                 )
-                for one in self.dimensions
+                for dimension in self.dimensions
             ),
         )
 

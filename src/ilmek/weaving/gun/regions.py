@@ -46,7 +46,7 @@ def region_of(labels: UInt8[np.ndarray, "rows columns"], label: int, cell: float
 
 def section(polygons: Iterable[Complex[np.ndarray, " corners"]]) -> CrossSection:
     """Polygons with their inside on the left as a section."""
-    contours = [np.stack([one.real, one.imag], axis=1) for one in polygons]
+    contours = [np.stack([polygon.real, polygon.imag], axis=1) for polygon in polygons]
     return CrossSection(contours, FillRule.Positive) if contours else CrossSection()
 
 

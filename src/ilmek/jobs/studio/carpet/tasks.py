@@ -81,10 +81,10 @@ def chart(request: ChartRequest, context: Context) -> Binary:
     Raises IlmekError as `ilmek chart`.
     """
     began = time.perf_counter()
-    made = _charted(request, context, KeptStages(request.draft))
-    source, pixels = _source(made.source, request.source)
-    about = replace(_answer(made, request.draft, time.perf_counter() - began), source=source)
-    return packed(about, made.chart.knots.tobytes(), *pixels)
+    chart_result = _charted(request, context, KeptStages(request.draft))
+    source, pixels = _source(chart_result.source, request.source)
+    about = replace(_answer(chart_result, request.draft, time.perf_counter() - began), source=source)
+    return packed(about, chart_result.chart.knots.tobytes(), *pixels)
 
 
 def specks(request: SpecksRequest, context: Context) -> Binary:
@@ -104,10 +104,13 @@ def proposal(request: ProposalRequest, context: Context) -> Proposal:
     with _plain_errors(context):
         order = _order(request, context)
         order = replace(order, palette=replace(order.palette, propose=request.count))
-        made = make_charted(order, context.progress, with_source=True, stages=KeptStages())
-    shades = proposed_shades(made.chart)
+        chart_result = make_charted(order, context.progress, with_source=True, stages=KeptStages())
+    shades = proposed_shades(chart_result.chart)
     return Proposal(
-        tuple(ShadeToDye(one.shade.name, one.shade.hex, one.shade.share, one.nearest, one.difference) for one in shades)
+        tuple(
+            ShadeToDye(shade.shade.name, shade.shade.hex, shade.shade.share, shade.nearest, shade.difference)
+            for shade in shades
+        )
     )
 
 

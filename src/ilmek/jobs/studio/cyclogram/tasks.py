@@ -85,8 +85,8 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
         relations=relations,
         exclusions=exclusions,
         limits=tuple(
-            ShownLimit(one.name, one.source, _finite(one.value), one.limit, one.unit, one.ok)
-            for one in limit_checks(cyclogram)
+            ShownLimit(check.name, check.source, _finite(check.value), check.limit, check.unit, check.ok)
+            for check in limit_checks(cyclogram)
         ),
         laws=tuple(FAMILIES),
         lengths=tuple(len(part) for part in parts),
@@ -208,6 +208,8 @@ def of_machine(request: MachineCyclogramRequest, context: Context) -> MachineCyc
     """The cyclograms of a machine as files' data. Raises ParameterError for a machine without some; Cancelled."""
     if not request.machine:
         return MachineCyclograms(tuple(timed()))
-    made = cyclograms_of(request.machine, request.settings, context.progress.part(0.0, 1.0, "design"))
-    found = tuple(NamedCyclogram(one.name, cyclogram_data(one), cyclogram_toml(one)) for one in made)
+    cyclograms = cyclograms_of(request.machine, request.settings, context.progress.part(0.0, 1.0, "design"))
+    found = tuple(
+        NamedCyclogram(cyclogram.name, cyclogram_data(cyclogram), cyclogram_toml(cyclogram)) for cyclogram in cyclograms
+    )
     return MachineCyclograms(tuple(timed()), found)

@@ -173,7 +173,9 @@ def _animation(animation: Animation, looks: Mapping[str, int]) -> ShownAnimation
             )
             for dot in animation.dots
         ],
-        readings=[ShownReading(one.label, one.unit, rounded_numbers(one.values)) for one in animation.readings],
+        readings=[
+            ShownReading(reading.label, reading.unit, rounded_numbers(reading.values)) for reading in animation.readings
+        ],
         closes=animation.closes,
         start=animation.start,
         period=animation.period,

@@ -64,15 +64,15 @@ def motion_of(machine: OwnMachine, plan: Plan, options: RunOptions, pose: Pose) 
     """
     if not plan.mechanism.inputs or not plan.mechanism.moving:
         return None
-    made = mechanism_run(machine, plan, options, pose)
-    motion, closed = made.motion, made.closed
+    run = mechanism_run(machine, plan, options, pose)
+    motion, closed = run.motion, run.closed
     why = "" if machine.has_forces or not options.forces else HINT
-    running = made.running
+    running = run.running
     return MotionAnswer(
         running.name if running else "",
         "displacement" if running is not None and not isinstance(running, Rotation) else "rotation",
-        made.values.tolist(),
-        made.speed,
+        run.values.tolist(),
+        run.speed,
         motion.status.tolist(),
         _fault(motion),
         {body: _pose_series(motion, body) for body in plan.mechanism.moving},
@@ -85,8 +85,8 @@ def motion_of(machine: OwnMachine, plan: Plan, options: RunOptions, pose: Pose) 
         tuple(DeadCentreAnswer(*dead_centre) for dead_centre in closed.dead_centres) if closed else (),
         closed.change_points if closed else (),
         _rates(motion) if options.rates else {},
-        _forces(made.forces) if made.forces is not None else None,
-        made.left_out or why,
+        _forces(run.forces) if run.forces is not None else None,
+        run.left_out or why,
     )
 
 

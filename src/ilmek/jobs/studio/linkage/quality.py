@@ -118,19 +118,19 @@ def quality(request: MechanismRequest, context: Context) -> QualityAnswer:
     machine = machine_of_part(drawn.machine, part)
     options = RunOptions(request.fixed, request.over, request.speed, request.steps, forces=True)
     try:
-        made = mechanism_run(machine, plan_of(part), options, drawn.pose)
+        run = mechanism_run(machine, plan_of(part), options, drawn.pose)
     except IlmekError as error:
         return QualityAnswer(fault=fault_of(error))
-    moved = _moved(made)
+    moved = _moved(run)
     context.progress(0.2)
     found, left_out = _circuits(moved) if moved is not None else ((), ())
     context.progress(0.6)
-    checks, warnings = _checks(made, context)
+    checks, warnings = _checks(run, context)
     return QualityAnswer(
         found,
-        _curves(made, moved) if moved is not None else (),
-        _transmission(made),
-        _mobility(made),
+        _curves(run, moved) if moved is not None else (),
+        _transmission(run),
+        _mobility(run),
         checks,
         all_in_page(warnings),
         all_in_page(left_out),
@@ -186,18 +186,24 @@ def _curves(run: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:
 def _curve(path: InputPath, body: str, point: str) -> CurveAnswer:
     curve = coupler_curve(path, body, point)
     cusps = tuple(SpecialPoint(cusp.input, cusp.position.real, cusp.position.imag) for cusp in curve.cusps())
-    bends = tuple(SpecialPoint(one.input, one.position.real, one.position.imag) for one in curve.inflections())
-    crossings = tuple(SpecialPoint(one.inputs[0], one.position.real, one.position.imag) for one in curve.crossings())
+    bends = tuple(
+        SpecialPoint(inflection.input, inflection.position.real, inflection.position.imag)
+        for inflection in curve.inflections()
+    )
+    crossings = tuple(
+        SpecialPoint(crossing.inputs[0], crossing.position.real, crossing.position.imag)
+        for crossing in curve.crossings()
+    )
     return CurveAnswer(body, point, curve.length(), cusps, crossings, bends)
 
 
 def _transmission(run: MechanismRun) -> tuple[LeastTransmission, ...]:
-    found = []
+    transmissions = []
     for pin, angles in transmission_angles(run.motion, run.machine.transmission).items():
         if np.isfinite(angles).any():
             at = int(np.nanargmin(angles))
-            found.append(LeastTransmission(pin, float(angles[at]), float(run.values[at])))
-    return tuple(found)
+            transmissions.append(LeastTransmission(pin, float(angles[at]), float(run.values[at])))
+    return tuple(transmissions)
 
 
 def _mobility(run: MechanismRun) -> str:

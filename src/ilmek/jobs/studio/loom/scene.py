@@ -162,8 +162,8 @@ _MOST_RECIPES = 2
 
 def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
     """The loom for the carpet of a recipe."""
-    found = _recipes.get((path, digest))
-    if found is None:
+    loom = _recipes.get((path, digest))
+    if loom is None:
         order = read_order(Path(path))
         charted = make_charted(order, progress.part(0.0, 0.5, "picture"))
         part = progress.part(0.5, 1.0, "loom")
@@ -173,8 +173,8 @@ def _of_recipe(path: str, digest: str, progress: Progress) -> ProjectLoom:
             raise ParameterError(
                 reason.name if reason else "the loom cannot be designed", do=reason.cure if reason else ""
             )
-        found = ProjectLoom(_LOOMS[loomed.report.machine], loomed.made, loomed.report, charted, loomed)
+        loom = ProjectLoom(_LOOMS[loomed.report.machine], loomed.made, loomed.report, charted, loomed)
         while len(_recipes) >= _MOST_RECIPES:
             _recipes.pop(next(iter(_recipes)))
-        _recipes[path, digest] = found
-    return found
+        _recipes[path, digest] = loom
+    return loom

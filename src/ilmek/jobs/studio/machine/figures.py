@@ -91,7 +91,7 @@ def figures(request: FiguresRequest, context: Context) -> MachineFigures:
     return MachineFigures(
         shown_figures(chosen),
         tuple(NamedFigure(one.name, one.title, KINDS[type(one).__name__]) for one in drawn),
-        tuple(NamedPart(one.name, one.component.title) for one in children),
+        tuple(NamedPart(child.name, child.component.title) for child in children),
         all_in_page(warnings),
     )
 

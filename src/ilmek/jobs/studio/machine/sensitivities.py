@@ -102,11 +102,11 @@ def sensitivities(request: SensitivityRequest, context: Context) -> Sensitivitie
 def sensitivity_of(name: str, params: Params, report: Report, parameter: Parameter) -> Sensitivity:
     """What one parameter does to the checks of a design. The last ones are kept."""
     key = name, params, parameter.name
-    if (found := _FOUND.get(key)) is None:
-        found = _FOUND[key] = _moved(name, params, report, parameter)
+    if (sensitivity := _FOUND.get(key)) is None:
+        sensitivity = _FOUND[key] = _moved(name, params, report, parameter)
         if len(_FOUND) > _KEPT:
             del _FOUND[next(iter(_FOUND))]
-    return found
+    return sensitivity
 
 
 _KEPT = 4000
@@ -226,7 +226,7 @@ def _ranked(name: str, step: str, effects: Iterator[Effect], value: float) -> Se
 
 def _checks(report: Report, machine: str = "") -> dict[tuple[str, str], Check]:
     """The checks of a report and of the machines in it, by machine and name."""
-    found = {(machine, check.name): check for check in report.checks}
+    checks = {(machine, check.name): check for check in report.checks}
     for child in report.children:
-        found |= _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
-    return found
+        checks |= _checks(child, f"{machine}: {child.machine}" if machine else child.machine)
+    return checks

@@ -143,8 +143,8 @@ def reading(request: TypedValue, context: Context) -> ReadValue:
 
 def design(request: DesignRequest, context: Context) -> Binary:
     """Design a machine: the JSON of the command line, byte for byte. Raises as `design_machine` does."""
-    made = design_machine(request.name, request.settings, progress=context.progress)
-    return Binary("application/json", json_text(made.as_json(), context.progress).encode())
+    design_result = design_machine(request.name, request.settings, progress=context.progress)
+    return Binary("application/json", json_text(design_result.as_json(), context.progress).encode())
 
 
 def value_text(value: Value, unit: str) -> str:
@@ -181,7 +181,7 @@ def form_of(name: str) -> MachineFields:
     """The form of a machine. Raises ParameterError for an unknown one."""
     machine = find_machine(name)
     others = overridden(machine.params)
-    fields = tuple(_field(one, others) for one in parameters_of(name).values())
+    fields = tuple(_field(parameter, others) for parameter in parameters_of(name).values())
     return MachineFields(machine.name, machine.title, machine.summary, fields, others, machine.long_design is not None)
 
 

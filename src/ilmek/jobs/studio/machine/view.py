@@ -171,7 +171,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         reasons=tuple(ShownReason(reason.name, *printed(reason), in_page(reason.cure)) for reason in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
-        choices=tuple(ShownChoice(**one.as_json()) for one in report.all_choices),
+        choices=tuple(ShownChoice(**choice.as_json()) for choice in report.all_choices),
         warnings=all_in_page(report.all_warnings),
         parameters=in_force(report, params),
         seconds=seconds,
@@ -204,10 +204,12 @@ def _checks(report: Report, machine: str) -> Iterator[ShownCheck]:
 
 
 def _results(report: Report, machine: str) -> Iterator[ShownResult]:
-    for one in report.results:
-        if one.shown:
-            number = one.value if isinstance(one.value, int | float) and not isinstance(one.value, bool) else None
-            text = quantity(number, one.unit) if number is not None else result_text(one.value, one.unit)
-            yield ShownResult(one.name, machine, text, si_unit(one.unit), one.meaning, finite(number))
+    for result in report.results:
+        if result.shown:
+            number = (
+                result.value if isinstance(result.value, int | float) and not isinstance(result.value, bool) else None
+            )
+            text = quantity(number, result.unit) if number is not None else result_text(result.value, result.unit)
+            yield ShownResult(result.name, machine, text, si_unit(result.unit), result.meaning, finite(number))
     for child in report.children:
         yield from _results(child, f"{machine}: {child.machine}" if machine else child.machine)

@@ -125,7 +125,7 @@ class ProjectFolder:
             entries = _entries(self.base / folder)
         except IlmekError:
             return []
-        names = [one.name for one in entries if one.is_file(follow_symlinks=False) and _is_taken(one.name)]
+        names = [entry.name for entry in entries if entry.is_file(follow_symlinks=False) and _is_taken(entry.name)]
         found = [f"{folder}/{name}" if folder else name for name in names]
         return sorted(found, key=lambda path: (path != "carpet.toml", natural(path)))
 

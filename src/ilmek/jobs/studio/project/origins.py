@@ -69,12 +69,12 @@ def digests_of(folder: ProjectFolder, source: str) -> dict[str, str]:
 
 def inputs(folder: ProjectFolder, source: str) -> list[str]:
     """A text file of the project and the files of the project that it names, also through others; first the file."""
-    found: list[str] = []
+    inputs: list[str] = []
     wanted = [source]
     for _ in range(DEEPEST):
-        found += [path for path in dict.fromkeys(wanted) if path not in found and _is_file(folder, path)]
+        inputs += [path for path in dict.fromkeys(wanted) if path not in inputs and _is_file(folder, path)]
         wanted = [name for path in wanted if path.endswith(SUFFIX) for name in _named(folder, path)]
-    return found
+    return inputs
 
 
 def _is_file(folder: ProjectFolder, path: str) -> bool:

@@ -31,13 +31,13 @@ class ProjectWatch:
         return tuple(sorted(changed))
 
     def _stamps(self) -> dict[str, Stamp]:
-        found: dict[str, Stamp] = {}
+        stamps: dict[str, Stamp] = {}
         for folder in (*KINDS, PICTURES, OUT):
             for path, stamp in self._folder_stamps(folder, deep=folder == OUT):
-                found[path] = stamp
-                if len(found) >= MOST_WATCHED:
-                    return found
-        return found
+                stamps[path] = stamp
+                if len(stamps) >= MOST_WATCHED:
+                    return stamps
+        return stamps
 
     def _folder_stamps(self, folder: str, deep: bool) -> Iterator[tuple[str, Stamp]]:
         if (self._folder / folder).is_symlink():

@@ -213,7 +213,9 @@ def pivot_curves(design: FourBarDesign) -> PivotCurves | None:
 
 def _parts(branches: Sequence[CurveBranch]) -> tuple[list[float], ...]:
     """Parts of a curve, thinned to `LONGEST` points."""
-    return tuple(flat(_thinned(np.append(one.points, one.points[:1] if one.closed else []))) for one in branches)
+    return tuple(
+        flat(_thinned(np.append(branch.points, branch.points[:1] if branch.closed else []))) for branch in branches
+    )
 
 
 def _thinned(points: ComplexArray) -> ComplexArray:

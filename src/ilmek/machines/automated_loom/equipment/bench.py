@@ -98,7 +98,7 @@ class Bench:
 def bench_for(front: float, seat: float, floor: float, half: float, weavers: int) -> Bench:
     """The bench with the lightest beams that keep their limit, else the largest."""
     load = weavers * WEIGHT * GRAVITY / (2 * 2 * half)
-    offered = [(one, _sag(one, load, 2 * half)) for one in ascending() if one.side >= SECTION.side]
+    offered = [(square, _sag(square, load, 2 * half)) for square in ascending() if square.side >= SECTION.side]
     section, sag = next((own for own in offered if own[1] <= _SAG * 2 * half), offered[-1])
     return Bench(front, seat, floor, half, section, sag)
 

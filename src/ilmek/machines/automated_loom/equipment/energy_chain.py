@@ -99,7 +99,7 @@ def chain_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """Fill, bend, free length of the upper run, and the loop beside the neighbour's end and within the rail's ends."""
     row, lines, parts = energy_chain(loom), chain_lines(loom), (CHAIN,)
     past, cure = row.loop[1], "set fewer colours, or more heads"
-    count = ", ".join(f"{one.number} {one.name}" for one in lines)
+    count = ", ".join(f"{line.number} {line.name}" for line in lines)
     ends = loom.task.rail_length - loom.task.cloth.width
     return (
         at_most(

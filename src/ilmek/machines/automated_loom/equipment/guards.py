@@ -97,12 +97,16 @@ def fence_of(site: LoomSite) -> Fence:
     ends = float(control.low[0]) - 2 * POST, float(control.high[0]) + 2 * POST
     inside, beside = (0.0, 0.0) if site.heads else (station_of(site).bench.rear, station_of(site).bench.half + BESIDE)
     left = min(float(stands_low[0]) - BESIDE, -beside, float(moves_low[0]) - reach, ends[0])
-    behind = max((float(one.high[0]) for one in near.extents if one.part in ROW_MOTORS), default=0.0)  # their encoders
+    behind = max(
+        (float(extent.high[0]) for extent in near.extents if extent.part in ROW_MOTORS), default=0.0
+    )  # their encoders
     encoders = behind + ENCODER.size[2] + GAP
     right = max(float(stands_high[0]) + BESIDE, beside, float(moves_high[0]) + reach, ends[1], encoders)
     rear = min(float(stands_low[2]), float(moves_low[2]) - reach)
     front = max(float(stands_high[2]) + BESIDE, inside + BESIDE, float(moves_high[2]) + _approach(site))
-    hazards = tuple((*_heights(floor, one), min(_distances(left, right, rear, front, one))) for one in near.hazards)
+    hazards = tuple(
+        (*_heights(floor, hazard), min(_distances(left, right, rear, front, hazard))) for hazard in near.hazards
+    )
     return Fence(left, right, rear, front, least_fence(hazards, LEAST_HEIGHT), floor, near.hazards, stopping)
 
 
@@ -131,7 +135,7 @@ def rear_feet(near: Surroundings) -> tuple[float, ...]:
     """Middles of the rear feet at whose ends posts stand, those beside the cabinet left out [m]."""
     (control,) = near.of(CONTROL)
     feet = near.of(part_id("rear-foot"))
-    clear = (one for one in feet if one.high[0] <= control.low[0] - POST or one.low[0] >= control.high[0] + POST)
+    clear = (foot for foot in feet if foot.high[0] <= control.low[0] - POST or foot.low[0] >= control.high[0] + POST)
     return tuple(float(one.low[0] + one.high[0]) / 2 for one in clear)
 
 

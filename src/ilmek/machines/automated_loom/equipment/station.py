@@ -79,9 +79,9 @@ def station_of(site: LoomSite) -> WeaversStation:
     def before(low: float, high: float, aside: float) -> float:
         """The foremost z of what is between two heights, up to a distance from the middle [m]."""
         inside = (
-            float(one.high[2])
-            for one in near.extents
-            if one.low[1] < high and one.high[1] > low and one.low[0] < aside and one.high[0] > -aside
+            float(extent.high[2])
+            for extent in near.extents
+            if extent.low[1] < high and extent.high[1] > low and extent.low[0] < aside and extent.high[0] > -aside
         )
         return max(inside, default=0.0)
 

@@ -59,7 +59,9 @@ class Surroundings:
     @property
     def moving(self) -> tuple[Corner, Corner]:
         """Corners of the box about all that moves [m]."""
-        return np.min([one.low for one in self.hazards], axis=0), np.max([one.high for one in self.hazards], axis=0)
+        return np.min([hazard.low for hazard in self.hazards], axis=0), np.max(
+            [hazard.high for hazard in self.hazards], axis=0
+        )
 
     def occurrence(self, parts: Iterable[str]) -> tuple[RigidBody, Part, Placement]:
         """The body that has the first of some parts, the part, and where it lies first in that body.
@@ -97,16 +99,16 @@ def surroundings(loom: LoomDesign) -> Surroundings:
     row = half_width(loom) + loom.head_width / 2
     riding = {body.id for body in head_tree(loom.weaver).bodies} if loom.heads else set[str]()
     return Surroundings(
-        tree, found, tuple(_widened(one, row) if one.body in riding else one for one in hazards_of(found))
+        tree, found, tuple(_widened(hazard, row) if hazard.body in riding else hazard for hazard in hazards_of(found))
     )
 
 
 def hazards_of(found: Iterable[Extent]) -> Iterator[Hazard]:
     """The bodies that move, each with all that its pieces sweep."""
     bodies: dict[str, list[Extent]] = {}
-    for one in found:
-        if one.moving:
-            bodies.setdefault(one.body, []).append(one)
+    for extent in found:
+        if extent.moving:
+            bodies.setdefault(extent.body, []).append(extent)
     return (Hazard(name, *around(pieces)) for name, pieces in bodies.items())
 
 

@@ -54,7 +54,9 @@ def room_part(name: str, frame: str, solid: Solid, machine: str) -> ScenePart:
 def track_angles(*tracks: Track) -> FloatArray:
     """Angles at which tracks are sampled [rad]: both ends of the turn, and each of their motions in even parts."""
     spans = [
-        np.linspace(max(one.start, 0.0), min(one.end, turn), _STEPS + 1) for track in tracks for one in laid(track)
+        np.linspace(max(segment.start, 0.0), min(segment.end, turn), _STEPS + 1)
+        for track in tracks
+        for segment in laid(track)
     ]
     return np.unique(np.concatenate([[0.0, turn], *spans]))
 

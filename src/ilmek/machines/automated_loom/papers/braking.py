@@ -75,13 +75,13 @@ def braking_of(loom: LoomDesign) -> tuple[Braking, ...]:
         body.joint.motor: body.id for body in tree.bodies if body.id in energies and body.joint.motor not in clutched
     }
     braking, rotors = [], {row.name: row.inertia * row.speed**2 / 2 for row in MOTORS}
-    for one in plan_of(loom).motors:
-        name = moved.get(one.part.id)
-        if name is not None and one.part.purchase is not None:
-            own, motors = energies[name], one.number / counts[name]
-            rotor = rotors.get(one.part.purchase.row, 0.0)
+    for motor in plan_of(loom).motors:
+        name = moved.get(motor.part.id)
+        if name is not None and motor.part.purchase is not None:
+            own, motors = energies[name], motor.number / counts[name]
+            rotor = rotors.get(motor.part.purchase.row, 0.0)
             power = own.returned * (1 / motors + rotor / own.energy) if own.energy > 0 else 0.0
-            braking.append(Braking(one, own.energy / motors + rotor, power, *_taken(one.load)))
+            braking.append(Braking(motor, own.energy / motors + rotor, power, *_taken(motor.load)))
     return tuple(braking)
 
 
@@ -97,16 +97,16 @@ def _taken(load: MotorLoad) -> tuple[float, float]:
 def braking_checks(loom: LoomDesign) -> Iterator[Check]:
     """Whether the amplifiers, and the module of the steppers, take what the motors give back."""
     own = braking_of(loom)
-    alone = [one for one in own if one.circuit.load.volts in _BARS]
+    alone = [braking for braking in own if braking.circuit.load.volts in _BARS]
     source = "capacitors and resistors of series of amplifiers, without friction; assumed by this project"
     if alone:
         worst = max(alone, key=lambda one: one.share)
         yield at_most(
             "braking energy of a motor, over what its amplifier takes", worst.share, 1.0, "1", source
         ).with_cure("order an outer braking resistor, or set a lower acceleration", worst.circuit.part.id)
-    steppers = [one for one in own if one.circuit.load.volts == STEPPER_VOLTS]
+    steppers = [braking for braking in own if braking.circuit.load.volts == STEPPER_VOLTS]
     if steppers:
-        power = math.fsum(one.power * one.circuit.number for one in steppers)
+        power = math.fsum(stepper.power * stepper.circuit.number for stepper in steppers)
         yield at_most("mean braking power of the steppers, by their module", power, MODULE, "W", source)
 
 

@@ -91,7 +91,7 @@ def _supply(loom: LoomDesign, report: Report, plan: PowerPlan) -> PaperSection:
     title = Sentence("electric.supply")
     heads = Column(Sentence("electric.what")), Column(Sentence("electric.value"))
     held = braked(loom)
-    own = {volts: [_drawn(one, held) for one in plan.motors if one.load.volts == volts] for volts in _VOLTS}
+    own = {volts: [_drawn(motor, held) for motor in plan.motors if motor.load.volts == volts] for volts in _VOLTS}
     picture = single_line(
         f"3 × {MAINS:g} V N PE",
         f"3 × {fuse:g} A",
@@ -163,18 +163,18 @@ def _motors(plan: PowerPlan) -> PaperSection:
     )
     rows = tuple(
         (
-            one.sign,
-            one.part.title,
-            bought_of(one.part).row,
-            one.number,
-            one.load.power,
-            one.load.current,
-            one.load.amplifier,
-            one.load.fuse,
-            one.section,
-            one.together,
+            motor.sign,
+            motor.part.title,
+            bought_of(motor.part).row,
+            motor.number,
+            motor.load.power,
+            motor.load.current,
+            motor.load.amplifier,
+            motor.load.fuse,
+            motor.section,
+            motor.together,
         )
-        for one in plan.motors
+        for motor in plan.motors
     )
     title = Sentence("electric.motors")
     return PaperSection(title, (Sentence("electric.motors-how"),), Table("motors", title, heads, rows))

@@ -274,9 +274,9 @@ def _belts(loom: LoomDesign) -> PaperSection:
 def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Table:
     """What is replaced within the years of the loom, and a set of what wears without a computed life."""
     computed = (
-        (one.part.title, designation(one.part), one.spare(year.years), Sentence("maintenance.by-life"))
-        for one in wears
-        if one.spare(year.years)
+        (wear.part.title, designation(wear.part), wear.spare(year.years), Sentence("maintenance.by-life"))
+        for wear in wears
+        if wear.spare(year.years)
     )
     return _kept((*computed, *worn_sets(loom_tree(loom), max(loom.heads, 1))))
 

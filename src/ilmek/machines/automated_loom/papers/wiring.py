@@ -90,11 +90,13 @@ def feeds(loom: LoomDesign) -> Iterator[Feed]:
     """Every consumer of a loom with its voltage, and what feeds it."""
     plan = plan_of(loom)
     fed = {name: source for source in plan.sources for name in source.feeds}
-    for one in plan.motors:
-        source, load = fed.get(one.part.id), one.load
+    for motor in plan.motors:
+        source, load = fed.get(motor.part.id), motor.load
         given = source.row.volts if source else MAINS if load.poles == 3 else PHASE  # a phase and N
-        yield Feed(one.part, one.number, load.volts, one.number * load.apparent, source.part if source else "", given)
-    driven = {one.part.id for one in plan.motors}
+        yield Feed(
+            motor.part, motor.number, load.volts, motor.number * load.apparent, source.part if source else "", given
+        )
+    driven = {motor.part.id for motor in plan.motors}
     for part, number in loom_tree(loom).occurrences():
         if consumption(part) and part.id not in driven:
             source = fed[part.id]

@@ -155,7 +155,7 @@ def path_to_knot(hand: TyingHand) -> Drawing:
             parts.append(path.points[: max(round(share * len(path.points)), 1)])
         text = format_quantity(half * task.stroke_time, "ms", 3)
         instants.append((text, np.concatenate([parts[0][::-1], parts[1]])))
-    low = float(np.min(np.concatenate([one.points for one in ends]).imag))
+    low = float(np.min(np.concatenate([end.points for end in ends]).imag))
     pictures = KnotPictures(
         warps=warps,
         knot=task.knot_after(1),
