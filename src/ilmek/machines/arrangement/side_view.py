@@ -333,11 +333,7 @@ def _rail_side(task: "LoomTask", head: Weaver) -> float:
     weight = (heads + RAIL_CARGO * span) * (SUNK if spans > 1 else 1) * GRAVITY
     sections = ascending()
     least = least_rail(head, params.clearance)
-    bearing = (
-        section
-        for section in sections
-        if section.side >= least and mid_loaded(section, span, weight)[0] <= params.rail_sag
-    )
+    bearing = (tube for tube in sections if tube.side >= least and mid_loaded(tube, span, weight)[0] <= params.rail_sag)
     return next(bearing, sections[-1]).side
 
 

@@ -106,12 +106,8 @@ def turned_view(
     features = contour_features(contour)
     corners = features.corners
     low, high = bounds(contour)
-    held = (
-        [span for feature in fits.features if feature.length > 0 for span in [span_of(feature)]]
-        if features.fully
-        else []
-    )
-    levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *held) for z in ends[:2])])
+    seats = [span_of(feature) for feature in fits.features if feature.length > 0 and features.fully]
+    levels = distinct([*(c.real for c in corners), *(z for ends in (*grooves, *seats) for z in ends[:2])])
     cut = shortening(levels, 2 * high.imag) if features.fully else Shortening()
     gap = 1.2 / scale
     drilled = with_cores(contour, fits)
