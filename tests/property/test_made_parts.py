@@ -37,9 +37,10 @@ def test_every_line_of_the_list_is_a_part_with_a_shape_and_checks_name_them(mach
     design = component.designed(component.params())
     parts = {part.id: (part, number) for part, number in component.tree(design).occurrences()}
     assert parts
-    assert {line.part: line.number for line in component.parts(design)} == {name: n for name, (_, n) in parts.items()}
+    report = component.report(design, illustrated=False)
+    assert {line.part: line.number for line in report.parts} == {name: n for name, (_, n) in parts.items()}
     assert all(part.shape is not None for part, _ in parts.values())
-    named = {name for check in component.report(design, illustrated=False).checks for name in check.parts}
+    named = {name for check in report.checks for name in check.parts}
     assert named <= set(parts)
 
 

@@ -91,8 +91,8 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
             tolerance = journals[key] if key in journals else _bore(one, journals)
             features[key[0]] += _with_keyways(_sized(one, tolerance), one.seat.feature)
     for seat in (*guide_seats(tree), *slide_seats(tree)):
-        bought = seat.part.material is None
-        if not bought and (not seat.slides or seat.part.machined or seat.part.process not in AS_DELIVERED):
+        machined = seat.part.machined or seat.part.process not in AS_DELIVERED
+        if machined and seat.part.material is not None:  # what is not machined is shimmed
             features[seat.part.id].append(_face(seat))
     return {part: tuple(_related(_named(own))) for part, own in features.items()}
 

@@ -13,7 +13,7 @@ from ilmek.elements.materials import Material
 from ilmek.linkage.model import GROUND
 from ilmek.machines.knotting_four_bar.model import mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
-from ilmek.machines.link_tree import Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
+from ilmek.machines.link_tree import Levels, LinkageParts, LinkSize, link_inertias, linkage_parts, pin_part
 from ilmek.part.flat_link import stepped_link
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
@@ -62,8 +62,10 @@ def parts(params: KnottingFourBarParams) -> dict[str, Inertia]:
 def inertias(params: KnottingFourBarParams, hole: float) -> dict[str, Inertia]:
     """The moving bodies by `link_mass`; coupler, holder and gripper are one. hole: diameter of the pins' holes [m]."""
     if params.link_mass == "made":
-        loop = mechanism(params, 0.0)
-        return link_inertias(made_parts(params, hole), loop)
+        bodies = link_inertias(made_parts(params, hole), mechanism(params, 0.0))
+        shaft = shaft_part(params, hole)
+        turning = Inertia(shaft.mass, 0j, shaft.mass * hole**2 / 8)
+        return {**bodies, "crank": combined(bodies["crank"], turning)}
     made = parts(params)
     hand = combined(made["coupler bar"], made["holder"], made["gripper"])
     return {"crank": made["crank"], "coupler": hand, "rocker": made["rocker"]}
@@ -81,6 +83,12 @@ def made_parts(params: KnottingFourBarParams, hole: float, ground_angle: float =
     levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
     formed = {"coupler": _coupler(params, size)}
     return linkage_parts(MACHINE_NAME, mechanism(params, ground_angle), levels, formed, ("O1",))
+
+
+def shaft_part(params: KnottingFourBarParams, hole: float, low: float = 0.0) -> Part:
+    """The shaft of a crank, which is fixed in it, from a height up to its face [m]."""
+    top = made_parts(params, hole).levels.across(["crank"])[1]
+    return pin_part(SHAFT, "shaft of a crank", hole, top - low)
 
 
 def gear_part(params: KnottingFourBarParams, gears: EqualGears, bore: float) -> Part:

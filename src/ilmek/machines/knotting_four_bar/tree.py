@@ -16,7 +16,7 @@ from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.solve import solve
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, SHAFT, gear_part, made_parts, material_of
+from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, gear_part, made_parts, material_of, shaft_part
 from ilmek.machines.knotting_four_bar.sides import KnottingSides
 from ilmek.machines.link_tree import GAP, Levels, LinkageParts, linkage_parts, linkage_tree, pin_part
 from ilmek.part import catalogue
@@ -47,7 +47,7 @@ def tree(design: KnottingFourBar) -> Tree:
     pivots, parts = mechanism.body(GROUND).points, parts_of(design, mechanism)
     face = catalogue.face_of(drive[0]) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
     carried = pivots["O1"] + face
-    top, begin, cranks = parts.levels.across(["crank"])[1], 0.0, {"crank": list[Occurrence]()}
+    begin, cranks = 0.0, {"crank": list[Occurrence]()}
     others: dict[str, Sequence[Occurrence]] = {}
     if sides is not None:
         gap, pillars = GAP * params.thickness, _pillars(sides, pivots["O1"])
@@ -65,7 +65,7 @@ def tree(design: KnottingFourBar) -> Tree:
         carried = pillars
     points = np.concatenate([list(pivots.values()), carried])
     frame = _plate(design, "frame", "frame plate", points, list(pivots.values()))
-    shaft = pin_part(SHAFT, "shaft of a crank", design.hole, top - begin)
+    shaft = shaft_part(params, design.hole, begin)
     others |= {body: (*own, Occurrence(shaft, (placement(z=begin),))) for body, own in cranks.items()}
     others[GROUND] = (*others.get(GROUND, ()), *in_line(drive, begin, pivots["O1"]))
     plates = {**parts.plates, GROUND: frame}
