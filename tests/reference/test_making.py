@@ -151,8 +151,8 @@ def test_plates_are_welded_along_the_edges_of_what_touches() -> None:
 def test_a_bush_is_drilled_of_the_bar_and_a_tube_is_cut_of_stock() -> None:
     shape, steel = tube(30e-3, 5e-3, 40e-3), MATERIALS["structural steel"]
     bush, cut = (steps_of(Part("a", "a", kind, shape=shape, material=steel)) for kind in ("pin or bush", "steel tube"))
-    assert bush[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * 32e-3**2 * 45e-3)
-    assert bush[1].volume == pytest.approx(math.pi / 4 * (32e-3**2 * 42e-3 - (30e-3**2 - 20e-3**2) * 40e-3))
+    assert bush[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * 30e-3**2 * 45e-3)
+    assert bush[1].volume == pytest.approx(math.pi / 4 * (30e-3**2 * 42e-3 - (30e-3**2 - 20e-3**2) * 40e-3))
     assert cut[0].mass == pytest.approx(STEEL * 1.05 * math.pi / 4 * (30e-3**2 - 20e-3**2) * 43e-3)
     assert len(cut) == 2
 

@@ -109,7 +109,7 @@ def test_what_cannot_be_is_refused(build: Callable[[], object], words: str) -> N
 
 def test_every_line_of_the_compensator_is_a_part_of_its_tree_and_back() -> None:
     made = design(TensionCompensatorParams())
-    report, bodies = MACHINE.report(made), tree(made)
+    report, bodies = MACHINE.report(made, in_a_loom=True), tree(made)
     parts = {part.id: (part, number) for part, number in bodies.occurrences()}
     assert [line.part for line in report.parts] == list(parts)
     for line in report.parts:

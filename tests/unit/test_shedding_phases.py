@@ -84,7 +84,7 @@ def test_more_groups_than_cams_of_a_parity() -> None:
 
 
 def test_plates_of_the_groups_have_their_bores_turned() -> None:
-    plates = MACHINE.report(made(phase="staggered", stagger=20 * deg)).plates
+    plates = MACHINE.report(made(phase="staggered", stagger=20 * deg), in_a_loom=True).plates
     assert [(plate.name, plate.number) for plate in plates] == [
         ("shedding-cam-1", 300),
         ("shedding-cam-2", 300),

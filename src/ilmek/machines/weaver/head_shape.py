@@ -25,8 +25,10 @@ BEFORE_MAGAZINE = 7 * mm
 CASE = 10 * mm
 """Wall and room around the largest cam of a head [m]."""
 
-BESIDE_MOTOR = 10 * mm
-"""Room about the motor of the colours, for the sensor of the tubes' index [m]; assumed by this project."""
+BESIDE_MOTOR, BESIDE_CORNER, FEW = 10 * mm, 19 * mm, 4
+"""Room about the motor of the colours, for the sensor of the tubes' index; with few tubes, between which it stands off
+the motor's corner [m]; assumed by this project.
+"""
 
 RAIL_AXIS = 40 * mm
 """Side of the section of the linear axis that carries the heads [m]; assumed by this project."""
@@ -267,7 +269,8 @@ def head_shape(
     tools, face = reaching.tools, reaching.face
     tied = (tools[0].corner + tools[0].size / 2).imag
     tall = (2 * magazine.tiers - 1) * magazine.pitch
-    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face + 2 * BESIDE_MOTOR)
+    beside = BESIDE_CORNER if magazine.kind == DRUM and magazine.per_tier <= FEW else BESIDE_MOTOR
+    wide = max(magazine.width if magazine.kind == DRUM else magazine.pitch, selector.face + 2 * beside)
     largest, radius = max(cam.radius for cam in cams), max(cam.cam.roller_radius for cam in cams)
     line = max(
         face + CASE + largest,

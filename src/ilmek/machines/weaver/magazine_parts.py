@@ -10,6 +10,7 @@ from dataclasses import replace
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
 from ilmek.machines.weaver.carriage_drive import PLATE_BEGIN
+from ilmek.machines.weaver.case import BRACKET_ENDS
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import AXLE, RAIL_AXIS
 from ilmek.machines.weaver.magazine import ALUMINIUM, CARRIER, DRUM, TUBE_BORE, TUBE_OUTER, tubes_radius
@@ -109,26 +110,40 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
     bought = Bought(INDUCTIVE.name, INDUCTIVE.mass)
     sensor = bought_part(INDEX_SENSOR, "index of the yarn tubes", INDUCTIVE.kind, bar(side, long), bought)
     yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
-    beside = BESIDE_INDEX - STAND_ROOM + side / 2
-    block = Profile(rectangle(2 * beside, 2 * ASIDE_INDEX), (circle(0j, side / 2),))
-    high, size = begin + CLAMPED - foot, f"{in_mm(2 * ASIDE_INDEX)} x {in_mm(2 * beside)}"
+    deep, wide = _stand_sides(weaver, at)
+    block = Profile(rectangle(deep, wide), (circle(0j, side / 2),))
+    high, size = begin + CLAMPED - foot, f"{in_mm(wide)} x {in_mm(deep)}"
     title = "stand of the tubes' index"
     stand = Part(INDEX_STAND, title, "machined link", size, Prism(block, high), ALUMINIUM)
     yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))
+
+
+def _stand_sides(weaver: Weaver, at: complex) -> tuple[float, float]:
+    """Sides of the sensor's stand along the depth and across [m]: the long one lies along the motor's face."""
+    short, clear = 2 * (BESIDE_INDEX - STAND_ROOM) + INDUCTIVE.size[0], _beside_motors(weaver)
+    across = abs(at.imag) * clear.real >= abs(at.real) * clear.imag * (1 - 1e-9)
+    return (short, 2 * ASIDE_INDEX) if across else (2 * ASIDE_INDEX, short)
+
+
+def _beside_motors(weaver: Weaver) -> complex:
+    """Least distance of the sensor from the magazine's axis, across or along the depth, which clears the motors [m]."""
+    face = selector_of(weaver.params, weaver.magazine).face / 2
+    motors = complex(face if weaver.magazine.tiers == 1 else 2 * face, face)
+    return motors + (INDUCTIVE.size[0] / 2 + BESIDE_INDEX) * (1 + 1j)
 
 
 def _index_at(weaver: Weaver) -> complex:
     """The sensor in plan about the magazine's axis, x + i z [m]: as near to the motors as it clears them, before the
     plate of the carriage's motor; of a drum between two tubes.
     """
-    magazine, shape, half = weaver.magazine, weaver.shape, INDUCTIVE.size[0] / 2
-    face = selector_of(weaver.params, magazine).face / 2
-    room = shape.front + PLATE_BEGIN - half - (shape.magazine + shape.magazine_size / 2).real
-    beside = complex(face if magazine.tiers == 1 else 2 * face, face) + (half + BESIDE_INDEX) * (1 + 1j)
+    magazine, shape, beside = weaver.magazine, weaver.shape, _beside_motors(weaver)
+    room = shape.front + PLATE_BEGIN - INDUCTIVE.size[0] / 2 - (shape.magazine + shape.magazine_size / 2).real
     if magazine.kind != DRUM:
         return beside.imag * 1j
     number, first = magazine.per_tier, magazine.per_tier // 4
     gaps = [cmath.rect(1.0, turn * (k + 0.5) / number) for k in (*range(first, -1, -1), *range(first + 1, number))]
     radii = (1 / max(abs(gap.real) / beside.real, abs(gap.imag) / beside.imag) for gap in gaps)
     offered = sorted((radius * gap for radius, gap in zip(radii, gaps, strict=True)), key=lambda at: round(abs(at), 9))
-    return next((at for at in offered if at.imag <= room), offered[0])
+    behind = (shape.body + shape.size - shape.magazine - shape.magazine_size / 2).real + BRACKET_ENDS[1]
+    free = (at for at in offered if behind + _stand_sides(weaver, at)[0] / 2 <= at.imag <= room)
+    return next(free, offered[0])
