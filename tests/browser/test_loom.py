@@ -231,7 +231,7 @@ def test_a_run_is_held_found_again_after_a_reload_and_stopped(page: Page, runnin
     until_more_knots(page, found)
     page.get_by_role("button", name="Stop").click()
     until_fact(page, "State", "Stopped")
-    expect(page.get_by_role("status").filter(has_text=re.compile(r"^Woven: \d+ knots, 0 faults"))).to_be_visible()
+    expect(page.get_by_role("status").filter(has_text=re.compile(r"^Woven: [\d,]+ knots, 0 faults"))).to_be_visible()
     expect(page.get_by_role("button", name="Start")).to_be_visible()
     assert violations(page) == []
 
