@@ -4,16 +4,17 @@ Copies of a part have other neighbours, and other screws. Pieces with the same h
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, Float
 from ilmek.part.features import round_holes
+from ilmek.part.insertion_units import is_screw, standing_parts
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
-from ilmek.part.poses import chains, poses
+from ilmek.part.poses import chains
 from ilmek.part.shapes import Drilling, shape_box
 from ilmek.part.tree import Tree
 from ilmek.records import record
@@ -60,25 +61,16 @@ def _placed(tree: Tree) -> tuple[dict[str, tuple[Part, list[Placement]]], dict[s
     """Parts with all their positions by id; and of the screws by the ids of what they join: head, direction, length."""
     parts: dict[str, tuple[Part, list[Placement]]] = {}
     screws: dict[str, list[list[float]]] = defaultdict(list)
-    for part, lies in _occurrences(tree):
+    for piece in (piece for links in chains(tree) for piece in standing_parts(links)):
+        part, lies = piece.part, piece.position
         assert part.shape is not None
-        if part.joins and part.purchase:
+        if part.joins and is_screw(part):
             line = [*lies.origin, *lies.rotation[:, 2], float(shape_box(part.shape)[1][2])]
             for name in part.joins:
                 screws[name].append(line)
         else:
             parts.setdefault(part.id, (part, []))[1].append(lies)
     return parts, screws
-
-
-def _occurrences(tree: Tree) -> Iterator[tuple[Part, Placement]]:
-    """Every piece of the tree where it stands, all drives at 0."""
-    for chain in chains(tree):
-        here = poses(chain, "", np.zeros(1))
-        body = Placement(here.origin[0], here.rotation[0])
-        for occurrence in chain[-1].body.occurrences:
-            if occurrence.part.shape is not None:
-                yield from ((occurrence.part, body.after(position)) for position in occurrence.positions)
 
 
 def _filled(hole: Drilling, lies: Placement, screws: _Lines) -> bool:

@@ -9,7 +9,7 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import count, groupby, product
+from itertools import count, groupby
 from typing import TypeAlias
 
 import numpy as np
@@ -24,7 +24,7 @@ from ilmek.part.part_lists import BELTS, FASTENER
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.poses import Chain, chains, poses
 from ilmek.part.seat_axes import meeting_axes, seat_axis
-from ilmek.part.shapes import Placed, Shape, Sum, shape_box, tube
+from ilmek.part.shapes import Placed, Shape, Sum, box_corners, shape_box, tube
 from ilmek.part.stacks import StackRun, stack_runs
 from ilmek.part.straight_moves import FIT, FittedSolid, MovedSolids, Vector, fitted
 from ilmek.part.tree import STANDING, Tree
@@ -53,8 +53,7 @@ class StandingPart:
     @property
     def box(self) -> Box:
         """Its least and greatest coordinates [m]."""
-        corners = np.array(list(product(*np.transpose(shape_box(_shape(self.part))))))
-        points = self.position.points(corners)
+        points = self.position.points(box_corners(*shape_box(_shape(self.part))))
         return points.min(0), points.max(0)
 
 
