@@ -157,7 +157,14 @@ class PlcLoom:
                   "Tubes": setup.tubes, "Row": self.given}  # fmt: skip
         self._write("Recipe", self.disturb_recipe(recipe))
         if number != self.read("RowData.Number") and 0 <= number < setup.rows:
-            self.give(host_row(self.programme.operations(number), self.programme.digest))
+            self.give(self.host_row(number))
+
+    def host_row(self, number: int) -> HostRow:
+        return host_row(self.programme.operations(number), self.programme.digest)
+
+    def give_again(self) -> None:
+        """The host gives the row that is requested again."""
+        self._write("RowData", {"Number": -1})
 
     def give(self, row: HostRow) -> None:
         given = self.disturb_row(row)

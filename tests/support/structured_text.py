@@ -26,6 +26,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "TRUNC": math.trunc, "SEL": lambda choice, no, yes: yes if choice else no, "SQRT": math.sqrt,
     **{f"{one}_TO_{other}": int for one in RANGES for other in RANGES},
     **{f"{one}_TO_{other}": float for one in RANGES for other in REALS},
+    **{f"{one}_TO_DWORD": lambda value: value & 0xFFFF_FFFF for one in RANGES},
     "REAL_TO_LREAL": float, "LREAL_TO_REAL": float,
 }  # fmt: skip
 
@@ -529,7 +530,9 @@ class Machine:
         if known is None:
             known = self._bodies[id(body)] = [(getattr(self, f"_do_{one[0]}"), one[1:]) for one in body], body
         for statement, arguments in known[0]:
-            self._step()
+            if self.steps == 0:
+                raise PowerCut
+            self.steps -= 1
             statement(instance, *arguments)
 
     def _step(self) -> None:

@@ -125,6 +125,9 @@ IF StateCurrent = {int(PackState.RESETTING)} AND NOT Waiting THEN
         ELSE
             Waiting := TRUE;
             HostScans := HostScans + 1;
+            IF Recipe.Row >= 0 AND NOT CarpetDone THEN
+                {raised(JournalFault.BEHIND)}
+            END_IF;
         END_IF;
     ELSE
         Plausible := Recipe.Rows = Now.Carpet.Rows AND Recipe.Columns = Now.Carpet.Columns;

@@ -8,6 +8,7 @@ check = CRC-32 (ISO 3309) of: the programme's digest (8 words), row (32 bit), ph
 import struct
 import zlib
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -47,18 +48,26 @@ def digest_words(digest: str) -> tuple[int, ...]:
 
 def host_row(row: RowOperations, digest: str) -> HostRow:
     """A row of the programme with a digest."""
-    limits = np.cumsum(row.counts, axis=1)
     stops = {stop.phase for stop in row.stops}
-    stop_before = [phase in stops for phase in range(row.phases)]
-    first = row.starts[:-1]
+    values = HostRow(
+        number=row.number,
+        columns=row.columns.tolist(),
+        tubes=row.tubes.tolist(),
+        first=row.starts[:-1].tolist(),
+        limits=np.cumsum(row.counts, axis=1).tolist(),
+        stop_before=[phase in stops for phase in range(row.phases)],
+        check=0,
+    )
+    return checked(values, digest)
+
+
+def checked(row: HostRow, digest: str) -> HostRow:
+    """The row with its check sum, for the programme with a digest."""
     knots = np.empty(len(row.columns), np.dtype([("column", "<i2"), ("tube", "u1")]))
     knots["column"], knots["tube"] = row.columns, row.tubes
-    heads = np.concatenate([first[:, None], limits], axis=1).astype("<i2")
+    heads = np.array([[first, *limits] for first, limits in zip(row.first, row.limits, strict=True)], "<i2")
     content = struct.pack(f"<{DIGEST_WORDS}IiH", *digest_words(digest), row.number, row.phases)
-    check = zlib.crc32(content + knots.tobytes() + heads.tobytes() + bytes(stop_before))
-    return HostRow(
-        row.number, row.columns.tolist(), row.tubes.tolist(), first.tolist(), limits.tolist(), stop_before, check
-    )
+    return replace(row, check=zlib.crc32(content + knots.tobytes() + heads.tobytes() + bytes(row.stop_before)))
 
 
 def recipe_csv(programme: LoomProgramme) -> str:

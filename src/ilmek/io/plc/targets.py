@@ -15,16 +15,16 @@ Writer = Callable[[PlcProject, list[IoRow]], bytes]
 
 @dataclass(frozen=True, slots=True)
 class PlcTarget:
-    """A controller: its style of addresses, and a writer for each file of the program."""
+    """A controller: its style of addresses, and the name and writer of each file of the program."""
 
     title: str
     style: AddressStyle
-    writers: Mapping[str, Writer]
+    writers: tuple[tuple[str, Writer], ...]
 
     def files(self, project: PlcProject) -> dict[str, bytes]:
         """Contents of the program's files and of the list of inputs and outputs, by name."""
         rows = io_rows(project.units[-1], self.style)
-        written = {name: writer(project, rows) for name, writer in self.writers.items()}
+        written = {name: writer(project, rows) for name, writer in self.writers}
         return written | {"io.csv": io_csv(project.units[-1], self.style).encode()}
 
 
@@ -45,16 +45,14 @@ def _scl(project: PlcProject, rows: list[IoRow]) -> bytes:
     return scl_source(project, rows).encode()
 
 
-_IEC: Mapping[str, Writer] = MappingProxyType({"loom.st": _text, "loom.xml": _xml})
+_IEC = (("loom.st", _text), ("loom.xml", _xml))
 
 TARGETS: Mapping[str, PlcTarget] = MappingProxyType(
     {
         "codesys": PlcTarget("CODESYS 3", AddressStyle(by_bytes=False), _IEC),
         "twincat": PlcTarget("TwinCAT 3", AddressStyle(by_bytes=True), _IEC),
-        "tia": PlcTarget(
-            "TIA Portal, S7-1200 and S7-1500", AddressStyle(by_bytes=True, bit=""), MappingProxyType({"loom.scl": _scl})
-        ),
-        "openplc": PlcTarget("OpenPLC", AddressStyle(by_bytes=False), MappingProxyType({"loom.st": _text})),
+        "tia": PlcTarget("TIA Portal, S7-1200 and S7-1500", AddressStyle(by_bytes=True, bit=""), (("loom.scl", _scl),)),
+        "openplc": PlcTarget("OpenPLC", AddressStyle(by_bytes=False), (("loom.st", _text),)),
     }
 )
 """Targets by name."""
