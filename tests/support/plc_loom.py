@@ -13,6 +13,7 @@ from structured_text import Instance, Machine, PowerCut
 
 from ilmek.io.plc.host_data import HostRow, digest_words, host_row
 from ilmek.io.plc.project import plc_project, size_of
+from ilmek.loom.control.alarms import ALARMS, JournalFault
 from ilmek.loom.control.packml import PackCommand, PackState
 from ilmek.loom.operations import LoomProgramme, RowEnd
 
@@ -115,7 +116,7 @@ class PlcLoom:
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
         self.scans = self.row = self.command = 0
-        self.given = -1
+        self.given = self.requested = -1
         self.heads_clear: bool | None = None
         self.alarms: list[int] = []
         self.next_act: Callable[[int], Act] = lambda _: HONEST
@@ -147,7 +148,7 @@ class PlcLoom:
     # -- the host ----------------------------------------------------------------------------------------------------
 
     def host(self) -> None:
-        """Writes the carpet, and the row that the program requests; its journal names the row before it gives it."""
+        """Writes the carpet, and a row when the request changes or it was refused; the journal names the row before."""
         if self.host_silent:
             return
         setup, number = self.programme.setup, self.read("RowRequest")
@@ -156,15 +157,13 @@ class PlcLoom:
         recipe = {"Programme": digest_words(self.programme.digest), "Rows": setup.rows, "Columns": setup.columns,
                   "Tubes": setup.tubes, "Row": self.given}  # fmt: skip
         self._write("Recipe", self.disturb_recipe(recipe))
-        if number != self.read("RowData.Number") and 0 <= number < setup.rows:
+        asked_again = number != self.requested or self.read("Alarm") == ALARMS[JournalFault.ROW_DAMAGED].number
+        self.requested = number
+        if asked_again and 0 <= number < setup.rows:
             self.give(self.host_row(number))
 
     def host_row(self, number: int) -> HostRow:
         return host_row(self.programme.operations(number), self.programme.digest)
-
-    def give_again(self) -> None:
-        """The host gives the row that is requested again."""
-        self._write("RowData", {"Number": -1})
 
     def give(self, row: HostRow) -> None:
         given = self.disturb_row(row)
