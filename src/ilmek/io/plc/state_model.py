@@ -95,7 +95,8 @@ IF Wanted > 0 THEN
     END_IF;
 END_IF;
 IF Target = 0 AND CmdChangeRequest AND NOT CommandSeen THEN
-    IF NOT (Forbidden AND ({onward})) THEN
+    Refused := Forbidden AND ({onward});
+    IF NOT Refused THEN
         Target := CommandedState(State := StateCurrent, Command := CntrlCmd, Mode := UnitModeCurrent);
     END_IF;
     Refused := Target = 0;
