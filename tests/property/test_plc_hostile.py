@@ -222,6 +222,35 @@ def test_an_emergency_stop_halts_in_every_state(scans: int) -> None:
     assert loom.woven()
 
 
+@pytest.mark.parametrize(("scans", "rows", "woven"), [(60, 0, 0), (230, 0, 1), (230, 1, 0), (320, 2, 0)])
+def test_rows_that_were_taken_out_are_woven_again(scans: int, rows: int, woven: int) -> None:
+    """Also when the operation in progress was uncertain: it was taken out with its row."""
+    loom = PlcLoom(small_programme(3, 12, 2, 2))
+    loom.attend(scans)
+    assert loom.row == rows + woven
+    loom.power_cut(tied=True)
+    loom.take_out(rows)
+    loom.scan(RowsBack=rows, RowsBackRequest=True)
+    assert (loom.read("RowRequest"), loom.read("KnotsDone")) == (woven, 12 * woven)
+    loom.scan(RowsBackRequest=False)
+    loom.attend(5000)
+    assert loom.woven()
+
+
+def test_rows_are_not_taken_out_beyond_a_change_of_packages() -> None:
+    loom = PlcLoom(small_programme(5, 12, 2, 2, weft_rows=2))
+    loom.scan()
+    while loom.row < 3:
+        loom.attend(1)
+    assert loom.changes == [2]
+    loom.command = int(PackCommand.STOP)
+    loom.until("StateCurrent", int(PackState.STOPPED))
+    for rows, request in ((2, 3), (-1, 3), (30_000, 3), (1, 2)):
+        loom.scan(RowsBack=rows, RowsBackRequest=True)
+        loom.scan(RowsBackRequest=False)
+        assert loom.read("RowRequest") == request
+
+
 def test_a_given_up_carpet_is_begun_anew() -> None:
     loom = PlcLoom(small_programme(3, 12, 2, 2))
     loom.attend(100)

@@ -145,6 +145,13 @@ class PlcLoom:
         self.carpet.clear()
         self.ends.clear()
 
+    def take_out(self, rows: int) -> None:
+        """An operator takes out the row in work and whole rows before it, and sets the host's journal back."""
+        self.row -= rows
+        self.given = min(self.given, self.row)
+        self.carpet = {place: tubes for place, tubes in self.carpet.items() if place[0] < self.row}
+        self.ends = [end for end in self.ends if end[0] < self.row]
+
     # -- the host ----------------------------------------------------------------------------------------------------
 
     def host(self) -> None:

@@ -16,6 +16,9 @@ from ilmek.loom.operations import EMPTY, ROW_ENDS
 HOST_PATIENCE = 1000
 """Scans for which the program waits for the host, 10 s."""
 
+ROWS_BACK = 20
+"""Most rows that are taken out at once: a length of carpet that is still before the cloth beam (assumed)."""
+
 ITEMS = 32
 """Values of a row that are checked in a scan: a row of 300 knots is checked in 100 ms."""
 
@@ -108,6 +111,23 @@ GiveUpSeen := GiveUp;
 """
 
 
+def rows_back(size: PlcSize) -> str:
+    """An operator has taken out the row in work and whole rows before it: they are woven again.
+
+    Not beyond the last change of packages: the rows before it need the packages that were taken off.
+    """
+    return f"""\
+IF RowsBackRequest AND NOT RowsBackSeen AND StateCurrent = {int(PackState.STOPPED)} AND Now.Begun AND RowsBack >= 0
+    AND RowsBack <= {ROWS_BACK} AND Now.Row - INT_TO_DINT(RowsBack) >= Now.StopRow THEN
+    Now.Row := Now.Row - INT_TO_DINT(RowsBack);
+    Now.Knots := Now.Row * INT_TO_DINT(Now.Carpet.Columns);
+{indented(loop("Station", size.stations, "Now.Busy[Station] := FALSE;"))}
+{indented(_row_begins(size))}
+END_IF;
+RowsBackSeen := RowsBackRequest;
+"""
+
+
 def recipe_check(size: PlcSize) -> str:
     """In state Resetting: the next carpet begins, or the one in work is compared with the host's journal."""
     compare = "Plausible := Plausible AND Recipe.Programme[Index] = Now.Carpet.Programme[Index];"
@@ -120,6 +140,7 @@ IF StateCurrent = {int(PackState.RESETTING)} AND NOT Waiting THEN
             Now.Begun := TRUE;
             Now.Carpet := Recipe;
             Now.Row := 0;
+            Now.StopRow := 0;
             Now.Knots := 0;
 {indented(indented(indented(_row_begins(size))))}
         ELSE

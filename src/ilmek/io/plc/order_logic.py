@@ -62,6 +62,10 @@ END_FOR;
 IF ChangeStart AND ChangeDone AND NOT ChangeSeen THEN
     ChangeStart := FALSE;
     Now.StopsDone := Now.Phase + 1;
+    Now.StopRow := Now.Row;
+    IF Now.Phase > 0 THEN
+        Now.StopRow := Now.Row + 1;
+    END_IF;
 END_IF;
 ChangeSeen := ChangeDone;
 """

@@ -75,6 +75,7 @@ def structures(size: PlcSize) -> tuple[PlcStructure, ...]:
                 PlcVariable("Carpet", "LoomRecipe", "that carpet"),
                 PlcVariable("Row", "DINT", "row in work"),
                 PlcVariable("Phase", "INT", "phase in work; the number of phases: the operations after the knots"),
+                PlcVariable("StopRow", "DINT", "first row that needs the packages of the last stop"),
                 PlcVariable("StopsDone", "INT", "phases whose stop is over"),
                 PlcVariable("EndsDone", "INT", "operations after the knots that are in the carpet"),
                 PlcVariable("Tied", PlcArray(size.heads, "INT"), "knots of each head in the row"),
@@ -98,6 +99,8 @@ def block_inputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("StepKnot", "BOOL", "in maintenance mode: one knot of each head, else one row"),
         PlcVariable("Acknowledge", "BOOL", "rising edge: the operator has removed the cause of the alarm"),
         PlcVariable("GiveUp", "BOOL", "rising edge in Stopped: the carpet in work is given up"),
+        PlcVariable("RowsBack", "INT", "whole rows that were taken out before the row in work, which was too"),
+        PlcVariable("RowsBackRequest", "BOOL", "rising edge in Stopped: they are woven again"),
         PlcVariable("JogAxis", "INT", f"axis to move in manual mode, 1 to {len(LoomAxis)}, 0: none"),
         *sensor_variables(size.heads),
         PlcVariable("Recipe", "LoomRecipe", "the carpet that is to be woven"),
@@ -171,7 +174,7 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Crc", "DWORD"),
         *(PlcVariable(name, "BOOL") for name in
           ("Busy", "Waiting", "Asking", "StepDone", "Complete", "MayBegin", "Plausible", "Loading", "ByAlarm",
-           "AcknowledgeSeen", "GiveUpSeen", "ChangeSeen")),
+           "AcknowledgeSeen", "GiveUpSeen", "RowsBackSeen", "ChangeSeen")),
         *(PlcVariable(watch_name(sensor), "BOOL", "the sensor has not changed in this operation")
           for sensor in WATCHED.values()),
     )  # fmt: skip
