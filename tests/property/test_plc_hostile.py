@@ -56,6 +56,22 @@ def test_hostile_stations_and_power_cuts_lose_and_double_nothing(seed: int) -> N
     assert loom.read("CarpetDone")
 
 
+def test_power_fails_at_each_step_of_writing_the_record_of_a_knot() -> None:
+    """A scan in which a knot is reported, cut off at one of its last steps: each step in its turn."""
+    loom = PlcLoom(small_programme(5, 16, 1, 2))
+    head = loom.stations[0]
+    for back in range(60):
+        while head.left - head.elapsed != 1 or not head.elapsed:
+            loom.machine.steps = -1
+            loom.attend(1)
+            assert loom.scans < 3000
+        used = -1 - loom.machine.steps
+        loom.power_cut(tied=False, steps=used + 15 - back)
+        assert loom.row < 5
+    loom.attend(5000)
+    assert loom.woven()
+
+
 @pytest.mark.parametrize(
     ("act", "alarm"),
     [
