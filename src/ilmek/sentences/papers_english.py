@@ -211,7 +211,7 @@ PAPERS = {
     "electric.burnt": "resistor",
     "electric.channels": "Inputs of the modules",
     "electric.channels-how": "Each module is on the bus of the motion controller A1, which reports a sensor by its "
-    "number in TieFault and EndFault.",
+    "number in TieStatus and EndStatus.",
     "electric.module": "module",
     "electric.inputs": "inputs",
     "electric.piece": "pieces, by number",

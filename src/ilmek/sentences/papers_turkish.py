@@ -209,8 +209,8 @@ PAPERS = {
     "electric.stored": "saklanan",
     "electric.burnt": "direnç",
     "electric.channels": "Modüllerin girişleri",
-    "electric.channels-how": "Her modül, hareket denetleyicisi A1'in veri yolundadır; A1 bir algılayıcıyı TieFault ve "
-    "EndFault içinde numarasıyla bildirir.",
+    "electric.channels-how": "Her modül, hareket denetleyicisi A1'in veri yolundadır; A1 bir algılayıcıyı TieStatus ve "
+    "EndStatus içinde numarasıyla bildirir.",
     "electric.module": "modül",
     "electric.inputs": "girişler",
     "electric.piece": "parçalar, numarayla",
