@@ -178,6 +178,7 @@ def loads(draw):
         Torque(spot[0], draw(AMOUNT)),
         Drag(*spot, draw(LEAST)),
         TabulatedLoad(PointForce(*spot, 1j), "crank", at, tuple(draw(AMOUNT) for _ in at)),
+        TabulatedLoad(Torque(spot[0], 1.0), None, at, tuple(draw(AMOUNT) for _ in at), turns=False),
     )
     window = AngleRange(draw(AMOUNT), draw(AMOUNT))
     springs = (

@@ -9,6 +9,7 @@ the whole compares the force on the frame, summed over joints and drives, with l
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -165,9 +166,9 @@ def inverse_run(machine: OwnMachine, motion: Motion, driving: str | None, time: 
     motion   with speeds and accelerations      driving  name of the driving input; None: all inputs are fixed
     time     of the samples [s], ascending; None: the inputs stand still, and the friction of joints is left out
 
-    Raises MechanismError as `inverse`, for unknown bodies or joints.
+    Raises MechanismError as `inverse`, for unknown bodies or joints, and for a load over time without one.
     """
-    loads = all_loads(machine)
+    loads, motion = all_loads(machine), replace(motion, time=time)
     moves = any(np.any(np.asarray(drive.speed) != 0) for drive in motion.drives.values())
     forces = inverse(motion, machine.inertias, loads, machine.frictions if moves else ())
     shaken, frame = shaking(motion, machine.inertias, ABOUT), on_frame(forces, ABOUT)
