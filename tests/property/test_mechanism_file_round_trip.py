@@ -228,7 +228,8 @@ def test_a_machine_with_its_loads_is_read_again(named, motion, gravity, size):
             size, size, size, MotorDrive(size, -size, size, size), (StopEvent("x", "speed", -size, terminal=False),)
         ),
         study=SpeedStudy((size, 2 * size)),
-        servo="crank",
+        servo="B0",
+        actuators=("B0",),
         paths=(("rocker", "B"),),
         transmission=("B",),
     )
@@ -240,6 +241,7 @@ def test_a_machine_with_its_loads_is_read_again(named, motion, gravity, size):
         assert all(same(springs[name], load) for name, load in named.items())
         assert (found.gravity, found.frictions, found.members) == (gravity, machine.frictions, machine.members)
         assert (found.pins, found.motions["crank"].law) == (machine.pins, motion.law)
+        assert (found.actuators, found.servo) == (machine.actuators, machine.servo)
         assert write(found) == text
 
 

@@ -24,7 +24,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexField, FloatArray, RealField
-from ilmek.dynamics.equations import Needs, add, joint_pulls
+from ilmek.dynamics.equations import Needs, joint_pulls, loaded
 from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
@@ -184,20 +184,6 @@ def efforts(
         signs = np.where(separating, signs, np.sign(rates + _time_offset(poses, side) * second))
     sizes, locked = _consistent(joints, laws, signs, unloaded, responses)
     return {law.joint: size for law, size in zip(laws, viscous + sizes, strict=True)}, locked
-
-
-def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
-    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other; see `drive`.
-
-    Returns needs of the same shapes, [N] and [N m] per sample.
-    """
-    changed = dict(needed)
-    for name, effort in efforts.items():
-        joint = poses.joints[name]
-        for body, sign in ((joint.on, -1), (joint.by, +1)):
-            pull = ForceAndMoment(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
-            add(changed, poses, body, pull, joint.at)
-    return changed
 
 
 def _consistent(

@@ -24,6 +24,7 @@ from ilmek.io.mechanism.loads import TIME
 from ilmek.io.mechanism.motions import ConstantSpeed, MotionSequence, MotionStep, TableMotion
 from ilmek.io.mechanism.names import driven_body
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
+from ilmek.io.mechanism.tasks import effort_of
 from ilmek.io.toml_text import written_quantity
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation
 from ilmek.report import Json
@@ -70,6 +71,7 @@ class _Writer:
         turning = {entry.name: isinstance(entry, Rotation) for entry in mechanism.inputs}
         further: dict[str, Json] = {
             "servo": one.servo,
+            "actuators": {name: effort_of(mechanism.joint(name)) for name in one.actuators},
             "paths": [list(spot) for spot in one.paths],
             "transmission": list(one.transmission),
         }
