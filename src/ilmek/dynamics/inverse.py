@@ -203,6 +203,9 @@ def inverse(
         mechanism.body(body)
     check_joints(mechanism, joint_frictions)
     _check_actuators(mechanism, actuators)
+    if joint_frictions and not any(np.any(drive.speed) for drive in motion.drives.values()):
+        given = f"friction in {mechanism.name} has no direction: its inputs stand still"
+        raise MechanismError(given, do="give an input a speed")
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # rates are infinite at a dead centre
         wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]

@@ -166,8 +166,8 @@ def efforts(
     side    at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
 
     Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that separates
-    its teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where
-    no input moves.
+    its teeth, one value per sample, NaN where locked; and the locked samples. Where a joint has neither speed nor
+    acceleration its friction is 0: at rest, a force up to its limit may act in either direction.
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]
@@ -227,15 +227,13 @@ def _size_change(force: ComplexField, change: ComplexField) -> RealField:
 
 
 def _time_offset(poses: PoseBlock, side: RealField) -> RealField:
-    """Time before or after an instant at which the direction of friction is evaluated [s]."""
+    """Time before or after an instant at which the direction of friction is evaluated [s].
+
+    Where all inputs rest, any time: the accelerations give the direction in which the joints begin to move, or stopped.
+    """
     speeds = [np.abs(np.asarray(drive.speed, dtype=float)) for drive in poses.motion.drives.values()]
     fastest = np.asarray(sum(speeds))
-    if not fastest.all():
-        raise MechanismError(
-            f"friction in {poses.motion.plan.mechanism.name} has no direction: its inputs stand still",
-            do="give an input a speed",
-        )
-    offset: RealField = np.asarray(side) * OFFSET / fastest
+    offset: RealField = np.asarray(side) * OFFSET / np.where(fastest > 0, fastest, 1.0)
     return offset
 
 
