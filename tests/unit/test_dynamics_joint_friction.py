@@ -206,7 +206,7 @@ def test_a_linkage_that_starts_from_rest_has_friction_as_it_begins_to_move() -> 
         single = inverse(solve(written, angle[sample], speed[sample], acceleration[sample]), MASSES, (), (pin,))
         assert whole.effort("crank")[sample] == pytest.approx(single.effort("crank")[0], rel=1e-12)
     assert np.all(whole.frictions["B"][[0, -1]] == 0)
-    starting = inverse(solve(written, [1.0, 1.0], np.array([0.0, 1e-9]), 20.0), MASSES, (), (pin,))
+    starting = inverse(solve(written, np.ones(2), np.array([0.0, 1e-9]), 20.0), MASSES, (), (pin,))
     assert starting.frictions["B"][0] == pytest.approx(
         inverse(solve(written, 1.0, 1e-9, 20.0), MASSES, (), (pin,)).frictions["B"][0], rel=1e-6
     )
