@@ -10,7 +10,7 @@ which follows from the joint between them [`meetings`]; both parts read it from 
     square                             H9/h11, as laser-cut H12: the bar is bright drawn
     seat of a rolling bearing          shaft k6, up to 18 mm js6; where its outer ring turns, of an insert bearing with
                                        grub screws and of a freewheel h6; housing H7, of a freewheel N7
-    end of a screw                     thread 6H
+    end of a screw                     thread 6H; under a locknut 6g
     face under a bought guide          flat
     faces that slide on each other     flat
 
@@ -30,6 +30,7 @@ from ilmek.elements.bearing_table import INSERT
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
 from ilmek.elements.keyways import Keyway
+from ilmek.elements.locknuts import Locknut, locknut_of
 from ilmek.elements.making import DRAWN, FINEST, LASER
 from ilmek.errors import ParameterError
 from ilmek.part.blanks import SHEET
@@ -123,12 +124,18 @@ def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | N
     if own.feature.square and "welded frame" in (own.part.process, other.part.process):
         return None  # a hollow section as delivered, welded in
     if other.part.process == "fastener":
-        return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
+        screwed = meeting.ends if own is meeting.bore else _locknut(other) is not None
+        return FitDuty.SCREWED if screwed else None
     if other.part.process == "bearing":
         return FitDuty.HOUSING if own is meeting.bore else FitDuty.BEARING
     if meeting.joint is not JointKind.FIXED:
         return FitDuty.RUNNING
     return FitDuty.KEYED if own.feature.keyway or other.feature.keyway else FitDuty.FIXED
+
+
+def _locknut(seat: SeatFeature) -> Locknut | None:
+    """The locknut that a feature is the bore of, if any."""
+    return locknut_of(seat.part.purchase.row) if seat.part.purchase is not None else None
 
 
 _LONG = 20.0
@@ -150,8 +157,10 @@ def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     """Tolerance class of a journal or a square."""
     if one.seat.feature.square:
         return f"h{DRAWN}"
-    if one.duty is FitDuty.BEARING:
-        return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+    if one.duty in {FitDuty.SCREWED, FitDuty.BEARING}:
+        nuts = (nut.thread_class for _, other, _ in one.others if (nut := _locknut(other)) is not None)
+        rings = (_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+        return min(rings, default="") or next(nuts)
     if one.duty is FitDuty.RUNNING:
         if any(_is_long(own, meeting) for own, _, meeting in one.others):
             return "c11"
@@ -218,6 +227,8 @@ _KINDS = {
     (False, True): FeatureKind.SQUARE,
 }
 
+_THREADS = {True: FeatureKind.THREAD, False: FeatureKind.OUTER_THREAD}
+
 
 def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     """The feature with its size, form and surface."""
@@ -230,7 +241,7 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     return ToleratedFeature(
         part=one.seat.part.id,
         name="",
-        kind=FeatureKind.THREAD if threaded else _KINDS[feature.inside, feature.square],
+        kind=_THREADS[feature.inside] if threaded else _KINDS[feature.inside, feature.square],
         position=feature.position,
         length=feature.length,
         nominal=size,
