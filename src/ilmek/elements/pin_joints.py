@@ -20,9 +20,13 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.bearings import life
+from ilmek.units import mm
 
 PIN_DIAMETERS = tuple(size * 1e-3 for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
 """Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
+
+SIDE_PLAY = 0.25 * mm
+"""Play along its pin of what turns between cheeks, up to 6 mm wide [m]: of both widths ISO 2768-m takes 0.1 mm."""
 
 
 def pin_shear(force: float, diameter: float, *, fork: bool = True) -> float:

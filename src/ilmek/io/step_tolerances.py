@@ -81,7 +81,10 @@ def add_tolerances(
             added.size(feature, first, second)
         if feature.depth:
             added.depth(feature, surfaces)
-    lettered = {feature.datum: added.labels(_both(faces[feature.name])) for feature in features if feature.datum}
+    lettered = {
+        letter: added.labels(_both([pair for own in features if own.datum == letter for pair in faces[own.name]]))
+        for letter in {feature.datum for feature in features if feature.datum}
+    }
     for feature in features:
         for tolerance in feature.geometric:
             added.geometric(tolerance, added.labels(_both(faces[feature.name])), lettered)

@@ -48,6 +48,7 @@ class FitDuty(StrEnum):
     SCREWED = "takes a screw or a nut"
     GUIDING = "seats a guide"
     SLIDING = "slides on a face"
+    ROLLING = "rolls on a track"
 
 
 class Characteristic(StrEnum):

@@ -4,11 +4,11 @@ From the weaver's left to right: gap and cam in turn, and a gap. The order keeps
 beside the opener at the left, the pile handler turns at the right, the grippers' levers are next to the middle.
 """
 
+from ilmek.elements.pin_joints import SIDE_PLAY
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import CASE
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.widths import stack_width
-from ilmek.units import mm
 
 ORDER = ((SLEY,), (SIDE_GRASP,), (SIDE_MOTION, OPENER), (CENTRE_MOTION,), (CENTRE_GRASP,), (HANDLER,))
 """Tracks whose cams may be in each station."""
@@ -16,8 +16,8 @@ ORDER = ((SLEY,), (SIDE_GRASP,), (SIDE_MOTION, OPENER), (CENTRE_MOTION,), (CENTR
 HALF_SHARE = 0.75
 """Half the depth of a follower over its roller's radius; assumed by this project."""
 
-FREE = 0.05 * mm
-"""Room between a lever and each of its cheeks [m]; assumed by this project."""
+FREE = SIDE_PLAY / 2
+"""Room between a lever and each of its cheeks [m]."""
 
 
 def station(weaver: Weaver, track: str) -> float:
