@@ -66,11 +66,8 @@ def test_shafts_on_bearings_are_held_along_their_axis(name: str) -> None:
     shafts, bodies = 0, {body.id: body for body in tree_of(name).bodies}
     for meeting in meetings(tree_of(name)):
         bearing, own = meeting.bore.part, {one.part.id for one in bodies[meeting.body].occurrences}
-        if (
-            bearing.process == "bearing"
-            and bearing.purchase is not None
-            and meeting.inner.part.id in own - {bearing.id}
-        ):
+        if bearing.process == "bearing" and meeting.inner.part.id in own and bearing.id not in own:
+            assert bearing.purchase is not None
             shafts += 1
             held = "grub screws" in bearing.purchase.data or bearing.fixing or bearing.purchase.hardness
             assert held, bearing.id
