@@ -46,6 +46,7 @@ SHEETS = {
     "sheet.process-carbon-tube": "carbon tube",
     "sheet.bearing-bonded": "Right plate: outer ring bonded with retaining compound; in the left one it slides",
     "sheet.rings-bonded": "Inner rings of both bearings bonded with retaining compound, against the spacers",
+    "sheet.shims": "Pile at nominal thickness, of sheets of {kit} mm; chosen at assembly: 0 to {most}, to {step}",
     "sheet.bonded": "bonded on its shaft with retaining compound",
     "sheet.notes": "Notes",
     "sheet.note": "{number}  {line}",

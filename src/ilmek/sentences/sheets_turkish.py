@@ -46,6 +46,7 @@ SHEETS = {
     "sheet.process-carbon-tube": "karbon boru",
     "sheet.bearing-bonded": "Sağ levha: rulmanın dış bileziği yapıştırılır; sol levhada kayar",
     "sheet.rings-bonded": "İki rulmanın iç bilezikleri ara parçalara dayalı yapıştırılır",
+    "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
     "sheet.notes": "Notlar",
     "sheet.note": "{number}  {line}",

@@ -22,7 +22,7 @@ from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.reed import Reed, dent, reed_of
 from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
 from ilmek.machines.shedding.steady import steadies
-from ilmek.machines.shedding.tolerance_chain import tolerance_chain
+from ilmek.machines.shedding.tolerance_chain import SHIMS, STEP, tolerance_chain
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -33,6 +33,7 @@ from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tre
 from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.report.scene import SceneMotion
+from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, round_size, turn
 
 _INSIDE = 2 * mm
@@ -132,7 +133,7 @@ def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
 
 def _clamped(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """Pressure ring, tab washer and nut at both ends of the cams."""
-    nut, (low, high) = design.shafts[index].nut, _stack_ends(design, index)
+    nut, (low, high) = design.shafts[index].nut, stack_ends(design, index)
     ring = _disc(design, index, ("pressure-ring", "pressure ring of the cams"), design.shafts[index].shaft.bar, RING)
     named = ("tab-washer", "tab washer of the cams"), ("locknut", "locknut of the cams")
     washer, locknut = (
@@ -160,13 +161,21 @@ def _guides_and_spacers(design: SheddingDesign, index: int, x: FloatArray) -> It
         shift = (wide - thin) / 2
         places = after[shimmed]
         yield from _discs(design, index, ("thin-guide-cam", "guide cam beside shims"), radius, thin, places - shift)
-        yield from _discs(design, index, ("shims", "shims of the cams"), radius, chain.shims, places + thin / 2)
+        yield from _shims(design, index, radius, chain.shims, places + thin / 2)
         return
     if shares.guides:
         yield from _discs(design, index, ("guide-cam", "guide cam"), radius, wide, _guides(x, shaft))
     beside = x + (shares.thickness + shares.spacer) / 2 + shares.guides / 2 * wide
     yield from _discs(design, index, ("spacer", "spacer of the cams"), rest, shares.spacer, beside[~shimmed])
-    yield from _discs(design, index, ("shims", "shims of the cams"), rest, shares.spacer, beside[shimmed])
+    yield from _shims(design, index, rest, shares.spacer, beside[shimmed])
+
+
+def _shims(design: SheddingDesign, index: int, radius: float, thickness: float, x: FloatArray) -> Iterator[Occurrence]:
+    """Piles of shims at x [m], each chosen when the stack is built."""
+    kit = ", ".join(f"{size / mm:g}" for size in SHIMS if size <= thickness + 1e-9)
+    note = Sentence("sheet.shims", kit=kit, most=in_mm(2 * thickness), step=in_mm(STEP))
+    for pile in _discs(design, index, ("shims", "shims of the cams"), radius, thickness, x):
+        yield replace(pile, part=replace(pile.part, notes=(note,)))
 
 
 def _discs(  # noqa: PLR0917
@@ -177,7 +186,7 @@ def _discs(  # noqa: PLR0917
         yield Occurrence(_disc(design, index, names, radius, thickness), _row(x, thickness))
 
 
-def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
+def stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
     """Both ends of the cams with their guides and spacers along the width [m]."""
     stack, (x, _) = design.shafts[index].stack, _of(design, index)
     guide, spacer = min(stack.shares.guides, 1) * stack.guide_thickness, stack.shares.spacer
@@ -191,7 +200,7 @@ def bearing_inner(design: SheddingDesign, index: int) -> float:
     nut that clamps the cams.
     """
     shaft = design.shafts[index]
-    ends = max(abs(end) for end in _stack_ends(design, index))
+    ends = max(abs(end) for end in stack_ends(design, index))
     return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + shaft.beyond_cams)
 
 
@@ -202,7 +211,7 @@ def _bar(design: SheddingDesign, index: int) -> Part:
     """
     shaft = design.shafts[index]
     bar, nut, beyond, end = shaft.shaft.bar, shaft.nut, shaft.seat.journal, shaft.driven_end
-    inner, (low, high), over = bearing_inner(design, index), _stack_ends(design, index), RING - _INSIDE
+    inner, (low, high), over = bearing_inner(design, index), stack_ends(design, index), RING - _INSIDE
     begin, last, long = inner - high - over, inner - low + over, 2 * inner
     threaded = RING - over + nut.washer + nut.width + nut.pitch
     thread = Prism(Profile(keyed_bore(nut.thread / 2, nut.tab, nut.groove - nut.thread / 2)), threaded)
