@@ -22,7 +22,7 @@ def test_the_nut_sits_on_a_thread_and_presses_the_ring() -> None:
     shaft, nut = DESIGN.first, DESIGN.first.nut
     threads = [one for one in tolerances_of(TREE)[part_id("cam-shaft")] if one.kind is FeatureKind.OUTER_THREAD]
     assert len(threads) == 2
-    assert {(one.nominal, one.tolerance) for one in threads} == {(nut.thread, f" × {nut.pitch / mm:g} - 6g")}
+    assert {(one.nominal, one.tolerance) for one in threads} == {(nut.thread, f"× {nut.pitch / mm:g} - 6g")}
     (turning,) = (body for body in TREE.bodies if body.id == part_id("cam shaft"))
     placed = {own.part.id: [float(each.origin[2]) for each in own.positions] for own in turning.occurrences}
     (bar,) = placed[part_id("cam-shaft")]
@@ -59,7 +59,7 @@ def test_force_of_a_tightened_nut() -> None:
         assert nut.torque * turn == pytest.approx(lifted + rubbed, rel=0.02)
 
 
-@pytest.mark.parametrize("bar", [5.0, 20.0, 25.0, 65.0, 200.0])
+@pytest.mark.parametrize("bar", [5.0, 20.0, 28.0, 65.0, 200.0])
 def test_every_bar_has_a_nut(bar: float) -> None:
     nut = locknut_for(bar * mm, math.inf)
     assert nut.thread <= max(bar, 10.0) * mm

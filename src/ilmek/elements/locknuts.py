@@ -21,6 +21,9 @@ HAND = 250.0
 _LEVER = 3.0
 """Length of a hook spanner over the nut's diameter."""
 
+_WIDER = 1.15
+"""Least diameter of a nut over the side of the bar, so that it presses what is about this; assumed by this project."""
+
 _UNDER = 0.5 * mm
 """Room under the washer's tab [m]; assumed by this project."""
 
@@ -55,7 +58,7 @@ class Locknut:
     @property
     def thread_class(self) -> str:
         """Class of the shaft's thread behind its diameter."""
-        return f" × {self.pitch / mm:g} - 6g"
+        return f"× {self.pitch / mm:g} - 6g"
 
     @property
     def core(self) -> float:
@@ -76,7 +79,7 @@ class Locknut:
     def tightened(self) -> float:
         """Force by that [N].
 
-        >>> round(locknut_for(0.06, 1.0).tightened, -2)
+        >>> round(locknut_for(0.065, 1.0).tightened, -2)
         7000.0
         """
         flank, ring = self.thread - 0.6495 * self.pitch, (self.thread + self.outer) / 2
@@ -124,19 +127,19 @@ _BY_DESIGNATION = {nut.designation: nut for nut in LOCKNUTS}
 def locknut_of(designation: str) -> Locknut | None:
     """The nut of a designation; None: it is none.
 
-    >>> locknut_of("DIN 981 - KM 12") is locknut_for(0.06, 1.0), locknut_of("DIN 5406 - MB 12")
+    >>> locknut_of("DIN 981 - KM 12") is locknut_for(0.065, 1.0), locknut_of("DIN 5406 - MB 12")
     (True, None)
     """
     return _BY_DESIGNATION.get(designation)
 
 
 def locknut_for(bar: float, room: float) -> Locknut:
-    """The nut with the largest thread in a bar [m] that has room, a diameter [m]; without room by its thread alone.
+    """The nut with the largest thread below a bar [m] that has room, a diameter [m]; without room by its thread alone.
 
     The smallest nut where the bar is thinner than all threads.
 
-    >>> locknut_for(0.065, 0.081).designation, locknut_for(0.065, 0.01).designation
-    ('DIN 981 - KM 12', 'DIN 981 - KM 13')
+    >>> locknut_for(0.065, 0.081).designation, locknut_for(0.065, 0.07).designation
+    ('DIN 981 - KM 12', 'DIN 981 - KM 12')
     """
-    thin = [nut for nut in LOCKNUTS if nut.thread <= bar * (1 + 1e-9)] or [LOCKNUTS[0]]
-    return next((nut for nut in reversed(thin) if bar < nut.outer <= room), thin[-1])
+    thin = [nut for nut in LOCKNUTS if nut.thread < bar * (1 - 1e-9)] or [LOCKNUTS[0]]
+    return next((nut for nut in reversed(thin) if _WIDER * bar < nut.outer <= room), thin[-1])

@@ -228,7 +228,7 @@ def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float)
     return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed, shoulder(bearing))
 
 
-LEAST_BAR = 25 * mm
+LEAST_BAR = 28 * mm
 """The smallest bar with a thread whose nut passes over the journal of the smallest insert bearing [m]."""
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ilmek.cams.loaded_plate_cam import ROLLER, LoadedPlateCam
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.pin_joints import SIDE_PLAY
+from ilmek.elements.pin_joints import side_play
 from ilmek.machines.weaver.case import ALUMINIUM, WEB
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import GUIDE, HALF_GUIDE, LAP, PLAY
@@ -86,7 +86,8 @@ def fork_stress(weaver: Weaver, cam: LoadedPlateCam) -> float:
 def _sizes(weaver: Weaver) -> tuple[float, float]:
     """Thickness of a fork's cheek, diameter of its pin [m]."""
     params = weaver.params
-    free = params.cam_thickness + 2 * fork_beside(params) - roller_width(params) - SIDE_PLAY
+    wide = params.cam_thickness + 2 * fork_beside(params)
+    free = wide - roller_width(params) - side_play(roller_width(params))
     return free / 2, 2 * PIN_SHARE * params.roller_radius
 
 

@@ -38,7 +38,7 @@ BEARING_LIFE = 1e8
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
 
-BEARING_HELD = "both inner rings are bonded on the shaft, the right outer ring in its side plate; the left one slides"
+RETENTION = "both inner rings are bonded on the shaft, the right outer ring in its side plate; the left one slides"
 """What holds the cam shaft along its axis: one bearing, in both directions."""
 
 LEAST_SPACER = 0.01 * mm
@@ -101,7 +101,7 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         part = Part(SIDE_PLATE, title, "machined link", size, Prism(section, plate), ALUMINIUM, notes=notes)
         yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:
-        part = replace(catalogue.bearing(BEARING, "bearing of the head's cam shaft", row), fixing=BEARING_HELD)
+        part = replace(catalogue.bearing(BEARING, "bearing of the head's cam shaft", row), fixing=RETENTION)
         face = wide / 2 - plate - _into_gap(weaver)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
 

@@ -2,7 +2,7 @@
 
 import math
 
-from ilmek.elements.pin_joints import SIDE_PLAY
+from ilmek.elements.pin_joints import side_play
 from ilmek.machines.weaver.params import WeaverParams
 from ilmek.units import mm
 
@@ -30,7 +30,8 @@ def fork_beside(params: WeaverParams) -> float:
 def roller_width(params: WeaverParams) -> float:
     """Width of a cam's roller [m], in tenths of a millimetre: the cheeks of its fork take the rest, and the play."""
     thick = params.cam_thickness
-    free = thick - 2 * min(ROLLER_INSET, INSET_SHARE * thick) - SIDE_PLAY
+    gap = thick - 2 * min(ROLLER_INSET, INSET_SHARE * thick)
+    free = gap - side_play(gap)
     return max(math.floor(free / (0.1 * mm) + 1e-9), 1) * 0.1 * mm
 
 
