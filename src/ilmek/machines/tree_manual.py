@@ -12,6 +12,7 @@ from itertools import chain, groupby
 
 import numpy as np
 
+from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
 from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
@@ -304,7 +305,7 @@ def _in_turn(words: Sequence[str]) -> str:
 def _tightened(part: Part, number: int) -> str:
     """A screw with its torque, or a key."""
     assert part.purchase is not None
-    screw = screw_of(part.purchase.row)
+    screw = screw_of(part.purchase.row) or locknut_of(part.purchase.row)
     torque = "" if screw is None else f", {format_quantity(screw.torque, 'Nm', 3)}"
     return f"{number} × {part.purchase.row}{torque}"
 

@@ -13,6 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
 from ilmek.part.contacts import StandingTouches, connected, joined_by, standing_touches
 from ilmek.part.meetings import meetings
@@ -110,7 +111,8 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
     fasteners = {name for name, part in parts.items() if part.process == "fastener"}
     for name, joined in joined_by(tree, frozenset(fasteners)).items():
         purchase = parts[name].purchase
-        means = Means.KEY if purchase is None or screw_of(purchase.row) is None else Means.SCREW
+        screwed = purchase is not None and (screw_of(purchase.row) or locknut_of(purchase.row))
+        means = Means.SCREW if screwed else Means.KEY
         for other in joined:
             found |= {frozenset((name, other)): means}
             found |= {frozenset((other, third)): means for third in joined if third != other}

@@ -103,4 +103,4 @@ def _frame(limit: GeometricTolerance) -> ControlFrame:
 
 HEADER = tuple(map(Sentence, ("sheet.feature", "sheet.dimension", "sheet.least", "sheet.greatest", "sheet.duty")))
 _SIGNS = {FeatureKind.BORE: "⌀", FeatureKind.JOURNAL: "⌀", FeatureKind.THREAD: "M", FeatureKind.SQUARE: "□"}
-_SIGNS[FeatureKind.SQUARE_BORE] = "□"
+_SIGNS |= {FeatureKind.SQUARE_BORE: "□", FeatureKind.OUTER_THREAD: "M"}
