@@ -8,14 +8,14 @@ Throats: that of the part where strength sets it, else 0.7 of the thinner wall, 
 
 import math
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.elements.fillet_welds import THROATS, cools, throat_for
+from ilmek.elements.fillet_welds import THROATS, cools, largest_throat, throat_for
 from ilmek.part.contacts import Touch, joined_by, touches
 from ilmek.part.forms import form_of
 from ilmek.part.making import seams
@@ -26,7 +26,7 @@ from ilmek.part.tree import Tree
 from ilmek.part.weld_seams import PlacedPiece, flat_contact, weld_seams
 from ilmek.plane.contours import bounds
 from ilmek.records import record
-from ilmek.units import mm
+from ilmek.units import format_number, mm, um
 
 _WITH = frozenset({WELDED, LASER_CUT})
 """Processes of the parts that it is welded to."""
@@ -58,8 +58,8 @@ class Weld:
     box     corners of the contact, in the part's own axes [m]
     seams   begin and end of each straight seam, in the part's own axes [m]; none: round a circle, the contact
     all_round  the seams close round the contact; else they are at some of its edges
+    walls   of the parts, the thinner one first [m]
     pieces  of the part that have it      stitched  seams of `STITCH`, each `PITCH` after the last
-    preheated  the thicker part is preheated before
     """
 
     other: str
@@ -67,10 +67,26 @@ class Weld:
     box: Float[np.ndarray, "2 3"]
     seams: Float[np.ndarray, "seams 2 3"]
     all_round: bool
+    walls: tuple[float, float]
     pieces: int = 1
     bevel: bool = False
     stitched: bool = False
-    preheated: bool = False
+
+    @property
+    def mark(self) -> str:
+        """Its size by ISO 2553 [mm]: a of a throat, s of a depth."""
+        return f"{'s' if self.bevel else 'a'}{format_number(self.throat / mm)}"
+
+    @property
+    def preheated(self) -> bool:
+        """Whether the thicker part is preheated before."""
+        return not self.bevel and cools(self.throat, *self.walls)
+
+    @property
+    def too_thick(self) -> bool:
+        """Whether a fillet burns through the thinner wall; what is thinner than a fillet is brazed."""
+        arc = not self.bevel and self.throat > THROATS[0] - um
+        return arc and self.throat > largest_throat(self.walls[0]) + um
 
     @property
     def middle(self) -> Float[np.ndarray, " 3"]:
@@ -103,36 +119,51 @@ def _is_joined(part: Part, other: Part) -> bool:
 @lru_cache(maxsize=8)
 def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     """The welds of a tree by the ids of the parts whose sheets have them, like ones once."""
+    welds: dict[str, dict[object, Weld]] = defaultdict(dict)
+    for part, _ in tree.occurrences():
+        if part.process == LASER_CUT and isinstance(part.shape, Sum):
+            welds[part.id].update(enumerate(_of_plates(part, part.shape)))
+    for name, weld in (own for _, welded in _joints(tree) for own in welded):
+        key = weld.other, weld.bevel, weld.all_round, tuple(np.round(weld.middle, 4))
+        like = welds[name].get(key)
+        welds[name][key] = weld if like is None else replace(like, pieces=like.pieces + 1)
+    return {name: tuple(own.values()) for name, own in welds.items()}
+
+
+def unseamed(tree: Tree) -> tuple[tuple[str, str], ...]:
+    """Ids of parts of a tree that are welded to each other and have no edge for a seam where they touch."""
+    seamed = dict[tuple[str, str], bool]()
+    for pair, welded in _joints(tree):
+        seamed[pair] = seamed.get(pair, False) or bool(welded)
+    return tuple(pair for pair, any_seam in seamed.items() if not any_seam)
+
+
+@lru_cache(maxsize=8)
+def _joints(tree: Tree) -> tuple[tuple[tuple[str, str], tuple[tuple[str, Weld], ...]], ...]:
+    """Ids of parts that are welded to each other, with the welds of each contact by the ids of their parts."""
     parts = {part.id: part for part, _ in tree.occurrences()}
     tubes = frozenset(name for name, part in parts.items() if part.process == TUBE and part.throat > 0)
     spigots = frozenset(name for name, part in parts.items() if part.process == SPIGOT)
     stock = frozenset(name for name, part in parts.items() if part.process == WELDED) | tubes
     screws = frozenset(name for name, part in parts.items() if part.process == "fastener")
     screwed = [frozenset(pair) for pair in joined_by(tree, screws).values()] if screws else []
-    welds: dict[str, dict[object, Weld]] = defaultdict(dict)
-    for part in parts.values():
-        if part.process == LASER_CUT and isinstance(part.shape, Sum):
-            welds[part.id].update(enumerate(_of_plates(part, part.shape)))
     plates = frozenset(name for name, part in parts.items() if part.process in _WITH)
     stated = {frozenset((name, other)) for name, part in parts.items() if part.material for other in part.joins}
     named = frozenset(name for ids in stated for name in ids)
+    joints = list[tuple[tuple[str, str], tuple[tuple[str, Weld], ...]]]()
     for pair in touches(tree, plates | tubes | (spigots if tubes else frozenset()) | named):
         ids = frozenset(touch.part for touch in pair)
         stocked = ids & stock and ids <= plates | tubes | spigots and not (ids & spigots and not ids & tubes)
-        if ids not in stated and (not stocked or any(ids <= joined for joined in screwed)):
-            continue
-        for name, weld in _welds(pair, parts):
-            key = weld.other, weld.bevel, weld.all_round, tuple(np.round(weld.middle, 4))
-            like = welds[name].get(key)
-            welds[name][key] = weld if like is None else replace(like, pieces=like.pieces + 1)
-    return {name: tuple(own.values()) for name, own in welds.items()}
+        if ids in stated or (stocked and not any(ids <= joined for joined in screwed)):
+            joints.append(((pair[0].part, pair[1].part), tuple(_welds(pair, parts))))
+    return tuple(joints)
 
 
 def _of_plates(part: Part, shape: Sum) -> Iterator[Weld]:
     """The welds of plates that are one part, along the edges of what they share."""
     for box, pieces in seams(shape):
-        walls = sorted(min(_walls(own)) for own, _ in pieces)
-        yield from _seamed("", np.stack(box), pieces, part.throat, walls)
+        thinner, thicker = sorted(min(_walls(own)) for own, _ in pieces)
+        yield from _seamed("", np.stack(box), pieces, part.throat, (thinner, thicker))
 
 
 def _welds(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> Iterator[tuple[str, Weld]]:
@@ -146,16 +177,17 @@ def _welds(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> Iterator[tup
     own, other = parts[touch.part], parts[touch.other]
     assert own.shape is not None
     assert other.shape is not None
+    thinner, thicker = sorted((wall_of(own), wall_of(other)))
+    walls = thinner, thicker
     if own.process == TUBE:  # on the flange of a spigot, round its end
         box, along = touch.box.copy(), np.array(shape_box(own.shape))[:, 2]
         box[:, 2] = along[np.argmin(np.abs(along - box[:, 2].mean()))]
-        yield own.id, Weld(other.id, own.throat, box, _ROUND, all_round=True)
+        yield own.id, Weld(other.id, own.throat, box, _ROUND, True, walls)
         return
-    walls = sorted((wall_of(own), wall_of(other)))
     strength = own.throat or (0.0 if ends else other.throat)
     if ends and form_of(own.shape).round:
         throat = strength or throat_for(np.inf, *walls)
-        yield own.id, Weld(other.id, throat, touch.box, _ROUND, True, preheated=cools(throat, *walls))
+        yield own.id, Weld(other.id, throat, touch.box, _ROUND, True, walls)
         return
     pieces = (own.shape, IDENTITY), (other.shape, touch.position)
     for weld in _seamed(other.id, touch.box, pieces, strength, walls, number=4 if ends else 2):
@@ -171,15 +203,14 @@ def _seamed(  # noqa: PLR0917
     box: Float[np.ndarray, "2 3"],
     pieces: tuple[PlacedPiece, PlacedPiece],
     strength: float,
-    walls: Sequence[float],
+    walls: tuple[float, float],
     number: int = 4,
 ) -> Iterator[Weld]:
     """The fillets of a contact, and where both pieces end the bevels through the thinner wall.
 
     strength  throat by it; 0: by the walls [m], the thinner one first      number  of the sides of the box
     """
-    thinner, thicker = walls
-    throat = strength or throat_for(np.inf, thinner, thicker)
+    throat = strength or throat_for(np.inf, *walls)
     contact = flat_contact(box, pieces)
     if np.sort(np.ptp(contact.box, axis=0))[1] < throat:
         return  # an edge along an edge seats no weld
@@ -189,8 +220,8 @@ def _seamed(  # noqa: PLR0917
         kept = [seam for seam in every if seam.bevel == bevel]
         if kept:
             ends, whole = np.array([seam.ends for seam in kept]), all(seam.whole for seam in kept) and len(kept) == 4
-            long, size = max(seam.length for seam in kept) > LONGEST and not strength, thinner if bevel else throat
-            yield Weld(other, size, contact.box, ends, whole, bevel=bevel, stitched=long, preheated=cools(size, *walls))
+            long, size = max(seam.length for seam in kept) > LONGEST and not strength, walls[0] if bevel else throat
+            yield Weld(other, size, contact.box, ends, whole, walls, bevel=bevel, stitched=long)
 
 
 def _is_end(part: Part, middle: Float[np.ndarray, " 3"]) -> bool:
@@ -215,8 +246,9 @@ def _walls(shape: object) -> Iterator[float]:
             inside = (high - low - (end - begin)) / 2
             yield from (inside.real, inside.imag)
     elif isinstance(shape, Turned):
-        low, high = bounds(shape.profile.outline)
-        yield (high - low).imag
+        points = shape.profile.outline.points
+        yield float(np.ptp(points.imag))
+        yield float(np.ptp(points.real[points.imag > shape.outer_radius - um]))  # of a flange
     elif isinstance(shape, Sum):
         for member in shape.members:
             yield from _walls(member.shape)
