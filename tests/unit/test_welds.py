@@ -179,6 +179,8 @@ def test_no_seam_crosses_the_open_end_of_a_tube() -> None:
 def test_a_long_seam_is_stitched() -> None:
     bar = Part("probe/bar", "bar", "laser-cut part", "", box(30 * mm, 10 * mm, 0.5), STEEL)
     lies = placement(0.0, 30 * mm, 0.05)
-    (weld,) = welds_of(Tree((RigidBody("body", (Occurrence(tube("post", 5 * mm, 0.6)), Occurrence(bar, (lies,)))),)))["probe/post"]
+    (weld,) = welds_of(Tree((RigidBody("body", (Occurrence(tube("post", 5 * mm, 0.6)), Occurrence(bar, (lies,)))),)))[
+        "probe/post"
+    ]
     assert weld.stitched
     assert weld.lengths == (50 * mm,) * 8  # 2 x 4 of 150 mm pitch in 500 mm

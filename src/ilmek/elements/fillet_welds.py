@@ -37,6 +37,11 @@ _COMBINED = 25 * mm
 thicker wall is kept [m]: after EN 1011-2, annex C; assumed by this project.
 """
 
+WELDABLE, _WARM = 0.45, 100.0
+"""Carbon equivalent up to which a steel is welded without preheating, and temperature that takes the chill off a thick
+part [degrees Celsius]: EN 1011-2; assumed by this project.
+"""
+
 _ROUNDING, _FINE = 1e-7, 0.1 * mm
 """What counts as rounding, and step of throats that are brazed [m]."""
 
@@ -97,14 +102,23 @@ def least_throat(wall: float, thickest: float) -> float:
     return max(math.sqrt(thickest / mm) * mm - 0.5 * mm, _LEAST if wall > _THIN - _ROUNDING else thin)
 
 
-def cools(throat: float, wall: float, thickest: float) -> bool:
-    """Whether the thicker of two walls cools a weld so fast that it is preheated; what is thinner than a fillet is brazed.
+def preheating(throat: float, wall: float, thickest: float, carbon: float = 0.0) -> float:
+    """Temperature to which two walls are preheated [degrees Celsius]; 0: none. What is thinner than a fillet is brazed.
 
-    >>> cools(3 * mm, 4 * mm, 20 * mm), cools(2 * mm, 3 * mm, 8 * mm)
-    (True, False)
+        T = 350 sqrt(C (1 + 0.005 t) - 0.25), upwards to 25, where C > 0.45                    [Seferian]
+
+    carbon  greater equivalent of both, C      thickest  t [mm] in the formula
+
+    >>> preheating(3 * mm, 4 * mm, 20 * mm), preheating(2 * mm, 3 * mm, 8 * mm), preheating(3 * mm, 4 * mm, 8 * mm, 0.63)
+    (100.0, 0.0, 225.0)
     """
-    cold = wall + 2 * thickest > _COMBINED
-    return cold and THROATS[0] <= throat < least_throat(wall, thickest) - _ROUNDING
+    if throat < THROATS[0] - _ROUNDING:
+        return 0.0
+    if carbon > WELDABLE:
+        hot = 350 * math.sqrt(carbon * (1 + 0.005 * thickest / mm) - 0.25)
+        return math.ceil(hot / 25) * 25.0
+    cold = wall + 2 * thickest > _COMBINED and throat < least_throat(wall, thickest) - _ROUNDING
+    return _WARM if cold else 0.0
 
 
 def throat_for(force: float, wall: float, thickest: float = 0.0) -> float:

@@ -15,15 +15,16 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.elements.fillet_welds import THROATS, cools, largest_throat, throat_for
+from ilmek.elements.fillet_welds import THROATS, largest_throat, preheating, throat_for
 from ilmek.part.contacts import Touch, joined_by, touches
+from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of
 from ilmek.part.making import seams
 from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import IDENTITY
 from ilmek.part.shapes import Prism, Sum, Turned, shape_box
 from ilmek.part.tree import Tree
-from ilmek.part.weld_seams import PlacedPiece, flat_contact, weld_seams
+from ilmek.part.weld_seams import PlacedPiece, flat_contact, sides_of, weld_seams
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.units import format_number, mm, um
@@ -60,6 +61,7 @@ class Weld:
     all_round  the seams close round the contact; else they are at some of its edges
     walls   of the parts, the thinner one first [m]
     pieces  of the part that have it      stitched  seams of `STITCH`, each `PITCH` after the last
+    carbon  greater equivalent of both parts
     """
 
     other: str
@@ -71,6 +73,7 @@ class Weld:
     pieces: int = 1
     bevel: bool = False
     stitched: bool = False
+    carbon: float = 0.0
 
     @property
     def mark(self) -> str:
@@ -78,9 +81,9 @@ class Weld:
         return f"{'s' if self.bevel else 'a'}{format_number(self.throat / mm)}"
 
     @property
-    def preheated(self) -> bool:
-        """Whether the thicker part is preheated before."""
-        return not self.bevel and cools(self.throat, *self.walls)
+    def preheat(self) -> float:
+        """Temperature to which its parts are preheated [degrees Celsius]; 0: they are not."""
+        return preheating(self.walls[0] if self.bevel else self.throat, *self.walls, self.carbon)
 
     @property
     def too_thick(self) -> bool:
@@ -130,12 +133,9 @@ def welds_of(tree: Tree) -> Mapping[str, tuple[Weld, ...]]:
     return {name: tuple(own.values()) for name, own in welds.items()}
 
 
-def unseamed(tree: Tree) -> tuple[tuple[str, str], ...]:
-    """Ids of parts of a tree that are welded to each other and have no edge for a seam where they touch."""
-    seamed = dict[tuple[str, str], bool]()
-    for pair, welded in _joints(tree):
-        seamed[pair] = seamed.get(pair, False) or bool(welded)
-    return tuple(pair for pair, any_seam in seamed.items() if not any_seam)
+def welded_pairs(tree: Tree) -> frozenset[frozenset[str]]:
+    """Ids of the parts that welds join, by two: where they touch there is an edge for a seam."""
+    return frozenset(frozenset(pair) for pair, welded in _joints(tree) if welded)
 
 
 @lru_cache(maxsize=8)
@@ -155,7 +155,10 @@ def _joints(tree: Tree) -> tuple[tuple[tuple[str, str], tuple[tuple[str, Weld], 
         ids = frozenset(touch.part for touch in pair)
         stocked = ids & stock and ids <= plates | tubes | spigots and not (ids & spigots and not ids & tubes)
         if ids in stated or (stocked and not any(ids <= joined for joined in screwed)):
-            joints.append(((pair[0].part, pair[1].part), tuple(_welds(pair, parts))))
+            first, second = (touch.part for touch in pair)
+            carbon = max(material.carbon for name in ids if (material := parts[name].material) is not None)
+            welds = tuple((name, replace(weld, carbon=carbon)) for name, weld in _welds(pair, parts))
+            joints.append(((first, second), welds))
     return tuple(joints)
 
 
@@ -190,7 +193,11 @@ def _welds(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> Iterator[tup
         yield own.id, Weld(other.id, throat, touch.box, _ROUND, True, walls)
         return
     pieces = (own.shape, IDENTITY), (other.shape, touch.position)
-    for weld in _seamed(other.id, touch.box, pieces, strength, walls, number=4 if ends else 2):
+    welds = list(_seamed(other.id, touch.box, pieces, strength, walls, number=4 if ends else 2))
+    if not welds and other.id in own.joins:  # as stated: on a round face, or shorter
+        seams = sides_of(touch.box)[:2]
+        welds = [Weld(other.id, strength or throat_for(np.inf, *walls), touch.box, seams, False, walls)]
+    for weld in welds:
         yield own.id, weld
 
 
@@ -239,6 +246,9 @@ def wall_of(part: Part) -> float:
 
 def _walls(shape: object) -> Iterator[float]:
     if isinstance(shape, Prism):
+        sheet = folded_sheet(shape)
+        if sheet is not None:
+            yield sheet.thickness
         low, high = bounds(shape.section.outline)
         yield from (shape.length, (high - low).real, (high - low).imag)
         for hole in shape.section.holes[:1]:

@@ -63,7 +63,7 @@ SHEETS = {
     "sheet.direction": "Direction",
     "sheet.cut-list": "Cut list, for all pieces",
     "sheet.welds": "Welds ISO 2553; X, Y, Z from the datum",
-    "sheet.preheated": "{weld}, preheat 100 °C",
+    "sheet.preheated": "{weld}, preheat {temperature} °C",
     "sheet.weld-to": "To",
     "sheet.seam": "Seam",
     "sheet.weld-all-round": "all round",

@@ -63,7 +63,7 @@ SHEETS = {
     "sheet.direction": "Yön",
     "sheet.cut-list": "Kesim listesi, tüm parçalar için",
     "sheet.welds": "Kaynaklar ISO 2553; X, Y, Z referanstan",
-    "sheet.preheated": "{weld}, 100 °C ön ısıtma",
+    "sheet.preheated": "{weld}, {temperature} °C ön ısıtma",
     "sheet.weld-to": "Nereye",
     "sheet.seam": "Dikiş",
     "sheet.weld-all-round": "çepeçevre",

@@ -49,9 +49,7 @@ def seam_lengths(weld: Weld) -> str:
     return f"{words} ({millimetres(PITCH - STITCH)})" if weld.stitched else words
 
 
-def _symbol(
-    view: DrawnView, at: complex, sizes: tuple[str, str], others: str, *, all_round: bool, bevel: bool
-) -> None:
+def _symbol(view: DrawnView, at: complex, sizes: tuple[str, str], others: str, *, all_round: bool, bevel: bool) -> None:
     size, length = sizes
     lead = f"{size}{_SPACE * 3}{length}"
     words = f"{lead}{_SPACE * 2}{others}" if others else lead
@@ -78,7 +76,8 @@ def weld_table(welds: Sequence[Weld], low: Float[np.ndarray, " 3"], pieces: int)
         ends = [span_words(*axis) for axis in np.round(weld.box - low, 4).T.tolist()]
         seam = Sentence("sheet.weld-all-round" if weld.all_round else "sheet.weld-edges")
         other = weld.other.rpartition("/")[2] or "—"
-        mark = Sentence("sheet.preheated", weld=weld.mark) if weld.preheated else weld.mark
+        hot = f"{weld.preheat:.0f}"
+        mark = Sentence("sheet.preheated", weld=weld.mark, temperature=hot) if weld.preheat else weld.mark
         rows.append((other, mark, seam, seam_lengths(weld), *ends, f"{min(weld.pieces, pieces)}/{pieces}"))
     return table(WELD_HEADER, rows, Sentence("sheet.welds"))
 
