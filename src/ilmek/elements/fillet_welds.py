@@ -5,7 +5,7 @@
 a throat, f_u tensile strength of the weaker part joined, beta 0.8 of S235 [table 4.1], gamma 1.25 [2.2]. Throats have
 two bounds, by the walls t [mm] that are joined:
 
-    sqrt(max t) - 0.5 <= a <= 0.7 min t                                                [DIN EN 1993-1-8/NA, NCI to 4.5.2]
+    sqrt(max t) - 0.5 <= a <= 0.7 min t                                               [DIN EN 1993-1-8/NA, NCI to 4.5.2]
 
 The upper one is as strong as the wall, and a thinner wall does not burn through. Below the lower one the thick part
 cools the weld too fast: where a thin wall does not allow it, the thick part is preheated [same NCI; EN 1011-2]. From
@@ -109,7 +109,7 @@ def preheating(throat: float, wall: float, thickest: float, carbon: float = 0.0)
 
     carbon  greater equivalent of both, C      thickest  t [mm] in the formula
 
-    >>> preheating(3 * mm, 4 * mm, 20 * mm), preheating(2 * mm, 3 * mm, 8 * mm), preheating(3 * mm, 4 * mm, 8 * mm, 0.63)
+    >>> preheating(0.003, 0.004, 0.02), preheating(0.003, 0.004, 0.008), preheating(0.003, 0.004, 0.008, 0.63)
     (100.0, 0.0, 225.0)
     """
     if throat < THROATS[0] - _ROUNDING:

@@ -95,9 +95,7 @@ def weld_check(screwed: Tree) -> Check:
     named = (f"{titles[name]} to {titles.get(other, 'itself')}" for name, other in bad[:3])
     source = "; ".join(named) or "DIN EN 1993-1-8/NA, NCI to 4.5.2: 0.7 of the thinner wall"
     check = at_most("assembly: welds that burn through a wall", len(bad), 0, "1", source)
-    return check.with_cure(
-        "thicken the wall, or share the force by more seams", *dict.fromkeys(name for name, _ in bad)
-    )
+    return check.with_cure("thicken the wall, or share the force by more seams", *dict(bad))
 
 
 def _every(steps: Sequence[Insertion]) -> Iterator[Insertion]:

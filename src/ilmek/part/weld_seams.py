@@ -130,11 +130,8 @@ def _faces(shape: Shape, position: Placement, thin: int, level: float) -> Iterat
     axes, none = [axis for axis in range(3) if axis != thin], True
     for face in seat_faces(shape):
         frame = position.after(face.position)
-        if (
-            abs(frame.rotation[thin, 2]) > 1 - _ROUNDING
-            and abs(frame.origin[thin] - level) < _LEVEL
-            and not face.turned
-        ):
+        across = not face.turned and abs(frame.rotation[thin, 2]) > 1 - _ROUNDING
+        if across and abs(frame.origin[thin] - level) < _LEVEL:
             none = False
             flat = (np.stack([loop.real, loop.imag, np.zeros(len(loop))], axis=1) for loop in face.loops)
             yield tuple(_plane(frame.points(points), axes) for points in flat)

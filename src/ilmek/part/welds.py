@@ -193,7 +193,8 @@ def _welds(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> Iterator[tup
         yield own.id, Weld(other.id, throat, touch.box, _ROUND, True, walls)
         return
     pieces = (own.shape, IDENTITY), (other.shape, touch.position)
-    welds = list(_seamed(other.id, touch.box, pieces, strength, walls, number=4 if ends else 2))
+    whole = bool(ends) or any(_is_whole(parts[each.part], each.box) for each in pair)
+    welds = list(_seamed(other.id, touch.box, pieces, strength, walls, number=4 if whole else 2))
     if not welds and other.id in own.joins:  # as stated: on a round face, or shorter
         seams = sides_of(touch.box)[:2]
         welds = [Weld(other.id, strength or throat_for(np.inf, *walls), touch.box, seams, False, walls)]
@@ -229,6 +230,13 @@ def _seamed(  # noqa: PLR0917
             ends, whole = np.array([seam.ends for seam in kept]), all(seam.whole for seam in kept) and len(kept) == 4
             long, size = max(seam.length for seam in kept) > LONGEST and not strength, walls[0] if bevel else throat
             yield Weld(other, size, contact.box, ends, whole, walls, bevel=bevel, stitched=long)
+
+
+def _is_whole(part: Part, box: Float[np.ndarray, "2 3"]) -> bool:
+    """Whether a contact is as large as a part across its thin direction: a plate that lies on another part."""
+    assert part.shape is not None
+    size = np.delete(np.ptp(np.array(shape_box(part.shape)), axis=0), thin := int(np.argmin(np.ptp(box, axis=0))))
+    return bool(np.allclose(size, np.delete(np.ptp(box, axis=0), thin), atol=_AT_END))
 
 
 def _is_end(part: Part, middle: Float[np.ndarray, " 3"]) -> bool:

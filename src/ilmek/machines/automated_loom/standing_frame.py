@@ -15,8 +15,8 @@ from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.feet import FOOT
-from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id, welded_to
+from ilmek.machines.automated_loom.feet import FOOT, PLATE
+from ilmek.machines.automated_loom.frame import END_PLATE, ROOM, LoomFrame, end_plate, member, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
@@ -146,8 +146,11 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
     front = [(low, depth) for depth in _front_depths(loom, frame)]
     rear, between_columns = _before_the_roll(loom, frame)
     between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
+    closed = 2 * made.face - 2 * END_PLATE
+    plate = end_plate("beam-plate", "plate of an end of the beam across", behind_cams)  # it may lie beside the columns
+    yield _placed(plate, (placement(x, middle.imag, middle.real).after(ALONG_WIDTH) for x in (-made.face, closed / 2)))
     for name, title, chosen, own, long in (
-        ("beam", "beam across", behind_cams, [(middle.imag, middle.real)], 2 * made.face),
+        ("beam", "beam across", behind_cams, [(middle.imag, middle.real)], closed),
         ("floor-beam", "beam across at the floor", base, [(low, rear)], 2 * made.face if between_columns else between),
         ("front-beam", "beam across between the front feet", base, front, between),
     ):
@@ -173,8 +176,11 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     for name, title, long, start in lengths:
         yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
-    foot = frame.foot.part(LEVELLING_FOOT)
-    yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in stations for z in ends))
+    for part, y in (
+        (frame.foot.part(LEVELLING_FOOT), side.floor),
+        (frame.foot.plate(part_id("foot-plate"), base.side), side.floor + FOOT - PLATE),
+    ):
+        yield _placed(part, (placement(x, y, z).after(UPRIGHT) for x in stations for z in ends))
 
 
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:

@@ -1,5 +1,4 @@
-"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet or single bevel, size, length,
-all round.
+"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet or bevel, size, length.
 
 Behind the tail stands what the part is welded to; a table has the position of each seam.
 """

@@ -25,4 +25,5 @@ def assembly_manual(loom: LoomDesign) -> tuple[Paper, tuple[Check, ...]]:
         tree_manual(tree, steps, View.SIDE, whole),
         PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)),
     )
-    return replace(manual, sections=(*manual.sections, then)), (assembly_check(steps), fastening_check(whole), weld_check(whole))
+    checks = assembly_check(steps), fastening_check(whole), weld_check(whole)
+    return replace(manual, sections=(*manual.sections, then)), checks
