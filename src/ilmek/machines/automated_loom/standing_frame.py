@@ -20,7 +20,7 @@ from ilmek.machines.automated_loom.frame import END_PLATE, ROOM, LoomFrame, end_
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.part.part import WELDED, Bought, Part, bought_part
+from ilmek.part.part import LASER_CUT, WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
@@ -39,6 +39,11 @@ _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 
 
 AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
 """Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
+
+_PACKED, _PAST = 30 * mm, 12 * mm
+"""Spacers that are shorter are plates: the welds at both ends of a tube have no room beside each other; how far such a
+plate stands out past a column, for the weld between [m].
+"""
 
 _LEAST = 0.05 * mm
 """Thinner spacers are left out, and posts that are nearer to each other stand on one beam [m]."""
@@ -191,7 +196,12 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     gap = made.face - one.outer
     section = welded_to(frame, one.depth)
     if gap > _LEAST:
-        spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
+        name, title = f"{one.name}-spacer", f"spacer of the {one.title}"
+        if gap < _PACKED:
+            packing = box(section.side, frame.column.side + 2 * _PAST, gap)
+            spacer = Part(part_id(name), title, LASER_CUT, shape=packing, material=STEEL, joins=(part.id,))
+        else:
+            spacer = member(name, title, section, gap)
         height = sum(one.ends) / 2
         yield _placed(
             spacer, (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face))
