@@ -85,7 +85,7 @@ SHEETS = {
     "sheet.twist-right": "right",
     "sheet.twist-left": "left",
     "sheet.members-placed": "Consists of; X, Y, Z from the lower left rear corner",
-    "sheet.after-welding": "After welding: relieve stress at 550…600 °C, machine these seats, paint, then mount bought parts",
+    "sheet.after-welding": "After welding: relieve stress at 550…600 °C, machine these seats, paint, mount the rest",
     "sheet.form": "Form, position",
     "sheet.positions": "Positions of the welded pieces from their lower left rear corner, X right, Y up, Z front",
     "sheet.members": "Consists of",

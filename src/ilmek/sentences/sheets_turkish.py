@@ -85,7 +85,7 @@ SHEETS = {
     "sheet.twist-right": "sağ",
     "sheet.twist-left": "sol",
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
-    "sheet.after-welding": "Kaynaktan sonra: 550…600 °C'de gerilim giderin, yuvaları işleyin, boyayın, sonra parçaları takın",
+    "sheet.after-welding": "Kaynaktan sonra: 550…600 °C'de gerilim giderin, yuvaları işleyin, boyayın, parçaları takın",
     "sheet.form": "Biçim, konum",
     "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",

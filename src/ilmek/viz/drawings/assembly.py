@@ -24,8 +24,8 @@ from ilmek.part.blanks import sold_as
 from ilmek.part.exploded import Block, exploded
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
-from ilmek.part.specification import WELDMENT
 from ilmek.part.shapes import Sum
+from ilmek.part.specification import WELDMENT
 from ilmek.part.tree import Tree
 from ilmek.part.visible_lines import PlacedShape, extents
 from ilmek.records import record
