@@ -273,4 +273,4 @@ def test_the_specification_of_a_part_states_its_process_and_hardening() -> None:
     assert made.hardening is not None
     assert (made.hardening.kind, made.hardening.hardness, made.depth) == ("SHD", 55, pytest.approx(1 * mm))
     frame = specification(_made("beam", box(0.1, 0.1, 1.0), "welded frame"))
-    assert (frame.designation, frame.general, frame.roughness) == ("S235JR EN 10025-2", "ISO 13920-BF", None)
+    assert (frame.designation, frame.general, frame.roughness) == ("S235JR EN 10025-2", "ISO 13920-AF", None)

@@ -19,7 +19,7 @@ from ilmek.part.contacts import StandingTouches, connected, joined_by, standing_
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
 from ilmek.part.tree import JointKind, Tree
-from ilmek.part.welds import welded_together
+from ilmek.part.welds import welded_pairs
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -66,7 +66,7 @@ class Fastenings:
 def fastenings(tree: Tree) -> Fastenings:
     """What holds the parts of a tree."""
     parts = {part.id: part for part, _ in tree.occurrences()}
-    means = _means(tree, parts)
+    means = _means(tree, parts) | dict.fromkeys(welded_pairs(tree), Means.WELD)
     counted, loose = Counter[Means](), dict[str, None]()
     for group in standing_touches(tree):
         joined, free = list[tuple[int, int]](), list[tuple[int, int]]()
@@ -120,7 +120,5 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
 
 
 def _by_itself(one: Part, other: Part) -> Means:
-    if welded_together(one, other):
-        return Means.WELD
     own = one.fixing or other.fixing or {one.process, other.process} & OWN.keys()
     return Means.OWN if own else Means.NONE

@@ -374,7 +374,7 @@ PAPERS = {
     "manual.comes": "parts",
     "manual.mass": "mass",
     "manual.tighten": "screws, keys and welds",
-    "manual.weld": "weld a{throat}",
+    "manual.weld": "weld {size}",
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",

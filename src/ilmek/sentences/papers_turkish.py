@@ -373,7 +373,7 @@ PAPERS = {
     "manual.comes": "parçalar",
     "manual.mass": "kütle",
     "manual.tighten": "vida, kama ve kaynaklar",
-    "manual.weld": "kaynak a{throat}",
+    "manual.weld": "kaynak {size}",
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
