@@ -253,7 +253,7 @@ def _wanted_sizes(features: Sequence[ToleratedFeature]) -> list[tuple[object, ..
     wanted: list[tuple[object, ...]] = []
     for one in features:
         size, lower, upper = (round(value / mm, 6) + 0.0 for value in (one.nominal, one.lower, one.upper))
-        limits = ("",) if one.kind is FeatureKind.THREAD else (lower, upper, one.tolerance)
+        limits = ("",) if one.kind in {FeatureKind.THREAD, FeatureKind.OUTER_THREAD} else (lower, upper, one.tolerance)
         if one.depth:
             (shaft,) = (other for other in features if other.position is not one.position and _about(one, other))
             wanted.append((size, *limits, ()))
@@ -317,7 +317,7 @@ PARTS = {
     "cam": ("cam",),
     "shedding": ("cam-shaft", "shedding-cam"),
     "warp-tension": ("upper-driven-end",),
-    "weaver": ("cam-shaft", "partition", "handler-pinion", "sley-follower"),
+    "weaver": ("cam-shaft", "partition", "handler-pinion", "sley-follower", "cam-roller"),
     "hammer": ("bar",),
 }
 """Parts whose files are read again: journals, bores, squares, keyways, faces; with and without datums."""

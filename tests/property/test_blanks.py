@@ -135,7 +135,7 @@ def too_fine(part: Part, feature: ToleratedFeature) -> str:
     steps = {step.kind for step in steps_of(part)}
     if feature.kind is FeatureKind.FACE:
         return "" if steps & {MILLING, GRINDING} else "no face is machined"
-    if feature.kind is FeatureKind.THREAD:
+    if feature.kind in {FeatureKind.THREAD, FeatureKind.OUTER_THREAD}:
         return "" if steps & {MILLING, TURNING} else "no thread is cut"
     if feature.depth:
         return "" if MILLING in steps else "no keyway is milled"

@@ -110,3 +110,8 @@ def test_a_roller_is_ground_and_true_to_its_bore() -> None:
     assert run_out.characteristic is Characteristic.RUN_OUT
     assert run_out.datums == ("A",)
     assert run_out.value < 10 * um
+
+
+def test_squares_are_as_rough_as_a_laser_cuts_them() -> None:
+    features = tolerances_of(tree_of("shedding"))["shedding/guide-cam"]
+    assert {(one.tolerance, round(one.roughness / um, 6)) for one in features} == {("H12", 12.5)}
