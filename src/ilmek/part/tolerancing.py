@@ -122,7 +122,7 @@ def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | N
     """What a feature does in a meeting; None: nothing that a fit is needed for, as a hole around a screw."""
     if own.feature.square and "welded frame" in (own.part.process, other.part.process):
         return None  # a hollow section as delivered, welded in
-    if other.part.process == "fastener":
+    if other.part.process in {"fastener", "levelling foot"}:
         return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
     if other.part.process == "bearing":
         return FitDuty.HOUSING if own is meeting.bore else FitDuty.BEARING
