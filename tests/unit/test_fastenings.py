@@ -7,13 +7,14 @@ import pytest
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.tree_manual import fastening_check
+from ilmek.machines.tree_manual import fastening_check, weld_check
 from ilmek.part.bolting import bolted
 from ilmek.part.fastenings import Means, fastenings
+from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, tube
+from ilmek.part.shapes import Prism, Shape, bar, box, rectangle, square_tube, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.part.welds import welds_of
 from ilmek.plane.contours import circle
@@ -71,5 +72,44 @@ def test_a_part_is_welded_to_what_it_states() -> None:
 
 
 @pytest.mark.parametrize("settings", [{}, {"weft": "rapier", "heads": "2"}])
-def test_nothing_of_a_loom_with_heads_on_cams_is_without_a_fastening(settings: dict[str, str]) -> None:
-    assert fastening_check(bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))).ok
+def test_a_loom_with_heads_on_cams_is_fastened_by_welds_that_can_be_made(settings: dict[str, str]) -> None:
+    """Each part is held; each weld keeps both bounds of its throat, or is preheated, as hard steels are."""
+    tree = bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))
+    assert fastening_check(tree).ok
+    assert weld_check(tree).ok
+    parts = {part.id: part for part, _ in tree.occurrences()}
+    arcs = [(name, weld) for name, own in welds_of(tree).items() for weld in own if weld.throat >= 1 * mm]
+    assert len(arcs) > 50
+    for name, weld in arcs:
+        materials = [parts[own].material for own in (name, weld.other) if own]
+        thin, thick = (1e3 * wall for wall in weld.walls)
+        if any("C45" in material.designation for material in materials if material):
+            assert weld.preheat > 200
+        elif not weld.bevel:
+            throat = 1e3 * weld.throat
+            assert throat <= 0.7 * thin + 1e-3 or (throat == 3 and thin >= 4 - 1e-3)
+            assert throat >= thick**0.5 - 0.5 - 1e-3 or weld.preheat > 0 or thin + 2 * thick <= 25
+    assert all(parts[name].joins or sum(w.lengths) > 0 for name, own in welds_of(tree).items() for w in own)
+
+
+def test_feet_have_threads_and_what_stands_beside_the_loom_is_anchored() -> None:
+    """By the axes of holes and screws: each foot and each anchor is in a hole, each post of the guards on a plate."""
+    tree = loom_tree(MACHINE.designed(MACHINE.params.read({})))
+    number = {part.id.partition("/")[2]: count for part, count in tree.occurrences()}
+    assert number["foot-plate"] == number["levelling-foot"]
+    assert number["guard-plate"] == number["guard-post"]
+    assert number["guard-plate-anchor"] == 2 * number["guard-plate"]
+    assert number["weft-sole-anchor"] == 4
+    bores = {frozenset((own.bore.part.id, own.inner.part.id)) for own in meetings(tree)}
+    for inner, bore in (
+        ("levelling-foot", "foot-plate"),
+        ("eye-bolt", "column-eye-plate"),
+    ):
+        assert frozenset((f"automated-loom/{inner}", f"automated-loom/{bore}")) in bores
+
+
+def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
+    post, arm = (Part(f"test/{name}", name, "welded frame", "", square_tube(0.05, 0.005, 0.4), STEEL) for name in "ab")
+    lies = placement(0.05, 0.05)
+    beside = Occurrence(arm, (lies,))
+    assert fastenings(Tree((RigidBody("test/body", (Occurrence(post), beside)),))).loose

@@ -124,20 +124,21 @@ MATERIALS: dict[str, Material] = {
             "42CrMo4+QT EN 10083-3",
             "its standard, 16 to 40 mm",
             modulus=210, density=7850, strength=750, tensile=1000, hardness=310, fatigue=0.45, hertz=1.313 * 310 + 373,
+            carbon=0.83,
         ),
         _material(
             "induction-hardened steel",
             "C45+QT EN 10083-2",
             "its standard; surface of 55 HRC",
             modulus=210, density=7850, strength=430, tensile=650, hardness=600, fatigue=0.45, hertz=0.541 * 600 + 882,
-            treatment=Hardening("SHD", 55, 4),
+            treatment=Hardening("SHD", 55, 4), carbon=0.63,
         ),
         _material(
             "case-hardened steel",
             "16MnCr5 EN ISO 683-3",
             "its standard, core of a bar of 30 mm; surface of 60 HRC",
             modulus=210, density=7850, strength=590, tensile=780, hardness=700, fatigue=0.40, hertz=1500,
-            treatment=Hardening("CHD", 60, 4),
+            treatment=Hardening("CHD", 60, 4), carbon=0.6,
         ),
         _material(
             "bearing steel",

@@ -131,7 +131,7 @@ def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | N
     """What a feature does in a meeting; None: nothing that a fit is needed for, as a hole around a screw."""
     if own.feature.square and "welded frame" in (own.part.process, other.part.process):
         return None  # a hollow section as delivered, welded in
-    if other.part.process == "fastener":
+    if other.part.process in {"fastener", "levelling foot"}:
         screwed = meeting.ends if own is meeting.bore else _locknut(other) is not None
         return FitDuty.SCREWED if screwed else None
     if other.part.process == "bearing":

@@ -6,11 +6,12 @@ control too, which is a part of the fence. The doors are the bays of the front; 
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
 
+from ilmek.arrays import FloatArray
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.anchors import anchored
@@ -116,24 +117,34 @@ class _Lines:
         feet = [placement(x, fence.floor, z) for x, z in sorted(corners)]
         up = placement(y=_PLATE[2]).after(UPRIGHT)
         yield Occurrence(part, tuple(foot.after(up) for foot in feet))
-        plates = (foot.after(self._towards_room(foot)).after(UPRIGHT) for foot in feet)
+        plates = (turned.after(UPRIGHT) for turned in self._plates(feet))
         aside = placement((_PLATE[0] - POST) / 2)
         places = (plate.after(aside) for plate in plates)
         yield from anchored("guard-plate", "plate of a post of the guards", _PLATE, (0j, _FAR + 0j), places)
 
-    def _towards_room(self, foot: Placement) -> Placement:
-        """The turn of the plate of a post in which it has room on the floor: inwards, along the fence, or outwards."""
+    def _plates(self, feet: Sequence[Placement]) -> Iterator[Placement]:
+        """The feet of posts turned to where their plates have room: inwards, along the fence, or outwards."""
         middle = complex(self.left + self.right, self.back + self.forward) / 2
-        inwards = middle - complex(foot.origin[0], foot.origin[2])
-        ways = sorted((1, 1j, -1, -1j), key=lambda way: -(inwards * np.conj(way)).real)
-        turns = [placement(about=(0.0, 1.0, 0.0), angle=-cmath.phase(way)) for way in ways]
-        low, high = np.array([POST / 2, 0.0, -POST / 2]), np.array([_PLATE[0] - POST / 2, 3 * _PLATE[2], POST / 2])
-
-        def free(turned: Placement) -> bool:
-            corners = foot.after(turned).points(np.array([low, high]))
-            return self._near.free(corners.min(0), corners.max(0))
-
-        return next(filter(free, turns), turns[-1])
+        half, (long, _, thick) = POST / 2, _PLATE
+        post, plate = (
+            np.array([[-half, 0.0, low], [half, 3 * thick, high]]) for low, high in ((-half, half), (half, long - half))
+        )
+        taken = [np.sort(foot.points(post), axis=0) for foot in feet]
+        for foot in feet:
+            inwards = middle - complex(foot.origin[0], foot.origin[2])
+            turns = sorted((1, 1j, -1, -1j), key=lambda turned: -(inwards * np.conj(turned)).real)
+            # An upright part has its x to the front.
+            angles = [cmath.phase(complex(turned.imag, turned.real)) for turned in map(complex, turns)]
+            places = [foot.after(placement(about=(0.0, 1.0, 0.0), angle=angle)) for angle in angles]
+            boxes = [np.sort(place.points(plate), axis=0) for place in places]
+            free = (
+                number
+                for number, box in enumerate(boxes)
+                if self._near.free(*box) and not any(_meet(box, own) for own in taken)
+            )
+            chosen = next(free, len(turns) - 1)
+            taken.append(boxes[chosen])
+            yield places[chosen]
 
     def lintel(self) -> Occurrence:
         """Above each door, from post to post."""
@@ -170,6 +181,11 @@ class _Lines:
         for number, ((wide, tall), positions) in enumerate(places.items(), start=1):
             name = PANEL if number == 1 else f"{PANEL}-{number}"
             yield Occurrence(mesh_panel(name, "panel of the guards", wide, tall), tuple(positions))
+
+
+def _meet(first: FloatArray, second: FloatArray) -> bool:
+    """Whether two boxes share room [m]."""
+    return bool((first[0] < second[1] - mm).all() and (second[0] < first[1] - mm).all())
 
 
 def _add(places: dict[tuple[float, float], list[Placement]], spacing: float, tall: float, own: Placement) -> None:
