@@ -19,6 +19,7 @@ from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.face_notes import Z, face_notes
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import PARALLEL, square
@@ -64,9 +65,12 @@ def joined_views(
             _dimension(view, members, across, upwards, towards)
             _circles(view, members, (across, upwards, towards), fits)
             _squares(view, (across, upwards), _seen(fits, towards))
+            face_notes(view, fits, across, upwards)
         else:
             centres = _fitted(view, (across, upwards, towards), fits)
             _lengths(view, members, (across, upwards), centres, whole=name == "right")
+        if name == "right":  # faces that the front view shows from before
+            face_notes(view, _seen(fits, Z), across, upwards)
         views[name] = view
     pictorial = DrawnView(scale)
     corner = 1 / math.sqrt(3)
