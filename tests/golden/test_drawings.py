@@ -35,7 +35,7 @@ _PICTURE = re.compile(r"data:image/[^\"]*")
 
 
 def _drawn(script: Path, folder: Path) -> dict[str, str]:
-    """The drawings of a script, by name: run in a copy of the folders that it knows, with the pictures that it shows."""
+    """The drawings of a script, by name: run in a copy of its folders, with the pictures it shows."""
     drawings = folder / "docs" / "_static"
     shutil.copytree(STATIC, drawings, ignore=shutil.ignore_patterns("*.svg"))
     shutil.copytree(ROOT / "examples", folder / "examples", ignore=shutil.ignore_patterns("__pycache__"))
