@@ -69,6 +69,7 @@ PAPERS = {
     "setting.source": "from",
     "setting.assumed": "assumed by this project",
     "setting.stand": "Stand of the loom",
+    "setting.pitch": "width of {count} warps at the shed, the left edge of the first to that of the last",
     "setting.level": "level of the floor beams, along and across",
     "setting.foot": "load of each levelling foot",
     "setting.fell": "height of the fell above the floor",
@@ -82,7 +83,7 @@ PAPERS = {
     "setting.lifted": "tension of a lifted warp, shed open",
     "setting.tools": "Tools",
     "setting.beat-stroke": "stroke of the beat, down to the fell",
-    "setting.row-pitch": "distance of two rows after ten rows",
+    "setting.row-pitch": "distance of two rows, mean of ten",
     "setting.weft-height": "laid weft above the fell",
     "setting.retreat": "retreat of the heads, at which the sensor of the retreated heads switches",
     "setting.pair": "distance of the pair of warps in the slots of the opener",
@@ -181,8 +182,8 @@ PAPERS = {
     "risk.head": "head",
     "risk.body": "body",
     "risk.fence": "from the fence",
-    "risk.needed": "needed",
-    "risk.reached": "reached",
+    "risk.needed": "distance needed to the fence",
+    "risk.reached": "reached (distance below the one needed)",
     "risk.yes": "yes",
     "risk.no": "no",
     "risk.energies": "Stored energies",
@@ -291,6 +292,18 @@ PAPERS = {
     "manual.mass": "mass",
     "manual.tighten": "screws, keys and welds",
     "manual.weld": "weld a{throat}",
+    "manual.tools": "tools and agents",
+    "manual.tools-title": "Tools",
+    "manual.for-screws": "screws",
+    "manual.tools-how": "Keys, a torque wrench for the torques beside the screws, a level, a rule; slings and a hoist "
+    "for what weighs over {mass} (ISO 11228-1), the frame in its eye bolts; thread lock of medium strength for screws "
+    "of bodies that move, oil for all others (ISO 4762 and ISO 4017, 8.8); grease of NLGI 2 for bearings, guides and "
+    "springs.",
+    "manual.hexagon-key": "hexagon key {size}",
+    "manual.spanner": "spanner {size}",
+    "manual.lock": "thread lock",
+    "manual.grease": "grease",
+    "manual.hoist": "hoist, slings",
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",
@@ -299,7 +312,8 @@ PAPERS = {
     "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. What "
     "is there several times is put together once in the list. What comes from below comes while the machine is lifted.",
     "manual.stack": "Order along the axis, step {step}",
-    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind.",
+    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind. "
+    "Measured over all when they are clamped: {length}.",
     "manual.times": "times",
     "manual.run": "parts that follow each other",
     # List

@@ -69,6 +69,7 @@ PAPERS = {
     "setting.source": "kaynak",
     "setting.assumed": "bu projenin varsayımı",
     "setting.stand": "Tezgâhın duruşu",
+    "setting.pitch": "ağızlıkta {count} çözgünün genişliği, ilkinin sol kenarından sonuncununkine",
     "setting.level": "taban kirişlerinin terazisi, boyuna ve enine",
     "setting.foot": "her ayarlı ayağın yükü",
     "setting.fell": "dokuma sınırının yerden yüksekliği",
@@ -82,7 +83,7 @@ PAPERS = {
     "setting.lifted": "kaldırılmış çözgünün gerginliği, ağızlık açık",
     "setting.tools": "Takımlar",
     "setting.beat-stroke": "vuruş stroku, dokuma sınırına kadar",
-    "setting.row-pitch": "on sıradan sonra iki sıranın aralığı",
+    "setting.row-pitch": "iki sıranın aralığı, on sıranın ortalaması",
     "setting.weft-height": "atılan atkının dokuma sınırından yüksekliği",
     "setting.retreat": "kafaların geri çekilmesi; geri çekilme algılayıcısı burada anahtarlar",
     "setting.pair": "açıcının yuvalarında çözgü çiftinin aralığı",
@@ -181,8 +182,8 @@ PAPERS = {
     "risk.head": "baş",
     "risk.body": "gövde",
     "risk.fence": "çitten uzaklık",
-    "risk.needed": "gereken",
-    "risk.reached": "erişilir mi",
+    "risk.needed": "çite gereken uzaklık",
+    "risk.reached": "erişilir mi (gerekenden yakın)",
     "risk.yes": "evet",
     "risk.no": "hayır",
     "risk.energies": "Depolanmış enerjiler",
@@ -291,6 +292,17 @@ PAPERS = {
     "manual.mass": "kütle",
     "manual.tighten": "vida, kama ve kaynaklar",
     "manual.weld": "kaynak a{throat}",
+    "manual.tools": "takım ve gereç",
+    "manual.tools-title": "Takımlar",
+    "manual.for-screws": "vidalar",
+    "manual.tools-how": "Anahtarlar, vidaların yanındaki torklar için tork anahtarı, su terazisi, cetvel; {mass} "
+    "üstündeki ağırlıklar için sapan ve vinç (ISO 11228-1), gövde mapalarından; hareketli parçaların vidalarına orta "
+    "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres.",
+    "manual.hexagon-key": "alyan anahtar {size}",
+    "manual.spanner": "anahtar {size}",
+    "manual.lock": "vida sabitleyici",
+    "manual.grease": "gres",
+    "manual.hoist": "vinç, sapan",
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
@@ -299,7 +311,8 @@ PAPERS = {
     "hareketlerle, duranların yanından yerine ulaşır; ulaşamayan parça montaj kontrolünden geçmez. Birkaç tane "
     "olanın birleştirilmesi listede bir kez verilir. Alttan gelen parçalar, makine kaldırılmışken gelir.",
     "manual.stack": "Eksen boyunca sıra, adım {step}",
-    "manual.stack-how": "Dizildikleri sırayla; her biri, kendi türünün ilkinden eksen çevresindeki açısıyla.",
+    "manual.stack-how": "Dizildikleri sırayla; her biri, kendi türünün ilkinden eksen çevresindeki açısıyla."
+    " Sıkılınca ölçülen toplam uzunluk: {length}.",
     "manual.times": "kez",
     "manual.run": "art arda gelen parçalar",
     # List
