@@ -51,7 +51,7 @@ from ilmek.part.insertion import Insertion, insertions
 from ilmek.part.insertion_units import is_screw, standing_parts
 from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
-from ilmek.part.part_lists import SAW, bars_for
+from ilmek.part.part_lists import SAW, bars_for, distinct_titles
 from ilmek.part.placement import placement
 from ilmek.part.poses import chains, moments_at_rest
 from ilmek.part.profile import Profile
@@ -324,6 +324,43 @@ def test_every_cable_ends_at_a_device_and_is_no_shorter_than_the_straight_line()
     assert {sign for name, sign in signs_of(loom).items() if "yarn-sensor" not in name} <= signs
     assert {"S0", "S9", "Y1", "A3"} <= signs
     assert "" not in signs
+
+
+def test_no_two_parts_of_the_manual_have_one_title_but_those_of_one_designation() -> None:
+    tree = bolted(loom_tree(default_design("automated-loom")))
+    parts = {part.id: part for part, _ in tree.occurrences()}
+    seen: dict[str, str] = {}
+    for name, title in distinct_titles(tree).items():
+        ordered = parts[name].designation or parts[name].size
+        assert seen.setdefault(title, ordered) == ordered, title
+        assert title.startswith(parts[name].title)
+
+
+def test_a_step_names_the_key_of_each_screw_and_what_lifts_its_mass() -> None:
+    """Widths across flats of ISO 4762 and ISO 4017, read again; more than 25 kg is lifted by a hoist (ISO 11228-1)."""
+    sockets = {
+        "M2": "1.5",
+        "M2.5": "2",
+        "M3": "2.5",
+        "M4": "3",
+        "M5": "4",
+        "M6": "5",
+        "M8": "6",
+        "M10": "8",
+        "M12": "10",
+    }
+    hexagons = {"M6": "10", "M8": "13", "M10": "16", "M12": "18", "M16": "24", "M20": "30"}
+    paper = next(paper for paper in papers().pages if paper.name == "assembly-manual")
+    rows = [row for own in paper.sections if own.table and own.table.name == "steps" for row in own.table.rows]
+    turned = 0
+    for row in rows:
+        tools, mass = str(row[-1]).split("; "), float(str(row[5]))
+        for standard, size in re.findall(r"ISO (4762|4017) - (M[\d.]+) x", str(row[6])):
+            key = sockets[size] if standard == "4762" else hexagons[size]
+            assert f"{'hexagon key' if standard == '4762' else 'spanner'} {key} mm" in tools
+            turned += 1
+        assert ("hoist, slings" in tools) is (mass > 25)
+    assert turned > 50
 
 
 def test_motors_are_fused_and_wired_by_their_current() -> None:

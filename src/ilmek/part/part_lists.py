@@ -5,7 +5,7 @@ their least number = ceil(sum of lengths with cuts / length of a bar)           
 """
 
 import math
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
 from ilmek.elements.machine_screws import screw_of
@@ -46,38 +46,32 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         "number | id | title | drawing | assemblies | quantity | make or buy | size | material | process"
         " | mass of one [kg] 6 | price of all | designation"
     )
-    rows, assemblies, titles = [], drawings_of_parts(tree), distinct_titles(tree)
+    rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
         line, bought = line_of(part, number), part.purchase
         source = (part.designation, "make" if bought is None else "buy")
         drawing = part.id if bought is None else ""
         material = sold_as(part)
         into = " ".join(assemblies[part.id])
-        made = (
-            position,
-            part.id,
-            titles[part.id],
-            drawing,
-            into,
-            number,
-            source[1],
-            line.description,
-            material,
-            part.process,
-        )
+        made = position, part.id, part.title, drawing, into, number, source[1], line.description, material, part.process
         rows.append((*made, part.mass, price_of(line, prices), source[0]))
     return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 
 
 def distinct_titles(tree: Tree) -> dict[str, str]:
-    """Titles of the parts by their ids; of parts of one title each with its designation or its size."""
-    titles = Counter(part.title for part, _ in tree.occurrences())
-    return {
-        part.id: part.title
-        if titles[part.title] == 1
-        else ", ".join(filter(None, (part.title, part.designation or line_of(part, 1).description)))
-        for part, _ in tree.occurrences()
-    }
+    """Titles of the parts by their ids; of parts of one title each with so much of its designation, or of its size, as
+    tells it from the others.
+    """
+    named: dict[str, list[Part]] = defaultdict(list)
+    for part, _ in tree.occurrences():
+        named[part.title].append(part)
+    titles = {own[0].id: title for title, own in named.items() if len(own) == 1}
+    for own in (parts for parts in named.values() if len(parts) > 1):
+        words = [[part.title, *(part.designation or line_of(part, 1).description).split(", ")] for part in own]
+        distinct = len({*map(tuple, words)})
+        enough = next(k for k in range(1, 100) if len({tuple(word[:k]) for word in words}) == distinct)
+        titles |= {part.id: ", ".join(filter(None, word[:enough])) for part, word in zip(own, words, strict=True)}
+    return titles
 
 
 def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
