@@ -86,6 +86,7 @@ SHEETS = {
     "sheet.members-placed": "Consists of; X, Y, Z from the lower left rear corner",
     "sheet.positions": "Positions of the welded pieces from their lower left rear corner, X right, Y up, Z front",
     "sheet.members": "Consists of",
+    "sheet.item-outline": "Outline of item {item} ({scale})",
     "sheet.item": "Item",
     "sheet.section": "Section",
     "sheet.length": "Length",

@@ -86,6 +86,7 @@ SHEETS = {
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
     "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",
+    "sheet.item-outline": "{item} no.lu parçanın konturu ({scale})",
     "sheet.item": "Sıra",
     "sheet.section": "Kesit",
     "sheet.length": "Boy",

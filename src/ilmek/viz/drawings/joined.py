@@ -337,13 +337,19 @@ def _seen_keyed(bore: KeyedCircle, position: Placement, right: FloatArray, up: F
     return bore._replace(centre=seen(bore.centre, position.origin), directions=directions)
 
 
+def members_by_section(members: tuple[Member, ...]) -> dict[tuple[str, str], list[Member]]:
+    """Members by section and length in words: the items of the cut list, in their order."""
+    kinds: dict[tuple[str, str], list[Member]] = {}
+    for member in members:
+        kinds.setdefault(_section(member[0]), []).append(member)
+    return kinds
+
+
 def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
     """Members by section and length, each with where it lies from the lower left rear corner; of many those of one kind
     as a row.
     """
-    kinds: dict[tuple[str, str], list[Member]] = {}
-    for member in members:
-        kinds.setdefault(_section(member[0]), []).append(member)
+    kinds = members_by_section(members)
     if len(members) > MOST_MEMBERS:
         rows = [(str(k), str(len(own)), *words) for k, (words, own) in enumerate(kinds.items(), 1)]
         return table(PIECES, rows[:30], Sentence("sheet.members"))
