@@ -45,6 +45,12 @@ SHEETS = {
     "sheet.process-steel-bar": "steel bar",
     "sheet.process-carbon-tube": "carbon tube",
     "sheet.bonded": "bonded on its shaft with retaining compound",
+    "sheet.gear": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, tip ⌀{tip}, root "
+    "⌀{root}, class {quality}",
+    "sheet.rack": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, pitch {pitch}, tip "
+    "{tip} over the pitch line, class {quality}",
+    "sheet.belt-teeth": "side on the belt: {teeth} teeth of the profile {belt}, pitch {pitch}, across the length",
+    "sheet.cutting-edge": "upper edge ground to {angle} on the side away from the face, sharp: no break of this edge",
     "sheet.notes": "Notes",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Contour: {file}, scale 1:1",

@@ -45,6 +45,12 @@ SHEETS = {
     "sheet.process-steel-bar": "çelik çubuk",
     "sheet.process-carbon-tube": "karbon boru",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
+    "sheet.gear": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, baş ⌀{tip}, dip ⌀{root}, "
+    "sınıf {quality}",
+    "sheet.rack": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, adım {pitch}, baş adım "
+    "çizgisinin {tip} üstünde, sınıf {quality}",
+    "sheet.belt-teeth": "kayış tarafı: {belt} profilinde {teeth} diş, adım {pitch}, boya dik",
+    "sheet.cutting-edge": "üst kenar alından uzak yüzde {angle} taşlanır, keskin: bu kenar kırılmaz",
     "sheet.notes": "Notlar",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Kontur: {file}, ölçek 1:1",
