@@ -30,7 +30,7 @@ from ilmek.viz.drawings.paper import (
     PAPERS,
     SCALES,
     TitleFacts,
-    fitting,
+    folded,
     frame,
     table,
     title_block,
@@ -246,8 +246,9 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
     if not lines:
         return None
     rows = [
-        fitting(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
+        row
         for number, line in enumerate(lines, 1)
+        for row in folded(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
     ]
     return table((Sentence("sheet.notes"),), [(row,) for row in rows])
 
