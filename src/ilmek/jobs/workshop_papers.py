@@ -8,8 +8,9 @@ from typing import Any
 from ilmek.io.papers.pdf import write_paper_pdf
 from ilmek.io.plc.io_list import HEADER, io_rows
 from ilmek.io.plc.sequence_logic import sequence_units
-from ilmek.io.plc.sequence_variables import PlcSize
+from ilmek.io.plc.sequence_variables import PlcSize, ScanLimits
 from ilmek.io.table_csv import rows_csv
+from ilmek.loom.operations import ROW_ENDS
 from ilmek.machines.automated_loom import LoomDesign
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.tree_papers import tree_papers
@@ -43,7 +44,8 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
 
 def _io_list(loom: LoomDesign) -> Table:
     """The list that `ilmek plc` writes: it is the same for each carpet of a loom."""
-    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, loom.rows))
+    any_time = ScanLimits(0, 1)  # the list has no times
+    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS)))
     return Table("io", Sentence("paper.io"), tuple(map(Column, HEADER)), tuple(io_rows(program)))
 
 

@@ -50,6 +50,7 @@ class Bought:
     drives  how many of them drive an axis of the control together; 0: it is no motor
     holes   for its screws; None: its maker drills it where its seat is
     housing  tolerance class of the bore in which its outer ring sits
+    hardness  least one of the shaft on which its rollers run [HRC]; 0: they run on a ring of its own
     """
 
     row: str
@@ -60,6 +61,7 @@ class Bought:
     data: str = ""
     holes: HolePattern | None = None
     housing: str = "H7"
+    hardness: int = 0
 
 
 @record

@@ -63,7 +63,7 @@ ELECTRIC = {
     "electric.burnt": "resistor",
     "electric.channels": "Inputs of the modules",
     "electric.channels-how": "Each module is on the bus of the motion controller A1. A sensor without a signal it "
-    "reports by its number in TieFault and EndFault.",
+    "reports by its number in TieStatus and EndStatus.",
     "electric.module": "module",
     "electric.inputs": "inputs",
     "electric.piece": "pieces, by number",

@@ -63,7 +63,7 @@ ELECTRIC = {
     "electric.burnt": "direnç",
     "electric.channels": "Modüllerin girişleri",
     "electric.channels-how": "Her modül, hareket denetleyicisi A1'in veri yolundadır. Sinyali olmayan algılayıcıyı "
-    "A1, TieFault ve EndFault içinde numarasıyla bildirir.",
+    "A1, TieStatus ve EndStatus içinde numarasıyla bildirir.",
     "electric.module": "modül",
     "electric.inputs": "girişler",
     "electric.piece": "parçalar, numarayla",
