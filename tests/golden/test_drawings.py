@@ -35,12 +35,13 @@ _PICTURE = re.compile(r"data:image/[^\"]*")
 
 
 def _drawn(script: Path, folder: Path) -> dict[str, str]:
-    """The drawings of a script, by name: run in a copy of the folders that it knows."""
-    (folder / "docs" / "_static").mkdir(parents=True)
+    """The drawings of a script, by name: run in a copy of its folders, with the pictures it shows."""
+    drawings = folder / "docs" / "_static"
+    shutil.copytree(STATIC, drawings, ignore=shutil.ignore_patterns("*.svg"))
     shutil.copytree(ROOT / "examples", folder / "examples", ignore=shutil.ignore_patterns("__pycache__"))
     with contextlib.redirect_stdout(io.StringIO()):
         runpy.run_path(str(folder / "examples" / script.name), run_name="__main__")
-    return {file.name: file.read_text(encoding="utf-8") for file in (folder / "docs" / "_static").iterdir()}
+    return {file.name: file.read_text(encoding="utf-8") for file in drawings.glob("*.svg")}
 
 
 def _parts(drawing: str) -> tuple[list[str], np.ndarray]:

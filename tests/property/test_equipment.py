@@ -38,6 +38,7 @@ from ilmek.machines.automated_loom.equipment.yarn_path import PathStep, tensions
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.on_rail import CHAIN, share_of
+from ilmek.machines.automated_loom.papers.wiring import channels, levels_of
 from ilmek.part.extents import extents
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -78,7 +79,13 @@ _KINDS = (
 
 def test_signals_and_devices_of_looms_of_all_kinds_name_each_other() -> None:
     """Each sensor and motor of the list is named by a signal, and each part of a signal is in a loom of some kind."""
-    wired = {signals.RESET, signals.ACTUATOR, signals.ENABLING, signals.TERMINAL}  # in the safety circuit, or between
+    wired = {
+        signals.RESET,
+        signals.ACTUATOR,
+        signals.ENABLING,
+        signals.TERMINAL,
+        signals.MAINS_TERMINAL,
+    }  # in the safety circuit, or between
     named = {part for row in _rows(heads=1) for part in row["parts"].split()}
     kinds, every = {"clutch and brake", *(row.kind for row in ROWS)}, set[str]()
     for kind in _KINDS:
@@ -92,15 +99,23 @@ def test_signals_and_devices_of_looms_of_all_kinds_name_each_other() -> None:
 
 
 def test_terminals_and_controller_are_enough_for_the_signals() -> None:
-    rows, placed = _rows(heads=1), dict(loom_tree(_loom()).occurrences())
-    numbers = {part.id: number for part, number in placed.items()}
-    assert len(rows) == signals.signal_count(1)
-    assert 2 * numbers[signals.TERMINAL] >= len(rows)
+    assert len(_rows(heads=1)) == len(signals.signals_of(1))
+    for kind in (*_KINDS, {"heads": 3}):
+        loom = _kind(kind)
+        numbers = {part.id: number for part, number in loom_tree(loom).occurrences()}
+        levels = levels_of(loom)
+        assert len({level.address for level in levels}) == len(levels)
+        assert numbers[signals.TERMINAL] == len({(level.strip, level.number) for level in levels})
+        read = {own.signal: own for own in channels(loom) if own.signal}
+        for name, parts in signals.signals_of(loom.heads, loom.weavers):  # a wire to an input, or none at all
+            assert (name in read) == (parts[0] != signals.CONTROLLER), name
+        field = {level.part for level in levels if level.strip == "X1"}
+        assert field >= {own.part for own in read.values()} - {signals.STRAIN_AMPLIFIER}
 
 
 def test_a_signal_of_each_head_has_a_part_on_each() -> None:
     rows = _rows(heads=3)
-    assert len(rows) == signals.signal_count(3)
+    assert len(rows) == len(signals.signals_of(3))
     placed = {part.id: number for part, number in loom_tree(_loom(heads=3)).occurrences()}
     assert placed[signals.HEAD_ANGLE] == sum(signals.HEAD_ANGLE in row["parts"].split() for row in rows) == 3
 

@@ -11,9 +11,10 @@ from ezdxf.path import make_path
 from ilmek.elements.materials import find_material
 from ilmek.jobs.workshop import write_workshop
 from ilmek.part.part import Part
+from ilmek.part.placement import placement
 from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, Shape, stepped
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, box, stepped
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Report
@@ -81,3 +82,16 @@ def test_a_narrow_groove_of_a_long_shaft_has_a_detail_with_its_width_and_depth(t
 def test_what_is_large_enough_has_none(tmp_path: Path) -> None:
     sheet = written(stepped((0.02, 0.03), (0.03, 0.05)), tmp_path / "out", "turned part")
     assert not any(text.startswith("Z") for text in words(sheet))
+
+
+def test_an_item_of_several_has_its_outline_with_every_corner(tmp_path: Path) -> None:
+    """A fork with a lug: the numbers beside the outline are the coordinates of its corners, read by ezdxf."""
+    corners = np.array([0, 60, 60 + 12j, 20 + 12j, 14.5 + 20j, 14.5 + 41j, 60 + 41j, 60 + 50j, 2 + 52.5j, 49j]) * mm
+    fork = Placed(Prism(Profile(polygon(corners)), 5 * mm))
+    lug = Placed(box(8 * mm, 8 * mm, 8 * mm), (placement(4 * mm, 4 * mm, 5 * mm),))
+    sheet = written(Sum((fork, lug)), tmp_path / "out", "machined link")
+    (title,) = (text for text in words(sheet) if text.startswith("Outline of item"))
+    assert title.startswith("Outline of item 1 (")
+    stated = {e.dxf.text for e in sheet.modelspace().query("DIMENSION")} | {*words(sheet)}
+    for value in {*corners.real.tolist(), *corners.imag.tolist()} - {0.0}:
+        assert f"{value / mm:.3f}".rstrip("0").rstrip(".") in stated

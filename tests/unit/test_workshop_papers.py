@@ -26,7 +26,7 @@ from ilmek.elements.eye_bolts import eye_bolt_for, find_eye_bolt
 from ilmek.elements.machine_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import MOTORS
-from ilmek.io.plc.io_list import io_rows
+from ilmek.io.plc.io_list import io_csv, io_rows
 from ilmek.io.plc.project import plc_project
 from ilmek.io.table_csv import rows_csv
 from ilmek.jobs.workshop import UNDATED, write_workshop
@@ -39,20 +39,21 @@ from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.braking import braking_checks, braking_of
+from ilmek.machines.automated_loom.papers.cables import routes
 from ilmek.machines.automated_loom.papers.risks import MovingHazard, measures, safety_checks
 from ilmek.machines.automated_loom.papers.transport import lifting_of
-from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of
+from ilmek.machines.automated_loom.papers.wiring import SENSING, channels, connected_at, feeds, plan_of, signs_of
 from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.tree_manual import UP, assembly_steps, with_screws, with_welds
 from ilmek.part.bolting import bolted
 from ilmek.part.contacts import joined_by
 from ilmek.part.insertion import Insertion, insertions
-from ilmek.part.insertion_units import is_screw
+from ilmek.part.insertion_units import is_screw, standing_parts
 from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
-from ilmek.part.part_lists import SAW, bars_for
+from ilmek.part.part_lists import SAW, bars_for, distinct_titles
 from ilmek.part.placement import placement
-from ilmek.part.poses import moments_at_rest
+from ilmek.part.poses import chains, moments_at_rest
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
@@ -164,6 +165,12 @@ def test_fasteners_join_the_parts_that_they_are_made_for() -> None:
     assert rows["shedding/locknut"]["tightening torque [Nm]"]
 
 
+def section_rows(page: str, name: str) -> tuple[tuple[object, ...], ...]:
+    """Rows of the table of a page with a name."""
+    paper = next(paper for paper in papers().pages if paper.name == page)
+    return next(section.table.rows for section in paper.sections if section.table and section.table.name == name)
+
+
 def rows_of(page: str, section: int) -> list[tuple[float | int | str, ...]]:
     paper = next(paper for paper in papers().pages if paper.name == page)
     table = paper.sections[section].table
@@ -257,9 +264,17 @@ def test_terminals_are_the_signals_of_the_control() -> None:
     field = [row for row in io_rows(plc_project(small_programme(heads=report["heads"])).units[-1]) if row[3]]
     terminals = rows_of("electrical", 3)
     assert sorted(str(row[0]) for row in terminals) == sorted(row[0] for row in field)
-    assert len({row[1:3] for row in terminals}) == len(terminals)
+    over_wires = [row for row in terminals if row[1] != "A1"]
+    assert len({row[1] for row in over_wires}) == len(over_wires)
+    assert {str(row[0]) for row in over_wires} == {
+        "EmergencyStop",
+        "DoorClosed",
+        "HeadsClear",
+        "WarpTension",
+        "WarpTensionKnown",
+    }
+    assert all(str(row[3]).startswith("automated-loom/motion-controller") for row in terminals if row[1] == "A1")
     parts = {row["id"]: int(row["quantity"]) for row in listed("parts")}
-    assert max(int(row[1]) for row in terminals) == parts["automated-loom/terminal"]
     wired = {part for row in terminals for part in str(row[3]).split()}
     assert wired <= parts.keys()
     assert {row[1] for row in rows_of("electrical", 1)} <= {
@@ -267,10 +282,100 @@ def test_terminals_are_the_signals_of_the_control() -> None:
     }
 
 
+def test_the_folder_has_the_list_of_the_control_that_the_plc_command_writes() -> None:
+    heads: Any = default_report("automated-loom")["heads"]
+    table = next(table for table in papers().lists if table.name == "io")
+    assert rows_csv(table) == io_csv(plc_project(small_programme(heads=heads)).units[-1])
+
+
+def test_phases_are_balanced_and_every_fuse_is_sold_for_its_voltage() -> None:
+    """Phases by the rows of the motors; 5 x 20 mm of IEC 60127 stand behind direct current alone."""
+    loads = {"L1": 0.0, "L2": 0.0, "L3": 0.0}
+    for *_, current, _, fuse, _, _, phases in section_rows("electrical", "motors"):
+        for phase in str(phases).split():
+            loads[phase] += float(str(current)) * math.sqrt(3)
+            assert float(str(fuse)) >= 1.25 * float(str(current)) * math.sqrt(3)
+    drawn = [float(own) for own in re.findall(r"L. ([\d.]+) A", str(rows_of("electrical", 0)[3][1]))]
+    assert max(drawn) - min(drawn) < 0.05 * max(drawn)
+    assert all(own <= whole for own, whole in zip(sorted(loads.values()), sorted(drawn), strict=True))
+    for row in listed("purchase"):
+        if row["kind"] == "fuse":
+            rating = float(re.findall(r"([\d.]+) A", row["designation"])[0])
+            small = "5 x 20" in row["designation"]
+            assert row["designation"].endswith("T H" if small else "gG")
+            assert rating <= (4 if small else 25 if "10 x 38" in row["designation"] else 160)
+
+
+def test_the_handle_of_the_main_switch_is_outside_at_its_height() -> None:
+    """IEC 60204-1, 5.3.4: 0.6 to 1.9 m over the floor, before the door."""
+    loom = default_design("automated-loom")
+    pieces = {piece.part.id: piece.box for links in chains(loom_tree(loom)) for piece in standing_parts(links)}
+    switch, door = pieces["automated-loom/main-switch"], pieces["automated-loom/cabinet-door"]
+    assert switch[0][2] < door[0][2] - 0.03
+    floor = door[0][1]
+    assert 0.6 < switch[0][1] - floor < switch[1][1] - floor < 1.9
+
+
+def test_every_cable_ends_at_a_device_and_is_no_shorter_than_the_straight_line() -> None:
+    loom = default_design("automated-loom")
+    far = routes(loom)
+    pieces: dict[str, list[np.ndarray]] = {}
+    for links in chains(loom_tree(loom)):
+        for piece in standing_parts(links):
+            pieces.setdefault(piece.part.id, []).append(np.array(piece.box).mean(axis=0))
+    (cabinet,) = pieces["automated-loom/control"]
+    for name, lengths in far.items():
+        straight = [float(np.linalg.norm(own - cabinet)) for own in pieces[name]]
+        assert all(own > line for own, line in zip(lengths, straight, strict=True))
+    rows = section_rows("electrical", "cables")
+    signs = {str(row[2]) for row in rows}
+    assert {motor.sign for motor in plan_of(loom).motors} <= signs
+    assert {sign for name, sign in signs_of(loom).items() if "yarn-sensor" not in name} <= signs
+    assert {"S0", "S9", "Y1", "A3"} <= signs
+    assert "" not in signs
+
+
+def test_no_two_parts_of_the_manual_have_one_title_but_those_of_one_designation() -> None:
+    tree = bolted(loom_tree(default_design("automated-loom")))
+    parts = {part.id: part for part, _ in tree.occurrences()}
+    seen: dict[str, str] = {}
+    for name, title in distinct_titles(tree).items():
+        ordered = parts[name].designation or parts[name].size
+        assert seen.setdefault(title, ordered) == ordered, title
+        assert title.startswith(parts[name].title)
+
+
+def test_a_step_names_the_key_of_each_screw_and_what_lifts_its_mass() -> None:
+    """Widths across flats of ISO 4762 and ISO 4017, read again; more than 25 kg is lifted by a hoist (ISO 11228-1)."""
+    sockets = {
+        "M2": "1.5",
+        "M2.5": "2",
+        "M3": "2.5",
+        "M4": "3",
+        "M5": "4",
+        "M6": "5",
+        "M8": "6",
+        "M10": "8",
+        "M12": "10",
+    }
+    hexagons = {"M6": "10", "M8": "13", "M10": "16", "M12": "18", "M16": "24", "M20": "30"}
+    paper = next(paper for paper in papers().pages if paper.name == "assembly-manual")
+    rows = [row for own in paper.sections if own.table and own.table.name == "steps" for row in own.table.rows]
+    turned = 0
+    for row in rows:
+        tools, mass = str(row[-1]).split("; "), float(str(row[5]))
+        for standard, size in re.findall(r"ISO (4762|4017) - (M[\d.]+) x", str(row[6])):
+            key = sockets[size] if standard == "4762" else hexagons[size]
+            assert f"{'hexagon key' if standard == '4762' else 'spanner'} {key} mm" in tools
+            turned += 1
+        assert ("hoist, slings" in tools) is (mass > 25)
+    assert turned > 50
+
+
 def test_motors_are_fused_and_wired_by_their_current() -> None:
     """IEC 60204-1, table 6, method B2, copper in PVC at 40 °C; servos on a phase, steppers on 48 V."""
     bears = {0.75: 8.5, 1.0: 10.1, 1.5: 13.1, 2.5: 17.4, 4.0: 23.0}
-    for _, _, name, _, power, current, amplifier, fuse, section, together in rows_of("electrical", 1):
+    for _, _, name, _, power, current, amplifier, fuse, section, together, _ in rows_of("electrical", 1):
         volts = 48.0 if str(name).startswith("stepper") else 230 * math.sqrt(3)
         assert current == pytest.approx(float(power) / 0.75 / volts)
         assert float(current) <= float(amplifier) < 2 * max(float(current), 0.6)
@@ -375,7 +480,7 @@ def every(sign: str) -> list[str]:
 
 def test_diagrams_have_the_devices_of_the_tables() -> None:
     drawn = figure_texts("electrical", 0)
-    for sign, title, row_of_table, number, _, _, amplifier, fuse, section, _ in rows_of("electrical", 1):
+    for sign, title, row_of_table, number, _, _, amplifier, fuse, section, _, _ in rows_of("electrical", 1):
         wires = 5 if "stepper" in str(row_of_table) else 4
 
         def each(letter: str, sign: str = str(sign)[1:], number: int = int(number)) -> str:
@@ -383,15 +488,19 @@ def test_diagrams_have_the_devices_of_the_tables() -> None:
 
         row = [f"{each('M')}: {number} × {title}", f"{each('F')}: {number} × {fuse:g} A", f"{amplifier:g} A, STO"]
         assert {*row, f"{wires} × {section:g} mm²", each("T")} <= {*drawn}
-    circuit, terminals = figure_texts("electrical", 4), rows_of("electrical", 3)
-    for sign, _, _, number, signals in rows_of("electrical", 4):
+    circuit = figure_texts("electrical", 4)
+    for sign, _, _, number, _ in rows_of("electrical", 4):
         letter = str(sign).rstrip("0123456789 …")
         if letter in ("S", "B") and sign not in ("S0", "S9"):  # reset and enabling switch
             assert sorted(text for text in circuit if text[1:].isdigit() and text[0] == letter) == [
                 f"{letter}{index}" for index in range(1, int(number) + 1) for _ in "12"
             ]
-            (address,) = [f"X1:{row[1]}{row[2]}" for row in terminals if row[0] == signals]
-            assert address in circuit
+    strips = {row[3]: row for row in section_rows("electrical", "strips") if row[0] == "X3"}
+    shown = {
+        f"X3:{str(row[1]).replace(' … ', '…').partition('…')[0]} … {str(row[1]).rpartition(' ')[2]}"
+        for row in strips.values()
+    }
+    assert shown <= {text for words in circuit for text in re.findall(r"X3:\w+ … \w+", words)}
     signs = [str(row[0]) for row in rows_of("electrical", 4)]
     assert [sign for sign in signs if sign and not any(text in circuit for text in (f"{sign}.1", *every(sign)))] == []
     (axes,) = [row["quantity"] for row in listed("parts") if row["id"] == "automated-loom/control-axis"]
@@ -439,25 +548,23 @@ def test_every_sensor_has_its_input() -> None:
     parts = {row["id"]: row for row in listed("parts")}
     sensors = {name: int(row["quantity"]) for name, row in parts.items() if row["process"] in SENSING}
     inputs = list(channels(loom))
-    assert len({(module, number) for module, number, _, _ in inputs}) == len(inputs)
-    assert all(1 <= number <= 16 for _, number, _, _ in inputs)
-    used = {module for module, _, _, _ in inputs}
+    assert len({own.address for own in inputs}) == len(inputs)
+    assert all(1 <= own.number <= (4 if own.module.startswith("A5") else 16) for own in inputs)
+    used = {own.module for own in inputs}
     modules = sum(int(row["quantity"]) for row in parts.values() if row["process"] == "input module")
     assert len(used) == modules
     read = dict[str, int]()
-    for _, _, name, _ in inputs:
-        read[name] = read.get(name, 0) + 1
-    first = [str(row[3]).split()[0] for row in rows_of("electrical", 3)]
+    for own in inputs:
+        read[own.part] = read.get(own.part, 0) + 1
     encoders = {name for name in sensors if "encoder" in name}
     for name, number in sensors.items():
         if name in read:
             assert read[name] == (number // 2 if parts[name]["process"] == "light barrier" else number)
-            assert name not in first
         elif name in encoders:
             assert connected_at(loom)[name].startswith("T")
         else:
             assert number == 1
-            assert name in first or connected_at(loom)[name] == "N1"
+            assert connected_at(loom)[name] == "N1"
     assert read["automated-loom/yarn-sensor"] == 96
 
 

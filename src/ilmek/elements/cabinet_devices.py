@@ -19,12 +19,13 @@ CLASS = "class of catalogue parts; makers differ by some millimetres"
 
 @dataclass(frozen=True, slots=True)
 class PowerSupply(FieldDevice):
-    """A supply of direct current: its voltage [V] and rated current [A], phases of its mains, efficiency."""
+    """A supply of direct current: voltage [V], rated current [A], phases of its mains, efficiency, inrush [A²s]."""
 
     volts: float = 24.0
     amperes: float = 0.0
     phases: int = 1
     efficiency: float = 0.94
+    inrush: float = 4.0
 
     @property
     def rated(self) -> float:
@@ -81,12 +82,15 @@ PROTECTOR = _device("circuit protector 24 V, 4 x 6 A", "circuit protector", (45,
 """It parts the wires of 24 V in groups: control, sensors, safety circuit, brakes."""
 
 _FUSES = (
-    (6.0, 250.0, "5x20", _device("fuse terminal 5 x 20 mm", "fuse", (8.2, 80, 60), 25 * g, "IEC 60947-7-3")),
-    (32.0, 690.0, "10x38", _device("fuse holder 10 x 38 mm", "fuse", (17.5, 85, 62), 70 * g, "IEC 60269-2")),
-    (125.0, 690.0, "22x58", _device("fuse holder 22 x 58 mm", "fuse", (35, 125, 77), 300 * g, "IEC 60269-2")),
-    (math.inf, 690.0, "nh00", _device("fuse base NH 00", "fuse", (36, 125, 85), 350 * g, "IEC 60269-2")),
+    (4.0, 60.0, "5x20", "T H", _device("fuse terminal 5 x 20 mm", "fuse", (8.2, 80, 60), 25 * g, "IEC 60127-2")),
+    (25.0, 500.0, "10x38", "gG", _device("fuse holder 10 x 38 mm", "fuse", (17.5, 85, 62), 70 * g, "IEC 60269-2")),
+    (50.0, 500.0, "14x51", "gG", _device("fuse holder 14 x 51 mm", "fuse", (26, 110, 75), 130 * g, "IEC 60269-2")),
+    (100.0, 690.0, "22x58", "gG", _device("fuse holder 22 x 58 mm", "fuse", (35, 125, 77), 300 * g, "IEC 60269-2")),
+    (math.inf, 690.0, "nh00", "gG", _device("fuse base NH 00", "fuse", (36, 125, 85), 350 * g, "IEC 60269-2")),
 )
-"""Largest rating [A] and voltage [V], form and holder of fuses."""
+"""Largest rating [A] and voltage [V], form, characteristic and holder of fuses. Those of 5 x 20 mm break 1.5 kA: they
+stand behind supplies of direct current alone, those on the mains break 100 kA (IEC 60127-2, sheet 5; IEC 60269-2).
+"""
 
 _SWITCHES = (25.0, 40.0, 63.0, 100.0, 160.0, 250.0)
 """Rated currents of main switches [A]."""
@@ -105,23 +109,49 @@ class Fuse:
 def fuse_of(rating: float, volts: float) -> Fuse:
     """The fuse of a rating [A] at a voltage [V].
 
-    >>> fuse_of(16.0, 230.0).row.name, fuse_of(2.0, 400.0).form
-    ('fuse holder 10 x 38 mm, 16 A gG', '10x38')
+    >>> fuse_of(16.0, 230.0).row.name, fuse_of(2.0, 48.0).row.name, fuse_of(2.0, 400.0).form
+    ('fuse holder 10 x 38 mm, 16 A gG', 'fuse terminal 5 x 20 mm, 2 A T H', '10x38')
     """
     offered = (own for own in _FUSES if volts <= own[1] and not rating > own[0])
-    _, _, form, row = next(offered)
-    return Fuse(rating, form, replace(row, name=f"{row.name}, {rating:g} A gG"))
+    _, _, form, kind, row = next(offered)
+    return Fuse(rating, form, replace(row, name=f"{row.name}, {rating:g} A {kind}"))
 
 
 def main_switch(fuse: float) -> FieldDevice:
-    """The lockable main switch behind main fuses of a rating [A].
+    """The lockable main switch behind main fuses of a rating [A], its handle before the door that holds it.
 
     >>> main_switch(20.0).name
-    'main switch 4 poles, 25 A, lockable'
+    'main switch 4 poles, 25 A, lockable, for a door'
     """
     rated = next((rated for rated in _SWITCHES if rated >= fuse), _SWITCHES[-1])
     wide = 70 if rated <= 63 else 105
-    return _device(f"main switch 4 poles, {rated:g} A, lockable", "main switch", (wide, 90, 80), 400 * g, "IEC 60947-3")
+    row = _device(f"main switch 4 poles, {rated:g} A, lockable, for a door", "main switch", (wide, 90, 80), 400 * g)
+    return replace(row, source="IEC 60947-3", fixing="four screws M4 through the door into its handle")
+
+
+def mains_terminal(section: float) -> FieldDevice:
+    """The terminal of a wire from the mains by its section [mm²].
+
+    >>> mains_terminal(6.0).name
+    'terminal 6 mm²'
+    """
+    widths = {4.0: 6.2, 6.0: 8.2, 10.0: 10.2, 16.0: 12.2, 35.0: 16.2, 70.0: 20.5, 120.0: 31.0}
+    taken, wide = next(((own, wide) for own, wide in widths.items() if own >= section), (120.0, 31.0))
+    return _device(f"terminal {taken:g} mm²", "terminal", (wide, 60, 48), 30 * g, "IEC 60947-7-1")
+
+
+CLAMP = 8 * mm
+"""Pitch of the clamps of a protective bar [m]."""
+
+
+def protective_bar(clamps: int) -> FieldDevice:
+    """The bar of the protective conductors, with so many clamps.
+
+    >>> protective_bar(20).size[0]
+    0.2
+    """
+    bar = _device(f"PE bar, {clamps} clamps 6 mm²", "protective bar", (clamps * 8.0 + 40.0, 12, 20), 15 * g * clamps)
+    return replace(bar, fixing="two screws M6 into the nuts of the cabinet's wall")
 
 
 WARMER, THROUGH = 20.0, 5.5
@@ -151,6 +181,21 @@ def passed(area: float) -> float:
     220.0
     """
     return THROUGH * area * WARMER
+
+
+def outlet_of(fan: FieldDevice) -> FieldDevice:
+    """The filter through which the air of a fan leaves, with its frame.
+
+    >>> outlet_of(FANS[0][1]).name
+    'outlet filter, 60 m³/h'
+    """
+    wide, high, _ = fan.size
+    name = fan.name.replace("filter fan", "outlet filter")
+    return replace(fan, name=name, kind="outlet filter", size=(wide, high, _OUTLET), mass=0.5, power=0.0)
+
+
+_OUTLET = 25 * mm
+"""Depth of an outlet filter [m]."""
 
 
 def fan_for(heat: float, area: float) -> tuple[float, FieldDevice] | None:

@@ -83,6 +83,9 @@ ROWS = (
     FieldDevice(
         "measuring amplifier 2 mV/V, 0 ... 10 V", "measuring amplifier", _size(22.5, 100, 115), 0.15, _CLASS, power=2.0
     ),
+    FieldDevice(
+        "input module, 4 inputs 0 ... 10 V", "input module", _size(22.5, 100, 75), 0.15, _CLASS, 5e-3, power=2.0
+    ),
     FieldDevice("input module, 16 inputs, PNP", "input module", _size(22.5, 100, 75), 0.15, _CLASS, 1e-3, power=3.0),
     FieldDevice("output module, 16 outputs, 2 A", "output module", _size(22.5, 100, 75), 0.15, _CLASS, 1e-3, power=3.0),
     FieldDevice(
@@ -95,7 +98,7 @@ ROWS = (
 )  # fmt: skip
 
 ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, GRID, \
-    CONTROLLER, TERMINAL, STRAIN_AMPLIFIER, INPUTS, OUTPUTS, FIELD_INPUTS, ENABLING = ROWS  # fmt: skip
+    CONTROLLER, TERMINAL, STRAIN_AMPLIFIER, ANALOG_INPUTS, INPUTS, OUTPUTS, FIELD_INPUTS, ENABLING = ROWS  # fmt: skip
 
 CHANNELS = 16
 """Inputs of an input module, outputs of an output module."""

@@ -62,6 +62,15 @@ class MachineScrew:
         return 0.7 * TENSILE * self.area
 
     @property
+    def key(self) -> float:
+        """Width across flats of the key that turns it [m]: of its head, or of the socket in it [ISO 4762].
+
+        >>> SOCKET_SCREWS["M6"].key, SCREWS["M10"].key
+        (0.005, 0.016)
+        """
+        return SOCKETS[self.name] * mm if self.sink else self.across
+
+    @property
     def pitch(self) -> float:
         """Pitch of its thread [m], from its stress area: d_s = d - 0.9382 P [ISO 898-1].
 
@@ -155,6 +164,12 @@ SOCKET_SCREWS = {
     )
 }
 """By thread, ascending: heads of ISO 4762, as high as the thread is wide, holes and counterbores for them."""
+
+SOCKETS = {
+    "M2": 1.5, "M2.5": 2.0, "M3": 2.5, "M4": 3.0, "M5": 4.0, "M6": 5.0, "M8": 6.0, "M10": 8.0, "M12": 10.0, "M16": 14.0,
+    "M20": 17.0,
+}  # fmt: skip
+"""Width across flats of the sockets of ISO 4762, by thread [mm]."""
 
 CORES = {
     diameter * mm: (core * mm, pitch * mm)

@@ -129,6 +129,8 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "main switch": PriceRates(each=60.0),
     "cabinet door": PriceRates(each=20.0, per_kg=4.0),
     "fan": PriceRates(each=40.0, per_kg=35.0),
+    "outlet filter": PriceRates(each=12.0, per_kg=20.0),
+    "protective bar": PriceRates(each=5.0, per_kg=25.0),
     "input module": PriceRates(each=130.0),
     "output module": PriceRates(each=150.0),
     "measuring amplifier": PriceRates(each=190.0),

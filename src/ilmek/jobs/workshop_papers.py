@@ -6,11 +6,16 @@ from pathlib import Path
 from typing import Any
 
 from ilmek.io.papers.pdf import write_paper_pdf
+from ilmek.io.plc.io_list import HEADER, io_rows
+from ilmek.io.plc.sequence_logic import sequence_units
+from ilmek.io.plc.sequence_variables import PlcSize, ScanLimits
 from ilmek.io.table_csv import rows_csv
+from ilmek.loom.operations import ROW_ENDS
+from ilmek.machines.automated_loom import LoomDesign
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.tree_papers import tree_papers
 from ilmek.records import JsonObject
-from ilmek.report import NO_PAPERS, IndexEntry, Papers, Report
+from ilmek.report import NO_PAPERS, Column, IndexEntry, Papers, Report, Table
 from ilmek.report.sheet import Issue
 from ilmek.sentences import LANGUAGES, Sentence
 from ilmek.viz.document_page import INDEX_PAGE, document_page, index_page, page_file, printed
@@ -24,12 +29,24 @@ DRAWING_KINDS = ("drawings", "assembly", "sheet", "translation")
 
 
 def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
-    """The papers of a design of a machine with its report; none of a machine without parts."""
+    """The papers of a design of a machine with its report; none of a machine without parts.
+
+    Those of a loom with heads have the list of the inputs and outputs of its control besides.
+    """
     if machine.papers is not None:
-        return machine.papers(design, report)
+        papers = machine.papers(design, report)
+        listed = (_io_list(design),) if isinstance(design, LoomDesign) and design.heads else ()
+        return replace(papers, lists=(*papers.lists, *listed))
     if machine.tree is None:
         return NO_PAPERS
     return tree_papers(machine.tree(design), in_space=machine.mechanism is not None)
+
+
+def _io_list(loom: LoomDesign) -> Table:
+    """The list that `ilmek plc` writes: it is the same for each carpet of a loom."""
+    any_time = ScanLimits(0, 1)  # the list has no times
+    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS)))
+    return Table("io", Sentence("paper.io"), tuple(map(Column, HEADER)), tuple(io_rows(program)))
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:

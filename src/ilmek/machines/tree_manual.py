@@ -14,13 +14,14 @@ import numpy as np
 
 from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
+from ilmek.machines.manual_tools import moving_bodies, step_tools, tools_section
 from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
 from ilmek.part.fastenings import fastenings
 from ilmek.part.insertion import Insertion
 from ilmek.part.insertion_units import Box, Direction, InsertedUnit, StandingPart, is_screw, standing_parts
 from ilmek.part.part import Part
-from ilmek.part.part_lists import FASTENER
+from ilmek.part.part_lists import FASTENER, distinct_titles
 from ilmek.part.poses import chains
 from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.stacks import StackPiece, StackRun
@@ -30,7 +31,7 @@ from ilmek.part.welds import welds_of
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -232,9 +233,10 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
     """
     seen, standing = outlines(tree, view), set[str]()
     fasteners = frozenset(part.id for part, _ in screwed.occurrences() if part.process == FASTENER)
-    titles = {part.id: part.title for part, _ in screwed.occurrences()}
+    titles = distinct_titles(screwed)
     joined_parts = joined_by(screwed, fasteners)
-    sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),))]
+    sections = [PaperSection(Sentence("manual.order"), (Sentence("manual.order-how"),)), tools_section(screwed)]
+    moving = moving_bodies(tree)
     last = (links[-1] for links in chains(tree))
     machines = {link.name: machine_of(link.body) for link in last if link.body.occurrences}
     rows_of = with_welds(with_screws(assembly_steps(steps), screwed, joined_parts), screwed)
@@ -245,21 +247,24 @@ def tree_manual(tree: Tree, steps: Sequence[Insertion], view: View, screwed: Tre
         sections.append(
             _section(
                 machine,
-                [_row(*row, joined_parts, titles) for row in rows],
+                [_row(*row, joined_parts, titles, moving) for row in rows],
                 _picture(seen, standing, coming, _CAPTIONS[view]),
             )
         )
-        sections += [_stack_section(number, step.stack) for number, step in rows if step.stack]
+        sections += [_stack_section(number, step) for number, step in rows if step.stack]
         standing |= coming
     return Paper("assembly-manual", Sentence("manual.title"), Sentence("manual.lead"), tuple(sections))
 
 
-def _stack_section(number: int, stack: Sequence[StackRun]) -> PaperSection:
-    """The order along their axis of the parts of a step: a row for each run."""
+def _stack_section(number: int, step: AssemblyStep) -> PaperSection:
+    """The order along their axis of the parts of a step: a row for each run; and how long they are together."""
     title = Sentence("manual.stack", step=str(number))
     heads = Column(Sentence("manual.times")), Column(Sentence("manual.run"))
-    rows = tuple((run.times, "; ".join(map(_stacked, run.pieces))) for run in stack)
-    return PaperSection(title, (Sentence("manual.stack-how"),), Table(f"stack-{number}", title, heads, rows))
+    rows = tuple((run.times, "; ".join(map(_stacked, run.pieces))) for run in step.stack)
+    lows, highs = np.array([piece.box for piece in step.pieces]).swapaxes(0, 1)
+    axis = np.abs(step.pieces[0].position.rotation[:, 2])
+    text = Sentence("manual.stack-how", length=in_mm(float(axis @ (highs.max(0) - lows.min(0)))))
+    return PaperSection(title, (text,), Table(f"stack-{number}", title, heads, rows))
 
 
 def _stacked(piece: StackPiece) -> str:
@@ -278,19 +283,25 @@ def _section(machine: str, rows: Sequence[tuple[float | int | str, ...]], pictur
         Column(Sentence("manual.mass"), "kg", 3),
         Column(Sentence("manual.tighten")),
         Column(Sentence("manual.joins")),
+        Column(Sentence("manual.tools")),
     )
     table = Table("steps", title, heads, tuple(rows))
     return PaperSection(title, (picture.title,), table, boxes=True, figure=picture)
 
 
 def _row(
-    number: int, step: AssemblyStep, joins: Mapping[str, Sequence[str]], titles: Mapping[str, str]
+    number: int,
+    step: AssemblyStep,
+    joins: Mapping[str, Sequence[str]],
+    titles: Mapping[str, str],
+    moving: frozenset[str],
 ) -> tuple[float | int | str, ...]:
     parts = {} if step.built else step.parts
     fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
     fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
     fastened += [(Sentence("manual.weld", size=size), pair) for *pair, size in step.welds]
-    named = [f"{parts[part]} × {part.title}" for part in parts if part.process != FASTENER]
+    named = [f"{parts[part]} × {titles[part.id]}" for part in parts if part.process != FASTENER]
+    tools = step_tools({**parts, **fasteners}, step.mass, moving=not moving.isdisjoint(step.bodies))
     return (
         number,
         ", ".join(body.rpartition("/")[2] for body in step.bodies),
@@ -300,6 +311,7 @@ def _row(
         step.mass,
         reduce(joined, (text for text, _ in fastened), ""),
         "; ".join(", ".join(titles[name] for name in own) for _, own in fastened),
+        reduce(joined, tools, ""),
     )
 
 

@@ -59,6 +59,22 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 
 
+def distinct_titles(tree: Tree) -> dict[str, str]:
+    """Titles of the parts by their ids; of parts of one title each with so much of its designation, or of its size, as
+    tells it from the others.
+    """
+    named: dict[str, list[Part]] = defaultdict(list)
+    for part, _ in tree.occurrences():
+        named[part.title].append(part)
+    titles = {own[0].id: title for title, own in named.items() if len(own) == 1}
+    for own in (parts for parts in named.values() if len(parts) > 1):
+        words = [[part.title, *(part.designation or line_of(part, 1).description).split(", ")] for part in own]
+        distinct = len({*map(tuple, words)})
+        enough = next(k for k in range(1, 100) if len({tuple(word[:k]) for word in words}) == distinct)
+        titles |= {part.id: ", ".join(filter(None, word[:enough])) for part, word in zip(own, words, strict=True)}
+    return titles
+
+
 def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     """A row for each designation of bought parts, with all parts that are ordered by it."""
     ordered: dict[tuple[str, str, float], list[tuple[Part, int]]] = defaultdict(list)

@@ -1,6 +1,9 @@
 """The sentences of a machine's papers in English."""
 
+from ilmek.sentences.electric_english import ELECTRIC
+
 PAPERS = {
+    **ELECTRIC,
     # Paper
     "paper.index": "Index of the folder",
     "paper.pages": "Papers",
@@ -8,6 +11,7 @@ PAPERS = {
     "paper.drawings": "Drawings",
     "paper.shapes": "Contours and solids",
     "paper.motions": "Motions for controllers",
+    "paper.io": "Inputs and outputs of the control",
     "paper.rows": "{count} rows",
     "paper.measured": "measured",
     "paper.not-released": "NOT RELEASED",
@@ -65,6 +69,7 @@ PAPERS = {
     "setting.source": "from",
     "setting.assumed": "assumed by this project",
     "setting.stand": "Stand of the loom",
+    "setting.pitch": "width of {count} warps at the shed, the left edge of the first to that of the last",
     "setting.level": "level of the floor beams, along and across",
     "setting.foot": "load of each levelling foot",
     "setting.fell": "height of the fell above the floor",
@@ -83,7 +88,7 @@ PAPERS = {
     "setting.lifted": "tension of a lifted warp, shed open",
     "setting.tools": "Tools",
     "setting.beat-stroke": "stroke of the beat, down to the fell",
-    "setting.row-pitch": "distance of two rows after ten rows",
+    "setting.row-pitch": "distance of two rows, mean of ten",
     "setting.weft-height": "laid weft above the fell",
     "setting.retreat": "retreat of the heads, at which the sensor of the retreated heads switches",
     "setting.pair": "distance of the pair of warps in the slots of the opener",
@@ -154,87 +159,6 @@ PAPERS = {
     "direction.front": "to the front",
     "direction.back": "to the back",
     "direction.both": "{first}, {second}",
-    # Electric
-    "electric.title": "Electrical plan",
-    "electric.lead": "Supply, motors with fuses and wires by current, sensors, terminals, safety circuit",
-    "electric.supply": "Supply",
-    "electric.supply-how": "All motors at their rated power; the main switch is lockable and separates all live "
-    "wires (IEC 60204-1, 5.3).",
-    "electric.what": "what",
-    "electric.value": "value",
-    "electric.mains": "mains",
-    "electric.connected": "connected load",
-    "electric.mean": "mean power while it weaves",
-    "electric.main-current": "current",
-    "electric.main-fuse": "main fuses",
-    "electric.main-wire": "wires from the mains",
-    "electric.motors": "Motors",
-    "electric.motors-how": "Amplifiers of servos up to 2 kW on a phase and N, of larger ones on three phases; those of "
-    "steppers on 48 V. The current is that of the windings; each fuse carries 1.25 times what its amplifier draws, "
-    "each wire the fuse's rating: copper in PVC, method B2 at 40 °C, IEC 60204-1, 12.4 and table 6, with "
-    "the factor of the cables that lie together.",
-    "electric.motor": "motor",
-    "electric.designation": "designation",
-    "electric.pieces": "pieces",
-    "electric.power": "rated power",
-    "electric.current": "current [A]",
-    "electric.fuse": "fuse [A]",
-    "electric.section": "section [mm²]",
-    "electric.together": "cables together",
-    "electric.sensors": "Sensors",
-    "electric.device": "device",
-    "electric.signals": "signals",
-    "electric.terminals": "Terminals",
-    "electric.terminals-how": "A level of a terminal for each signal that has an address in io.csv, which `ilmek "
-    "plc` writes.",
-    "electric.signal": "signal",
-    "electric.terminal": "terminal",
-    "electric.level": "level",
-    "electric.parts": "parts",
-    "electric.safety": "Safety circuit",
-    "electric.safety-how": "Two channels of {relay}. Each device opens both; the relay halts the motion controller "
-    "at once, which brakes all axes (stop category 1 of IEC 60204-1), and then takes the torque from all "
-    "amplifiers. The circuit responds in {circuit}; the last axis, {axis}, stands after {whole}.",
-    "electric.residual": "Amplifiers keep a dangerous voltage after they are switched off: measure below 60 V "
-    "before their covers are opened (IEC 60204-1, 6.2.4).",
-    "electric.single-line": "Supply and motors in a single line",
-    "electric.direct": "{volts} direct current",
-    "electric.brakes": "Brakes",
-    "electric.brakes-how": "A brake holds what would sink; its amplifier releases it with the torque and lets it fall "
-    "when the torque is taken off.",
-    "electric.feeds": "What feeds what",
-    "electric.consumer": "consumer",
-    "electric.volts": "voltage [V]",
-    "electric.all-power": "power of all",
-    "electric.fed-by": "fed by",
-    "electric.source": "{sign}, {row}: loaded with {load} of {rated}.",
-    "electric.braking": "The braking module R1 on the bars of 48 V burns what steppers give back while they brake.",
-    "electric.braking-title": "Braking",
-    "electric.braking-how": "What a motor gives back, with its rotor and without friction: the capacitors of its "
-    "amplifier store it for the next acceleration, or a resistor burns its mean power.",
-    "electric.stop-energy": "energy of a stop",
-    "electric.mean-braking": "mean power",
-    "electric.stored": "stored",
-    "electric.burnt": "resistor",
-    "electric.channels": "Inputs of the modules",
-    "electric.channels-how": "Each module is on the bus of the motion controller A1, which reports a sensor by its "
-    "number in TieStatus and EndStatus.",
-    "electric.module": "module",
-    "electric.inputs": "inputs",
-    "electric.piece": "pieces, by number",
-    "electric.connected-at": "connected at",
-    "electric.cabinet": "Cabinet",
-    "electric.cabinet-how": "{size} mm of sheet steel, IP54; with what stands on its rails {mass}. Its devices lose "
-    "{heat} at their rated power, which walls and fan carry at {rise} over the room.",
-    "electric.enabling-how": "The enabling switch {sign} lets one axis jog at a reduced speed while the guards are "
-    "open (IEC 60204-1, 9.2.4): both of its channels bridge the guards in the relay.",
-    "electric.sign": "sign",
-    "electric.amplifier": "amplifier [A]",
-    "electric.relay": "safety relay",
-    "electric.reset": "reset {sign}",
-    "electric.halt": "halt, at once",
-    "electric.amplifiers": "amplifiers",
-    "electric.feedback": "feedback",
     # Joint
     "joint.from-front": "From the front: what comes in bold lines, what stands dashed",
     "joint.from-top": "From above: what comes in bold lines, what stands dashed",
@@ -265,8 +189,8 @@ PAPERS = {
     "risk.head": "head",
     "risk.body": "body",
     "risk.fence": "from the fence",
-    "risk.needed": "needed",
-    "risk.reached": "reached",
+    "risk.needed": "distance needed to the fence",
+    "risk.reached": "reached (distance below the one needed)",
     "risk.yes": "yes",
     "risk.no": "no",
     "risk.energies": "Stored energies",
@@ -375,6 +299,18 @@ PAPERS = {
     "manual.mass": "mass",
     "manual.tighten": "screws, keys and welds",
     "manual.weld": "weld {size}",
+    "manual.tools": "tools and agents",
+    "manual.tools-title": "Tools",
+    "manual.for-screws": "screws",
+    "manual.tools-how": "Keys, a torque wrench for the torques beside the screws, a level, a rule; slings and a hoist "
+    "for what weighs over {mass} (ISO 11228-1), the frame in its eye bolts; thread lock of medium strength for screws "
+    "of bodies that move, oil for all others (ISO 4762 and ISO 4017, 8.8); grease of NLGI 2 for bearings, guides and "
+    "springs.",
+    "manual.hexagon-key": "hexagon key {size}",
+    "manual.spanner": "spanner {size}",
+    "manual.lock": "thread lock",
+    "manual.grease": "grease",
+    "manual.hoist": "hoist, slings",
     "manual.then": "Then",
     "manual.then-how": "Wire the loom by the electrical plan, oil and grease it by the maintenance, set it by the "
     "commissioning list.",
@@ -383,7 +319,8 @@ PAPERS = {
     "the straight moves that are named, past all that stands; one that cannot fails the check of the assembly. What "
     "is there several times is put together once in the list. What comes from below comes while the machine is lifted.",
     "manual.stack": "Order along the axis, step {step}",
-    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind.",
+    "manual.stack-how": "In the order in which they lie, each with its angle about the axis from the first of a kind. "
+    "Measured over all when they are clamped: {length}.",
     "manual.times": "times",
     "manual.run": "parts that follow each other",
     # List

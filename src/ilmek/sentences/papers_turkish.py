@@ -1,6 +1,9 @@
 """The sentences of a machine's papers in Turkish."""
 
+from ilmek.sentences.electric_turkish import ELECTRIC
+
 PAPERS = {
+    **ELECTRIC,
     # Paper
     "paper.index": "Klasörün dizini",
     "paper.pages": "Belgeler",
@@ -8,6 +11,7 @@ PAPERS = {
     "paper.drawings": "Teknik resimler",
     "paper.shapes": "Konturlar ve katı modeller",
     "paper.motions": "Denetleyiciler için hareketler",
+    "paper.io": "Denetimin giriş ve çıkışları",
     "paper.rows": "{count} satır",
     "paper.measured": "ölçülen",
     "paper.not-released": "ONAYLANMADI",
@@ -65,6 +69,7 @@ PAPERS = {
     "setting.source": "kaynak",
     "setting.assumed": "bu projenin varsayımı",
     "setting.stand": "Tezgâhın duruşu",
+    "setting.pitch": "ağızlıkta {count} çözgünün genişliği, ilkinin sol kenarından sonuncununkine",
     "setting.level": "taban kirişlerinin terazisi, boyuna ve enine",
     "setting.foot": "her ayarlı ayağın yükü",
     "setting.fell": "dokuma sınırının yerden yüksekliği",
@@ -83,7 +88,7 @@ PAPERS = {
     "setting.lifted": "kaldırılmış çözgünün gerginliği, ağızlık açık",
     "setting.tools": "Takımlar",
     "setting.beat-stroke": "vuruş stroku, dokuma sınırına kadar",
-    "setting.row-pitch": "on sıradan sonra iki sıranın aralığı",
+    "setting.row-pitch": "iki sıranın aralığı, on sıranın ortalaması",
     "setting.weft-height": "atılan atkının dokuma sınırından yüksekliği",
     "setting.retreat": "kafaların geri çekilmesi; geri çekilme algılayıcısı burada anahtarlar",
     "setting.pair": "açıcının yuvalarında çözgü çiftinin aralığı",
@@ -154,86 +159,6 @@ PAPERS = {
     "direction.front": "öne",
     "direction.back": "arkaya",
     "direction.both": "{first}, {second}",
-    # Electric
-    "electric.title": "Elektrik planı",
-    "electric.lead": "Besleme, akıma göre sigorta ve kablolarıyla motorlar, algılayıcılar, klemensler, güvenlik "
-    "devresi",
-    "electric.supply": "Besleme",
-    "electric.supply-how": "Bütün motorlar anma gücünde; ana şalter kilitlenebilir ve bütün gerilimli iletkenleri "
-    "ayırır (IEC 60204-1, 5.3).",
-    "electric.what": "büyüklük",
-    "electric.value": "değer",
-    "electric.mains": "şebeke",
-    "electric.connected": "bağlı yük",
-    "electric.mean": "dokurken ortalama güç",
-    "electric.main-current": "akım",
-    "electric.main-fuse": "ana sigortalar",
-    "electric.main-wire": "şebeke kablosu",
-    "electric.motors": "Motorlar",
-    "electric.motors-how": "2 kW'a kadar servoların sürücüleri bir faz ile N'de, daha büyükleri üç fazda; adım "
-    "motorlarınınkiler 48 V'ta. Akım sargılarınkidir; her sigorta sürücüsünün çektiğinin 1,25 katını, "
-    "her kablo sigortanın anma akımını taşır: PVC yalıtımlı bakır, 40 °C'de B2 yöntemi, IEC 60204-1, 12.4 ve "
-    "çizelge 6, yan yana yatan kabloların katsayısıyla.",
-    "electric.motor": "motor",
-    "electric.designation": "tanım",
-    "electric.pieces": "adet",
-    "electric.power": "anma gücü",
-    "electric.current": "akım [A]",
-    "electric.fuse": "sigorta [A]",
-    "electric.section": "kesit [mm²]",
-    "electric.together": "yan yana kablo",
-    "electric.sensors": "Algılayıcılar",
-    "electric.device": "aygıt",
-    "electric.signals": "sinyaller",
-    "electric.terminals": "Klemensler",
-    "electric.terminals-how": "`ilmek plc` komutunun yazdığı io.csv'de adresi olan her sinyal için klemensin bir katı.",
-    "electric.signal": "sinyal",
-    "electric.terminal": "klemens",
-    "electric.level": "kat",
-    "electric.parts": "parçalar",
-    "electric.safety": "Güvenlik devresi",
-    "electric.safety-how": "{relay} iki kanallıdır. Her aygıt ikisini de açar; röle hareket denetleyicisini hemen "
-    "durdurur, bu da bütün eksenleri frenler (IEC 60204-1'in 1 numaralı durdurma kategorisi), sonra bütün "
-    "sürücülerin torkunu keser. Devre {circuit} içinde tepki verir; son eksen, {axis}, {whole} sonra durur.",
-    "electric.residual": "Sürücüler kapatıldıktan sonra da tehlikeli gerilim taşır: kapaklar açılmadan 60 V'un "
-    "altı ölçülmelidir (IEC 60204-1, 6.2.4).",
-    "electric.single-line": "Tek hat şeması: besleme ve motorlar",
-    "electric.direct": "{volts} doğru akım",
-    "electric.brakes": "Frenler",
-    "electric.brakes-how": "Fren, inebilecek olanı tutar; sürücüsü onu torkla birlikte açar, tork kesilince bırakır.",
-    "electric.feeds": "Neyi ne besler",
-    "electric.consumer": "tüketici",
-    "electric.volts": "gerilim [V]",
-    "electric.all-power": "hepsinin gücü",
-    "electric.fed-by": "besleyen",
-    "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklüdür.",
-    "electric.braking": "48 V baralarındaki frenleme modülü R1, adım motorlarının frenlerken geri verdiğini yakar.",
-    "electric.braking-title": "Frenleme",
-    "electric.braking-how": "Bir motorun rotoruyla ve sürtünmesiz geri verdiği: sürücüsünün kondansatörleri bunu "
-    "sonraki hızlanma için saklar ya da bir direnç ortalama gücünü yakar.",
-    "electric.stop-energy": "bir duruşun enerjisi",
-    "electric.mean-braking": "ortalama güç",
-    "electric.stored": "saklanan",
-    "electric.burnt": "direnç",
-    "electric.channels": "Modüllerin girişleri",
-    "electric.channels-how": "Her modül, hareket denetleyicisi A1'in veri yolundadır; A1 bir algılayıcıyı TieStatus ve "
-    "EndStatus içinde numarasıyla bildirir.",
-    "electric.module": "modül",
-    "electric.inputs": "girişler",
-    "electric.piece": "parçalar, numarayla",
-    "electric.connected-at": "bağlandığı yer",
-    "electric.cabinet": "Pano",
-    "electric.cabinet-how": "{size} mm çelik sac, IP54; raylarındaki aygıtlarla {mass}. Aygıtları anma güçlerinde "
-    "{heat} ısı verir; duvarlar ve fan bunu odanın {rise} üstünde taşır.",
-    "electric.enabling-how": "Onay anahtarı {sign}, koruyucular açıkken tek bir eksenin düşük hızla yürütülmesine izin "
-    "verir (IEC 60204-1, 9.2.4): iki kanalı rölede koruyucuları köprüler.",
-    "electric.sign": "işaret",
-    "electric.amplifier": "sürücü [A]",
-    "electric.relay": "emniyet rölesi",
-    "electric.reset": "yeniden kurma {sign}",
-    "electric.halt": "duruş, hemen",
-    "electric.amplifiers": "sürücüler",
-    "electric.feedback": "geri bildirim",
     # Joint
     "joint.from-front": "Önden: gelen kalın, duran kesik çizgiyle",
     "joint.from-top": "Üstten: gelen kalın, duran kesik çizgiyle",
@@ -264,8 +189,8 @@ PAPERS = {
     "risk.head": "baş",
     "risk.body": "gövde",
     "risk.fence": "çitten uzaklık",
-    "risk.needed": "gereken",
-    "risk.reached": "erişilir mi",
+    "risk.needed": "çite gereken uzaklık",
+    "risk.reached": "erişilir mi (gerekenden yakın)",
     "risk.yes": "evet",
     "risk.no": "hayır",
     "risk.energies": "Depolanmış enerjiler",
@@ -374,6 +299,17 @@ PAPERS = {
     "manual.mass": "kütle",
     "manual.tighten": "vida, kama ve kaynaklar",
     "manual.weld": "kaynak {size}",
+    "manual.tools": "takım ve gereç",
+    "manual.tools-title": "Takımlar",
+    "manual.for-screws": "vidalar",
+    "manual.tools-how": "Anahtarlar, vidaların yanındaki torklar için tork anahtarı, su terazisi, cetvel; {mass} "
+    "üstündeki ağırlıklar için sapan ve vinç (ISO 11228-1), gövde mapalarından; hareketli parçaların vidalarına orta "
+    "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres.",
+    "manual.hexagon-key": "alyan anahtar {size}",
+    "manual.spanner": "anahtar {size}",
+    "manual.lock": "vida sabitleyici",
+    "manual.grease": "gres",
+    "manual.hoist": "vinç, sapan",
     "manual.then": "Sonra",
     "manual.then-how": "Tezgâhı elektrik planına göre bağlayın, bakım belgesine göre yağlayın, devreye alma "
     "listesine göre ayarlayın.",
@@ -382,7 +318,8 @@ PAPERS = {
     "hareketlerle, duranların yanından yerine ulaşır; ulaşamayan parça montaj kontrolünden geçmez. Birkaç tane "
     "olanın birleştirilmesi listede bir kez verilir. Alttan gelen parçalar, makine kaldırılmışken gelir.",
     "manual.stack": "Eksen boyunca sıra, adım {step}",
-    "manual.stack-how": "Dizildikleri sırayla; her biri, kendi türünün ilkinden eksen çevresindeki açısıyla.",
+    "manual.stack-how": "Dizildikleri sırayla; her biri, kendi türünün ilkinden eksen çevresindeki açısıyla."
+    " Sıkılınca ölçülen toplam uzunluk: {length}.",
     "manual.times": "kez",
     "manual.run": "art arda gelen parçalar",
     # List

@@ -48,6 +48,12 @@ SHEETS = {
     "sheet.rings-bonded": "Inner rings of both bearings bonded with retaining compound, against the spacers",
     "sheet.shims": "Pile at nominal thickness, of sheets of {kit} mm; chosen at assembly: 0 to {most}, to {step}",
     "sheet.bonded": "bonded on its shaft with retaining compound",
+    "sheet.gear": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, tip ⌀{tip}, root "
+    "⌀{root}, class {quality}",
+    "sheet.rack": "teeth: module {module}, {teeth} teeth, pressure angle {angle}, pitch {pitch}, tip "
+    "{tip} over the pitch line, class {quality}",
+    "sheet.belt-teeth": "side on the belt: {teeth} teeth of the profile {belt}, pitch {pitch}, across the length",
+    "sheet.cutting-edge": "upper edge ground to {angle} on the side away from the face, sharp: no break of this edge",
     "sheet.notes": "Notes",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Contour: {file}, scale 1:1",
@@ -92,6 +98,7 @@ SHEETS = {
     "sheet.form": "Form, position",
     "sheet.positions": "Positions of the welded pieces from their lower left rear corner, X right, Y up, Z front",
     "sheet.members": "Consists of",
+    "sheet.item-outline": "Outline of item {item} ({scale})",
     "sheet.item": "Item",
     "sheet.section": "Section",
     "sheet.length": "Length",

@@ -48,6 +48,12 @@ SHEETS = {
     "sheet.rings-bonded": "İki rulmanın iç bilezikleri ara parçalara dayalı yapıştırılır",
     "sheet.shims": "Anma kalınlığında yığın, {kit} mm saclardan; montajda seçilir: 0 ile {most} arası, {step} adımla",
     "sheet.bonded": "miline geçme yapıştırıcısı ile yapıştırılır",
+    "sheet.gear": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, baş ⌀{tip}, dip ⌀{root}, "
+    "sınıf {quality}",
+    "sheet.rack": "dişler: modül {module}, {teeth} diş, kavrama açısı {angle}, adım {pitch}, baş adım "
+    "çizgisinin {tip} üstünde, sınıf {quality}",
+    "sheet.belt-teeth": "kayış tarafı: {belt} profilinde {teeth} diş, adım {pitch}, boya dik",
+    "sheet.cutting-edge": "üst kenar alından uzak yüzde {angle} taşlanır, keskin: bu kenar kırılmaz",
     "sheet.notes": "Notlar",
     "sheet.note": "{number}  {line}",
     "sheet.contour": "Kontur: {file}, ölçek 1:1",
@@ -92,6 +98,7 @@ SHEETS = {
     "sheet.form": "Biçim, konum",
     "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",
+    "sheet.item-outline": "{item} no.lu parçanın konturu ({scale})",
     "sheet.item": "Sıra",
     "sheet.section": "Kesit",
     "sheet.length": "Boy",

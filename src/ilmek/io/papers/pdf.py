@@ -5,6 +5,7 @@
 A paper whose widest table has not even room for its words stands on its side.
 """
 
+import math
 from collections import deque
 from collections.abc import Iterator
 from html import escape
@@ -113,10 +114,13 @@ def _story(paper: PrintedPaper, widths: list[Widths], room: float, high: float) 
     yield Paragraph(escape(paper.lead), _LEAD), 0.0
     yield from ((Paragraph(escape(text), _WARNING), 0.0) for text in paper.warning)
     for section, own in zip(paper.sections, widths, strict=True):
-        yield Paragraph(escape(section.title), _SECTION), _KEPT
-        yield from ((Paragraph(escape(text), _PLAIN), 0.0) for text in section.paragraphs)
-        if section.picture:
-            yield SvgPicture(section.picture, 0.6 * high), 0.0
+        texts = [Paragraph(escape(text), _PLAIN) for text in section.paragraphs]
+        picture = SvgPicture(section.picture, 0.6 * high) if section.picture else None
+        under = _KEPT if picture is None else math.fsum(part.wrap(room, high)[1] + _AFTER for part in (*texts, picture))
+        yield Paragraph(escape(section.title), _SECTION), under
+        yield from ((text, 0.0) for text in texts)
+        if picture is not None:
+            yield picture, 0.0
         if section.heads:
             yield _table(section, own, room), 0.0
 

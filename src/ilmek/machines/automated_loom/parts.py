@@ -10,7 +10,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.signals import signal_count
+from ilmek.machines.automated_loom.equipment.signals import signals_of
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, RailTask, frame_for
 from ilmek.machines.automated_loom.frame_modes import sway_checks
@@ -59,7 +59,7 @@ class PartsList:
 def needs_of(loom: LoomDesign, parts: Iterable[BillLine]) -> ControlNeeds:
     """What the cabinet has room for, by the motors of a parts list, each with an amplifier."""
     motors = ((part.kind, part.power, part.number) for part in parts if part.drives)
-    return control_needs(motors, signal_count(loom.heads, loom.weavers))
+    return control_needs(motors, len(signals_of(loom.heads, loom.weavers)))
 
 
 @lru_cache(maxsize=16)

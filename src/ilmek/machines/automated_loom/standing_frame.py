@@ -70,12 +70,14 @@ def control_needs(motors: Iterable[tuple[str, float, int]], signals: int) -> Con
     steppers = math.fsum(number * load.apparent for load, number in loads if load.volts == STEPPER_VOLTS)
     row, number = supply_for(STEPPER_VOLTS, steppers)
     each = row.size[0] + row.phases * fuse_of(_LEAST_FUSE, MAINS).row.size[0]
-    terminals = math.ceil(signals / 2) * TERMINAL.size[0]
+    terminals = (signals + _TERMINALS) * TERMINAL.size[0]
     return ControlNeeds(sum(number for _, number in loads), _OTHERS + number * each + terminals + math.fsum(fuses))
 
 
-_OTHERS, _LEAST_FUSE = 0.75, 2.0
-"""Length of what is on the rails beside fuses, supplies of steppers, terminals [m], and rating of their fuses [A]."""
+_OTHERS, _LEAST_FUSE, _TERMINALS = 0.75, 2.0, 20
+"""Length of what is on the rails beside fuses, supplies of steppers, terminals [m], and rating of their fuses [A];
+terminals of safety devices and of 24 V beside one for each signal.
+"""
 
 
 def standing_frame(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds) -> RigidBody:

@@ -109,7 +109,7 @@ def _of_a_drive(loom: HandLoom, drive: BeatDrive) -> Iterator[Occurrence]:
     post = member("beat-post", "post of the beat", posts.section, posts.height)
     yield Occurrence(post, tuple(placement(side, over, posts.depth).after(UPRIGHT) for side in (-x, x)))
     motors = ((line.kind, line.power, line.number) for line in drive.parts if line.drives)
-    needs = control_needs(motors, beat_signals(loom.weavers))
+    needs = control_needs(motors, len(beat_signals(loom.weavers)))
     yield from control_parts(layout.face + section.side, layout.floor, layout.depth - layout.reach, needs)
 
 

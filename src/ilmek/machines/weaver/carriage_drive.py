@@ -30,6 +30,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Check, at_most, must
+from ilmek.sentences import Sentence
 from ilmek.units import format_quantity, in_mm, mm, turn
 
 CARRIAGE_MOTOR, CARRIAGE_PULLEY, BELT_LOOP = part_id("carriage-motor"), part_id("carriage-pulley"), part_id("belt-loop")
@@ -199,7 +200,10 @@ def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float, heads: int) -> I
         (BELT_COVER, "cover of the belt's clamp", drive.low, depth - GRIP / 2),
     ):
         places = (placement(x, (foot + under) / 2, at).after(ALONG_WIDTH) for x in starts)
-        yield _made(name, title, box(under - foot, GRIP, CLAMP), *places)
+        teeth = round(CLAMP / BELT.belt.pitch)
+        profile = Sentence("sheet.belt-teeth", belt=BELT.belt.name, teeth=str(teeth), pitch=in_mm(BELT.belt.pitch))
+        notes = (profile,) if name == BELT_CLAMP else ()
+        yield _made(name, title, box(under - foot, GRIP, CLAMP), *places, notes=notes)
 
 
 def slower(weaver: Weaver, drive: CarriageDrive) -> float:
@@ -263,5 +267,7 @@ def _upright_pair(about: Placement, height: float, aside: float) -> tuple[Placem
     return tuple(_upright(about.after(placement(x)), height) for x in (-aside, aside))
 
 
-def _made(name: str, title: str, shape: Shape, *positions: Placement, size: str = "") -> Occurrence:
-    return Occurrence(Part(name, title, "machined link", size, shape, ALUMINIUM), positions)
+def _made(
+    name: str, title: str, shape: Shape, *positions: Placement, size: str = "", notes: tuple[str, ...] = ()
+) -> Occurrence:
+    return Occurrence(Part(name, title, "machined link", size, shape, ALUMINIUM, notes=notes), positions)

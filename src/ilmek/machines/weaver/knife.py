@@ -41,7 +41,7 @@ from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity, in_mm, mm, turn
+from ilmek.units import deg, format_quantity, in_mm, mm, turn
 
 KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
     part_id("knife"),
@@ -162,7 +162,13 @@ def _blade(weaver: Weaver) -> Part:
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
     size = f"{in_mm(2 * half)} x {in_mm(high - low)} x {in_mm(BLADE)}"
-    return Part(KNIFE, "knife", "machined link", size, Prism(Profile(polygon(corners), (slot,)), BLADE), STEEL)
+    note = Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg"))
+    shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
+    return Part(KNIFE, "knife", "machined link", size, shape, STEEL, notes=(note,))
+
+
+EDGE_ANGLE = 25 * deg
+"""Angle of the edge, ground on the side away from the face, on which the flat side shears; assumed by this project."""
 
 
 def _outline(weaver: Weaver) -> tuple[float, float, float]:

@@ -28,6 +28,8 @@ from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, bar, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
+from ilmek.plane.teeth import PRESSURE_ANGLE
+from ilmek.sentences import Sentence
 from ilmek.units import format_quantity, in_mm, mm, turn
 
 HANDLER_BODY, PINION_BODY = part_id("turning pile handler"), part_id("turning pinion")
@@ -124,7 +126,22 @@ def rack(weaver: Weaver) -> Part:
     corners.append(complex(-1.25 * module, teeth * pitch))
     size = f"module {format_quantity(module / mm, '')}, {teeth} teeth"
     shape = Prism(Profile(polygon(np.array(corners))), FACE)
-    return Part(RACK, "rack of the pile handler", "machined link", size, shape, STEEL)
+    note = Sentence("sheet.rack", **_tooth_data(gear, teeth), pitch=in_mm(pitch), tip=in_mm(STUB * module))
+    return Part(RACK, "rack of the pile handler", "machined link", size, shape, STEEL, notes=(note,))
+
+
+def _tooth_data(gear: Gear, teeth: int) -> dict[str, str]:
+    """Module, teeth, pressure angle, quality of a gear or its rack, in words."""
+    return {
+        "module": in_mm(gear.module),
+        "teeth": str(teeth),
+        "angle": format_quantity(PRESSURE_ANGLE, "deg"),
+        "quality": QUALITY,
+    }
+
+
+QUALITY = "8 ISO 1328-1"
+"""Tolerance class of the teeth: hobbed, or cut by wire; assumed by this project."""
 
 
 def rack_at(weaver: Weaver, upper: float) -> Placement:
@@ -149,7 +166,10 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     outer, wide = CLUTCH
     wheel = Profile(polygon(outline(_gear(weaver))), (circle(0j, outer / 2),))
     size = f"module {format_quantity(_gear(weaver).module / mm, '')}, {TEETH} teeth"
-    pinion = Part(PINION, "pinion of the pile handler", "machined link", size, Prism(wheel, FACE), STEEL)
+    gear = _gear(weaver)
+    radii = {"tip": in_mm(2 * gear.tip_radius), "root": in_mm(2 * gear.root_radius)}
+    note = Sentence("sheet.gear", **_tooth_data(gear, TEETH), **radii)
+    pinion = Part(PINION, "pinion of the pile handler", "machined link", size, Prism(wheel, FACE), STEEL, notes=(note,))
     clutch = Part(
         FREEWHEEL,
         "freewheel of the pile handler",

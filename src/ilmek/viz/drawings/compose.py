@@ -23,6 +23,7 @@ from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.hole_tables import face_views, hole_tables, named_holes
 from ilmek.viz.drawings.joined import joined_views, members_of
 from ilmek.viz.drawings.long import turned_view
+from ilmek.viz.drawings.member_outlines import member_outlines
 from ilmek.viz.drawings.packing import BETWEEN, PAD, packed, top_left
 from ilmek.viz.drawings.paper import (
     BLOCK_HEIGHT,
@@ -32,7 +33,7 @@ from ilmek.viz.drawings.paper import (
     PAPERS,
     SCALES,
     TitleFacts,
-    fitting,
+    folded,
     frame,
     table,
     title_block,
@@ -105,7 +106,7 @@ def arranged(part: DrawnPart, scale: float, project: Projector | None) -> Arrang
         views["front"].datum_mark(complex(*datum[:2]), {"X": 1.0, "Y": 1j})
     more = (*hole_tables(named, datum, part.kinds), *face_views(own, project, named, datum), *more)
     weld_symbols(views["front"], part.welds, flat_foot(scale))
-    return Arrangement(views, (*tables, *more))
+    return Arrangement(views, (*tables, *more, *member_outlines(members, scale)))
 
 
 def sheets_of(part: DrawnPart, issue: Issue, project: Projector | None) -> tuple[DrawingSheet, ...]:
@@ -252,8 +253,9 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
     if not lines:
         return None
     rows = [
-        fitting(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
+        row
         for number, line in enumerate(lines, 1)
+        for row in folded(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
     ]
     return table((Sentence("sheet.notes"),), [(row,) for row in rows])
 

@@ -19,6 +19,7 @@ from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import KeyedCircle, along, as_hole, as_keyed, bounds
 from ilmek.report.sheet import DimensionKind, LineKind
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.face_notes import Z, face_notes
 from ilmek.viz.drawings.features import SAME, distinct, split_holes
 from ilmek.viz.drawings.fits import Fits
 from ilmek.viz.drawings.flat import PARALLEL, square
@@ -64,9 +65,12 @@ def joined_views(
             _dimension(view, members, across, upwards, towards)
             _circles(view, members, (across, upwards, towards), fits)
             _squares(view, (across, upwards), _seen(fits, towards))
+            face_notes(view, fits, across, upwards)
         else:
             centres = _fitted(view, (across, upwards, towards), fits)
             _lengths(view, members, (across, upwards), centres, whole=name == "right")
+        if name == "right":  # faces that the front view shows from before
+            face_notes(view, _seen(fits, Z), across, upwards)
         views[name] = view
     pictorial = DrawnView(scale)
     corner = 1 / math.sqrt(3)
@@ -333,13 +337,19 @@ def _seen_keyed(bore: KeyedCircle, position: Placement, right: FloatArray, up: F
     return bore._replace(centre=seen(bore.centre, position.origin), directions=directions)
 
 
+def members_by_section(members: tuple[Member, ...]) -> dict[tuple[str, str], list[Member]]:
+    """Members by section and length in words: the items of the cut list, in their order."""
+    kinds: dict[tuple[str, str], list[Member]] = {}
+    for member in members:
+        kinds.setdefault(_section(member[0]), []).append(member)
+    return kinds
+
+
 def _cut_list(members: tuple[Member, ...]) -> SheetPicture:
     """Members by section and length, each with where it lies from the lower left rear corner; of many those of one kind
     as a row.
     """
-    kinds: dict[tuple[str, str], list[Member]] = {}
-    for member in members:
-        kinds.setdefault(_section(member[0]), []).append(member)
+    kinds = members_by_section(members)
     if len(members) > MOST_MEMBERS:
         rows = [(str(k), str(len(own)), *words) for k, (words, own) in enumerate(kinds.items(), 1)]
         return table(PIECES, rows[:30], Sentence("sheet.members"))

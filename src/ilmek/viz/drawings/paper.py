@@ -85,6 +85,23 @@ def fitting(words: str, width: float, height: float, least: float = 1.8, *, bold
     return words, height
 
 
+_LINES = 0.35, -2.15
+"""Feet of two lines of 1.8 mm from the middle of a row [mm]."""
+
+
+def folded(
+    words: str, width: float, height: float, least: float = 1.8, *, bold: bool = False
+) -> tuple[tuple[str, ...], float]:
+    """A text in one line, or in two of the least height where it does not fit a width [mm] in one; their height."""
+    line, fitted = fitting(words, width, height, least, bold=bold)
+    parts = words.split(" ")
+    if line == words or len(parts) == 1:
+        return (line,), fitted
+    cuts = ((" ".join(parts[:k]), " ".join(parts[k:])) for k in range(1, len(parts)))
+    halves = min(cuts, key=lambda own: max(words_width(part, least, bold=bold) for part in own))
+    return tuple(fitting(part, width, least, least, bold=bold)[0] for part in halves), least
+
+
 def frame(paper: str) -> SheetPicture:
     """The frame of a sheet with its zones and centring marks."""
     width, height = PAPERS[paper]
@@ -225,10 +242,12 @@ def table(
         y = top - row * (number + 1)
         for k in columns:
             if line[k]:
-                words, height = fitting(line[k], widths[k] - 2.9, 2.5, bold=number == 0)
-                texts.append(
-                    SheetText(complex(float(ends[k]) + 1.5, y + row / 2 - 1.25), words, height, bold=number == 0)
-                )
+                cell, height = folded(line[k], widths[k] - 2.9, 2.5, bold=number == 0)
+                x, feet = float(ends[k]) + 1.5, (-1.25,) if len(cell) == 1 else _LINES
+                texts += [
+                    SheetText(complex(x, y + row / 2 + foot), words, height, bold=number == 0)
+                    for words, foot in zip(cell, feet, strict=True)
+                ]
     bottom = top - row * (len(rows) + 1)
     for number in range(1, len(rows) + 1):
         y = top - row * number

@@ -1,9 +1,9 @@
 """What stands in the cabinet on mounting rails at its side walls: supply, fuses, safety circuit, control, terminals.
 
-Main switch and fuses; supplies of 24 V and of 48 V, with what burns the energy of braking steppers [`power_plan`];
-motion controller, safety relay, inputs for sensors that no terminal takes, and a level of a terminal for each signal
-that has an address [`signals`]. The amplifiers of the axes stand on the rear wall [`standing_frame`]; the rails stand
-before them. A fan in the door where the walls do not pass the heat.
+Fuses; supplies of 24 V and of 48 V, with what burns the energy of braking steppers [`power_plan`]; motion controller,
+safety relay, input modules, and the terminals of all that is outside [`terminals`]. The amplifiers of the axes stand on
+the rear wall [`standing_frame`], over the bar of the protective conductors; the rails stand before them. The door has
+the main switch, whose handle is outside, and a fan with its outlet where the walls do not pass the heat.
 """
 
 import math
@@ -11,9 +11,20 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
 
-from ilmek.elements.cabinet_devices import BRAKING, PROTECTOR, WARMER, fan_for, main_switch, passed
+from ilmek.elements.cabinet_devices import (
+    BRAKING,
+    PROTECTOR,
+    WARMER,
+    fan_for,
+    main_switch,
+    mains_terminal,
+    outlet_of,
+    passed,
+    protective_bar,
+)
 from ilmek.elements.columns import STEEL
 from ilmek.elements.field_devices import (
+    ANALOG_INPUTS,
     CHANNELS,
     CONTROLLER,
     INPUTS,
@@ -23,17 +34,19 @@ from ilmek.elements.field_devices import (
     TERMINAL,
     FieldDevice,
 )
+from ilmek.elements.wiring import section_for
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
 from ilmek.machines.automated_loom.equipment.power_plan import PowerPlan, power_plan
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
+from ilmek.machines.automated_loom.equipment.terminals import module_inputs, terminal_levels, terminals
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.standing_frame import RAIL_ENDS, WALL
 from ilmek.part.extents import Extent
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import Placement, placement
-from ilmek.part.shapes import box
+from ilmek.part.shapes import Placed, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.records import record
 from ilmek.report import Check, at_most
@@ -95,10 +108,13 @@ def circuit_of(site: LoomSite, tree: Tree) -> CabinetCircuit:
     ]
     if signals.TENSION in numbers:
         control.append(_on_rail(signals.STRAIN_AMPLIFIER, "amplifier of the strain", STRAIN_AMPLIFIER, 1))
-    read = sum(numbers.get(name, 0) // share for name, share in signals.READ.items())
-    if read:
-        modules = math.ceil(read / CHANNELS)
-        control.append(_on_rail(signals.INPUTS, "inputs of the motion controller", INPUTS, modules))
+    used = {wire.module: wire.index // wire.channels + 1 for wire in module_inputs(site.signals, numbers)}
+    for name, title, row in (
+        (signals.INPUTS, "inputs of the motion controller", INPUTS),
+        (signals.ANALOG_INPUTS, "analog inputs of the motion controller", ANALOG_INPUTS),
+    ):
+        if name in used:
+            control.append(_on_rail(name, title, row, used[name]))
     switched = sum(numbers.get(name, 0) for name in signals.SWITCHED)
     if switched:
         modules = math.ceil(switched / CHANNELS)
@@ -108,21 +124,26 @@ def circuit_of(site: LoomSite, tree: Tree) -> CabinetCircuit:
     surface, heat = _surface(cabinet), power_plan(tree, site.heads, drawn).heat
     carried, fan = fan_for(heat, surface) or (0.0, None)
     plan = power_plan(tree, site.heads, drawn if fan is None else drawn | {signals.FAN: fan.power})
-    terminals = _on_rail(signals.TERMINAL, "terminal of two signals", TERMINAL, math.ceil(site.signals / 2))
-    return CabinetCircuit(plan, (*_of_supply(plan), *control, terminals), fan, passed(surface) + carried)
+    strip = terminals(terminal_levels(site.signals, tree))
+    wired = _on_rail(signals.TERMINAL, "terminal", TERMINAL, strip)
+    return CabinetCircuit(plan, (*_of_supply(plan), *control, wired), fan, passed(surface) + carried)
 
 
 def _of_supply(plan: PowerPlan) -> Iterator[RailDevice]:
-    """Main switch, supplies, fuses."""
-    yield _on_rail(signals.SWITCH, "main switch", main_switch(plan.main_fuse), 1)
+    """Terminals of the mains: three phases, N and PE; supplies, fuses."""
+    yield _on_rail(signals.MAINS_TERMINAL, "terminal of the mains", mains_terminal(section_for(plan.main_fuse)), 5)
     for source in plan.sources:
         title = "power supply of the control" if source is plan.control else "power supply of the steppers"
         yield _on_rail(source.part, title, source.row, source.number, source.row.rated)
-    yield _on_rail(signals.PROTECTOR, "fuses of 24 V", PROTECTOR, plan.control.number)
+    yield _on_rail(signals.PROTECTOR, "fuses of 24 V", PROTECTOR, math.ceil(len(plan.protected) / _PROTECTED))
     if plan.steppers is not None:
         yield _on_rail(signals.BRAKING, "braking module of the steppers", BRAKING, 1)
     for fuse, number in sorted(plan.fuses.items(), key=lambda own: (own[0].row.size, own[0].rating)):
         yield _on_rail(part_id(f"fuse-{fuse.form}-{fuse.rating:g}"), "fuse", fuse.row, number)
+
+
+_PROTECTED = 4
+"""Channels of a protector."""
 
 
 def _surface(cabinet: Extent) -> float:
@@ -145,12 +166,50 @@ def circuit(site: LoomSite, tree: Tree) -> Tree:
             height += wide
         stands.append(Occurrence(own.part, tuple(positions)))
     stands.append(Occurrence(_rail(long), tuple(_rails(control, both=not left))))
+    return Tree(
+        (RigidBody(CIRCUIT, (*stands, *_in_the_door(control, made), _protection(control, made), _door(control))),)
+    )
+
+
+HANDLE = 0.7
+"""Height of the main switch's handle over the floor, over the cabinet's: 0.6 to 1.9 m by IEC 60204-1, 5.3.4."""
+
+_ASIDE, _FROM_END, _GRIP = (-90 * mm, 130 * mm), 200 * mm, 40 * mm
+"""Axes of fan and main switch from the middle of the door, of fan and outlet from its ends; depth of a handle [m]."""
+
+
+def _in_the_door(control: Extent, made: CabinetCircuit) -> Iterator[Occurrence]:
+    """The main switch, its handle before the door, and the fan with its outlet above it."""
+    middle, rear = float(control.low[0] + control.high[0]) / 2, float(control.low[2])
+    low, high = float(control.low[1]), float(control.high[1])
     if made.fan is not None:
-        x, y, _ = ((control.low + control.high) / 2).tolist()
-        behind = placement(x, y, float(control.low[2]))
-        stands.append(Occurrence(device(signals.FAN, "fan in the door of the cabinet", made.fan), (behind,)))
-    stands.append(_door(control))
-    return Tree((RigidBody(CIRCUIT, tuple(stands)),))
+        x = middle + _ASIDE[0]
+        fan = device(signals.FAN, "fan in the door of the cabinet", made.fan)
+        outlet = device(signals.OUTLET, "outlet of the air in the door", outlet_of(made.fan))
+        yield Occurrence(fan, (placement(x, low + _FROM_END, rear),))
+        yield Occurrence(outlet, (placement(x, high - _FROM_END, rear),))
+    switch = device(signals.SWITCH, "main switch", main_switch(made.plan.main_fuse))
+    assert switch.shape is not None
+    grip = Placed(box(_GRIP, _GRIP, _GRIP), (placement(z=-WALL - _GRIP),))
+    shaped = replace(switch, shape=Sum((Placed(switch.shape), grip)))
+    yield Occurrence(shaped, (placement(middle + _ASIDE[1], low + HANDLE * (high - low), rear),))
+
+
+def _protection(control: Extent, made: CabinetCircuit) -> Occurrence:
+    """The bar of the protective conductors at the foot of the rear wall: of the mains, of each amplifier and supply, of
+    the cabinet, its door and the frame.
+    """
+    plan = made.plan
+    fed = *(motor.number for motor in plan.motors), *(source.number for source in plan.sources)
+    clamps = sum(fed) + _BONDED
+    bar = device(signals.PROTECTIVE_BAR, "bar of the protective conductors", protective_bar(clamps))
+    x, y = float(control.low[0] + control.high[0]) / 2, float(control.low[1]) + _BAR_HEIGHT
+    deep = protective_bar(clamps).size[2]
+    return Occurrence(bar, (placement(x, y, float(control.high[2]) - WALL - deep),))
+
+
+_BONDED, _BAR_HEIGHT = 4, 30 * mm
+"""Protective conductors of mains, cabinet, door and frame; height of their bar over the cabinet's foot [m]."""
 
 
 def _door(control: Extent) -> Occurrence:
@@ -225,7 +284,7 @@ def circuit_checks(site: LoomSite, tree: Tree) -> tuple[Check, ...]:
             made.length,
             2 * rail_length(control),
             "mm",
-            f"two side walls of the cabinet; {site.signals} signals, two on a terminal",
+            f"two side walls of the cabinet; {len(site.signals)} signals",
         ).with_cure(fewer, signals.TERMINAL, part_id("mounting-rail")),
         *loads,
         at_most(

@@ -6,8 +6,8 @@ All motors at their rated power at once, e of `motor_loads`: no cyclogram is so 
 """
 
 import math
-from collections import Counter
-from collections.abc import Mapping
+from collections import Counter, defaultdict
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
 from ilmek.elements.cabinet_devices import FANS, Fuse, PowerSupply, fuse_of, supply_for
@@ -61,16 +61,20 @@ class Source:
     @property
     def fused(self) -> Fuse:
         """The fuse of each of its phases."""
-        return fuse_of(fuse_for(self.drawn), MAINS if self.row.phases == 3 else PHASE)
+        return fuse_of(fuse_for(self.drawn, inrush=self.row.inrush), MAINS if self.row.phases == 3 else PHASE)
 
 
 @record
 class PowerPlan:
-    """What feeds what: motors with their amplifiers, supplies of direct current, main fuses."""
+    """What feeds what: motors with their amplifiers, supplies of direct current, main fuses.
+
+    protected  channels of the protector of 24 V: group of consumers and current of each [A]
+    """
 
     motors: tuple[MotorCircuit, ...]
     steppers: Source | None
     control: Source
+    protected: tuple[tuple[str, float], ...] = ()
 
     @property
     def sources(self) -> tuple[Source, ...]:
@@ -84,9 +88,43 @@ class PowerPlan:
         return servos + math.fsum(own.load / own.row.efficiency for own in self.sources)
 
     @property
+    def phasing(self) -> Mapping[str, tuple[int, ...]]:
+        """The phase 1, 2 or 3 of each piece that one phase feeds, by the id of its part: the largest first, each on the
+        phase that has least.
+        """
+        pieces = [
+            (own.load.drawn, own.part.id) for own in self.motors if own.load.volts == PHASE for _ in range(own.number)
+        ]
+        for own in self.sources:
+            if own.row.phases == 1:
+                each = own.load / (own.number * own.row.efficiency * PHASE)
+                pieces += [(each, own.part)] * own.number
+        currents, phases = [0.0, 0.0, 0.0], defaultdict[str, tuple[int, ...]](tuple)
+        for current, name in sorted(pieces, reverse=True):
+            phase = currents.index(min(currents))
+            currents[phase] += current
+            phases[name] += (phase + 1,)
+        return phases
+
+    @property
+    def currents(self) -> tuple[float, float, float]:
+        """Of the three phases of the mains [A]."""
+        drawn = {own.part.id: own.load.drawn for own in self.motors}
+        drawn |= {own.part: own.load / (own.number * own.row.efficiency * PHASE) for own in self.sources}
+        three = math.fsum(own.number * own.load.drawn for own in self.motors if own.load.volts == MAINS)
+        supplied = (own.load / own.row.efficiency for own in self.sources if own.row.phases == 3)
+        three += math.fsum(supplied) / (math.sqrt(3) * MAINS)
+        loads = [three, three, three]
+        for name, phases in self.phasing.items():
+            for phase in phases:
+                loads[phase - 1] += drawn[name]
+        first, second, third = loads
+        return first, second, third
+
+    @property
     def current(self) -> float:
-        """Of each phase of the mains [A]."""
-        return self.connected / (math.sqrt(3) * MAINS)
+        """Of the phase that has most [A]."""
+        return max(self.currents)
 
     @property
     def main_fuse(self) -> float:
@@ -141,11 +179,41 @@ def power_plan(tree: Tree, heads: int, more: Mapping[str, float] = MappingProxyT
     drawn = {part.id: number * consumption(part) for part, number in tree.occurrences() if consumption(part)}
     drawn |= more
     load = math.fsum(own.number * own.load.apparent for own in fed)
+    processes = {part.id: part.process for part, _ in tree.occurrences()}
     return PowerPlan(
         motors,
         _source(signals.STEPPER_SUPPLY, STEPPER_VOLTS, load, tuple(own.part.id for own in fed)) if fed else None,
         _source(signals.SUPPLY, CONTROL_VOLTS, math.fsum(drawn.values()), tuple(drawn)),
+        tuple(_protected(drawn, processes)),
     )
+
+
+PROTECTED = 6.0
+"""Rating of a channel of the protector of 24 V [A]."""
+
+
+_IN_CABINET = frozenset(
+    (signals.CONTROLLER, signals.INPUTS, signals.OUTPUTS, signals.ANALOG_INPUTS, signals.STRAIN_AMPLIFIER, signals.FAN)
+)
+
+
+def group_of(name: str, process: str) -> str:
+    """The group of a consumer of 24 V, by its id and process, which channels of the protector feed."""
+    if process in COILS:
+        return "coils"
+    if name == signals.RELAY or process in {"interlock", "light grid"}:
+        return "safety"
+    return "control" if name in _IN_CABINET else "sensors"
+
+
+def _protected(drawn: Mapping[str, float], processes: Mapping[str, str]) -> Iterator[tuple[str, float]]:
+    """The channels of the protector, as many of a group as its current needs."""
+    currents: dict[str, float] = defaultdict(float)
+    for name, power in drawn.items():
+        currents[group_of(name, processes.get(name, ""))] += power / CONTROL_VOLTS
+    for group, current in currents.items():
+        channels = math.ceil(current / PROTECTED - 1e-9)
+        yield from ((group, current / channels) for _ in range(channels))
 
 
 def _source(part: str, volts: float, load: float, feeds: tuple[str, ...]) -> Source:

@@ -7,6 +7,7 @@ their sensors are named beside the signal that they carry out.
 
 from collections.abc import Mapping
 from types import MappingProxyType
+from typing import TypeAlias
 
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.own_parts import RETREAT_MOTOR
@@ -36,7 +37,8 @@ TERMINAL, STEPPER_SUPPLY, BRAKING = part_id("terminal"), part_id("stepper-supply
 SWITCH, PROTECTOR, FAN = part_id("main-switch"), part_id("circuit-protector"), part_id("cabinet-fan")
 DOOR = part_id("cabinet-door")
 STRAIN_AMPLIFIER, YARN_INPUTS = part_id("strain-amplifier"), part_id("yarn-inputs")
-INPUTS, OUTPUTS = part_id("inputs"), part_id("outputs")
+INPUTS, OUTPUTS, ANALOG_INPUTS = part_id("inputs"), part_id("outputs"), part_id("analog-inputs")
+OUTLET, PROTECTIVE_BAR, MAINS_TERMINAL = part_id("outlet-filter"), part_id("protective-bar"), part_id("mains-terminal")
 BENCH_STOP, ENABLING = part_id("bench-stop"), part_id("enabling-switch")
 TENSION, RETREATED = part_id("tension-sensor"), part_id("retreat-sensor")
 HEAD_ANGLE, BEAT_ANGLE, SHED_ANGLE = part_id("head-encoder"), part_id("beat-encoder"), part_id("shed-encoder")
@@ -51,8 +53,13 @@ ENCODED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """Encoders, and the motors of which each is on the one that a loom has: its amplifier reads it."""
 
-READ: Mapping[str, int] = MappingProxyType({INDEX_SENSOR: 1, WEFT_STOP: 1, WARP_STOP: 2})
-"""Sensors that inputs in the cabinet read, and the pieces that give one signal: sender and receiver of a barrier."""
+READ: Mapping[str, int] = MappingProxyType({INDEX_SENSOR: 1, WEFT_STOP: 1, WARP_STOP: 2, RELAY: 1})
+"""What inputs in the cabinet read besides signals of the program, and the pieces that give one signal: sender and
+receiver of a barrier.
+"""
+
+ANALOG = frozenset(("WarpTension",))
+"""Signals of 0 ... 10 V."""
 
 SWITCHED = (CLUTCH,)
 """Coils that outputs in the cabinet switch, one each; brakes and solenoids are switched by amplifiers."""
@@ -66,8 +73,8 @@ _BEAT = (CRANK_MOTOR, OUTPUTS, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR
 _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EmergencyStop": (STOP, RELAY),
     "DoorClosed": (INTERLOCK, RELAY),
-    "WarpTensionKnown": (STRAIN_AMPLIFIER, TENSION),
-    "WarpTension": (STRAIN_AMPLIFIER, TENSION),
+    "WarpTensionKnown": (STRAIN_AMPLIFIER, TENSION, INPUTS),
+    "WarpTension": (STRAIN_AMPLIFIER, TENSION, ANALOG_INPUTS),
     "GrippersOpen": (CONTROLLER, HEAD_ANGLE),
     "HeadsClear": (RETREATED,),
     "BeaterBack": (CONTROLLER, BEAT_ANGLE),
@@ -76,7 +83,7 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "TieStatus": (CONTROLLER, YARN_INPUTS, YARN_STOP),
     "EndDone": (CONTROLLER,),
     "EndStatus": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
-    "Halt": (RELAY,),
+    "Halt": (CONTROLLER,),
     "TieStart": (CONTROLLER, *_KNOT),
     "TieColumn": (CONTROLLER, CARRIAGE_MOTOR),
     "TieTube": (CONTROLLER, *_TUBE),
@@ -87,7 +94,8 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
 
 SIGNALS: Mapping[str, tuple[str, ...]] = MappingProxyType(_BY_SIGNAL)
 """Ids of the parts of each signal, the one that is wired to the control first, then what the motion controller reads or
-drives for it; of the kinds of beat, weft and knotting a loom has its own.
+drives for it; of the kinds of beat, weft and knotting a loom has its own. A signal of which the controller is the first
+passes between the programs in it, without a wire.
 """
 
 OF_WEAVERS = ("HandsOnButtons", "GridFree")
@@ -106,7 +114,11 @@ OF_A_BEAT = frozenset(
 """Signals of a loom of which the beat alone is driven."""
 
 
-def signals_of(heads: int, weavers: int = 0) -> tuple[tuple[str, tuple[str, ...]], ...]:
+Signal: TypeAlias = tuple[str, tuple[str, ...]]
+"""Name of a signal, and the ids of its parts."""
+
+
+def signals_of(heads: int, weavers: int = 0) -> tuple[Signal, ...]:
     """The signals of a loom with a number of heads, or for a number of weavers, each with the ids of its parts."""
     if not weavers:
         return tuple(
@@ -121,19 +133,10 @@ def signals_of(heads: int, weavers: int = 0) -> tuple[tuple[str, tuple[str, ...]
     return (*alike, *((f"{hands}[{index}]", (HANDS, RELAY)) for index in range(weavers)), (grid, (GRID, RELAY)))
 
 
-def beat_signals(weavers: int) -> int:
-    """Number of the signals of a loom of which the beat alone is driven.
+def beat_signals(weavers: int) -> tuple[Signal, ...]:
+    """The signals of a loom of which the beat alone is driven.
 
-    >>> beat_signals(2)
+    >>> len(beat_signals(2))
     11
     """
-    return len(OF_A_BEAT) + weavers - 1
-
-
-def signal_count(heads: int, weavers: int = 0) -> int:
-    """Number of those signals.
-
-    >>> signal_count(1), signal_count(3), signal_count(0, 2)
-    (19, 31, 14)
-    """
-    return len(signals_of(heads, weavers))
+    return tuple(own for own in signals_of(0, weavers) if own[0].partition("[")[0] in OF_A_BEAT)

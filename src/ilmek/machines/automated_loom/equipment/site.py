@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.signals import signal_count
+from ilmek.machines.automated_loom.equipment.signals import Signal, signals_of
 from ilmek.machines.automated_loom.equipment.stopping import StoppingTime, stopping_time
 from ilmek.machines.automated_loom.equipment.surroundings import Surroundings, surroundings
 from ilmek.records import record
@@ -21,7 +21,7 @@ class LoomSite:
     stops: StoppingTime
     floor: float
     width: float
-    signals: int
+    signals: tuple[Signal, ...]
     heads: int
     weavers: int
 
@@ -34,7 +34,7 @@ def site_of(loom: LoomDesign) -> LoomSite:
         stops=stopping_time(loom),
         floor=loom.side.floor,
         width=loom.task.cloth.width,
-        signals=signal_count(loom.heads, loom.weavers),
+        signals=signals_of(loom.heads, loom.weavers),
         heads=loom.heads,
         weavers=loom.weavers,
     )

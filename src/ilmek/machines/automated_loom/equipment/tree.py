@@ -32,7 +32,7 @@ OF_A_HEAD = frozenset((HEAD_ANGLE, PEG, PACKAGE, BRAKE_ID, YARN_STOP, YARN_INPUT
 @lru_cache(maxsize=2)
 def equipment(loom: LoomDesign) -> tuple[MachineTree, ...]:
     """The trees of the equipment, on bodies of the machines or on the floor."""
-    return (*_watched(loom), MachineTree(_NAME, circuit(site_of(loom), _without_circuit(loom))))
+    return (*_watched(loom), MachineTree(_NAME, circuit(site_of(loom), without_circuit(loom))))
 
 
 @lru_cache(maxsize=4)
@@ -47,7 +47,7 @@ def _watched(loom: LoomDesign) -> tuple[MachineTree, ...]:
 
 
 @lru_cache(maxsize=4)
-def _without_circuit(loom: LoomDesign) -> Tree:
+def without_circuit(loom: LoomDesign) -> Tree:
     """All bodies of a loom but those of its circuit."""
     return joined((*machine_branches(loom), *_watched(loom)))
 
@@ -59,7 +59,7 @@ def _of_heads(loom: LoomDesign) -> tuple[MachineTree, ...]:
 
 def more_for_heads(loom: LoomDesign) -> frozenset[str]:
     """Parts of creel and chains, fuses, supplies, terminals: of more heads there are more, or larger ones."""
-    devices = circuit_of(site_of(loom), _without_circuit(loom)).devices if loom.heads else ()
+    devices = circuit_of(site_of(loom), without_circuit(loom)).devices if loom.heads else ()
     growing = (own.part.id for own in devices if own.part.process in GROWING)
     return frozenset((*growing, *(part.id for tree in _of_heads(loom) for part, _ in tree.tree.occurrences())))
 
@@ -87,4 +87,4 @@ def equipment_checks(loom: LoomDesign) -> tuple[Check, ...]:
     """The checks of guards, sensors, circuit, and of chains and yarn path of heads or of the weavers' station."""
     site = site_of(loom)
     served = (*chain_checks(loom), *yarn_checks(loom)) if loom.heads else station_checks(site)
-    return (*guard_checks(site), *sensor_checks(loom), *circuit_checks(site, _without_circuit(loom)), *served)
+    return (*guard_checks(site), *sensor_checks(loom), *circuit_checks(site, without_circuit(loom)), *served)

@@ -150,13 +150,20 @@ def _motor(row: MotorRow, height: float) -> Iterator[Mark]:
     yield _text(_WORDS + y - 3j, row.power, anchor="left")
 
 
-def safety_circuit(guards: Sequence[tuple[str, int, str]], enabling: str, amplifiers: int, halt: str) -> Schematic:
+def safety_circuit(
+    guards: Sequence[tuple[str, int, str]],
+    setting: tuple[tuple[str, str], tuple[str, str]],
+    amplifiers: int,
+    halt: str,
+) -> Schematic:
     """The two channels through all devices that stop the loom, the safety relay, and what it switches.
 
-    enabling    sign of the enabling device, whose two contacts are in parallel with the guards while these are open
-    guards      of each kind of device: its sign, pieces, and the terminal of its signal
-    amplifiers  pieces      halt  terminal of the signal to the motion controller
+    setting     sign and terminals of the enabling device, whose two contacts are in parallel with the guards while
+                these are open, and of the reset
+    guards      of each kind of device: its sign, pieces, and its terminals
+    amplifiers  pieces      halt  input of the motion controller
     """
+    (enabling, enabled_at), (reset, reset_at) = setting
 
     def marks() -> Iterator[Mark]:
         x = 0.0
@@ -183,8 +190,10 @@ def safety_circuit(guards: Sequence[tuple[str, int, str]], enabling: str, amplif
         yield _line(x + 15 - 22j, x + 15 - 28j)
         yield from _switch(x + 7 - 28j, "", closed=False)
         yield _line(x - 1 - 28j, x + 7 - 28j)
-        yield _text(x - 2 - 29j, Sentence("electric.reset", sign="S0"), anchor="right")
+        yield _text(x - 2 - 29j, Sentence("electric.reset", sign=reset), anchor="right")
+        yield _text(x - 2 - 32.5j, reset_at, 1.8, "right")
         yield from _enabling(x, enabling)
+        yield _text(x / 2 + 4 - 54j, enabled_at)
         yield from _outputs(x + 30, amplifiers, halt)
 
     return _schematic("safety-circuit", Sentence("electric.safety"), marks())

@@ -40,6 +40,9 @@ Setting = tuple[str, str, str, str, str]
 
 Rows = Iterator[Setting]
 
+_PITCHES = 100
+"""Pitches over which that of the warps is measured."""
+
 _SLANTED = 0.3
 """Component of a unit vector from which a direction names it."""
 
@@ -90,7 +93,7 @@ def commissioning(loom: LoomDesign, report: Report) -> Paper:
 
 
 def _stand(loom: LoomDesign, report: Report) -> Rows:
-    yield _set("level", "0.1 mm/m", "level", 0.02, "mm/m", Sentence("setting.assumed"))
+    yield _set("level", "≤ 0.1 mm/m", "level", 0.02, "mm/m", Sentence("setting.assumed"))
     yield _set("foot", f"≤ {format_quantity(value_of(report, 'foot_load'), 'N')}", "jack", 0.05, "%", "foot_load")
     yield _set("fell", in_mm(value_of(report, "fell_height")), "rule", 2, "mm", "fell_height")
     if loom.heads:
@@ -103,6 +106,9 @@ def _warp(loom: LoomDesign, report: Report) -> Rows:
     yield _set("tension", format_quantity(tension, "N"), "tension-meter", 0.1, "%", "tension")
     yield _set("pull", format_quantity(tension * warps, "N"), "strain-reading", 0.05, "%", f"{warps} × tension")
     yield _set("strain", strain, "strain-reading", 0.05, "%", "tension")
+    pitches = min(_PITCHES, int(warps) - 1)
+    width = in_mm(pitches * loom.task.cloth.warp_pitch)
+    yield Sentence("setting.pitch", count=pitches + 1), width, "± 0.5 mm", Sentence("instrument.rule"), "warp_pitch"
     yield from _cam_stacks(loom)
     opening = value_of(report, "shedding.shed_opening")
     yield _set("shed", in_mm(opening), "rule", 1, "mm", "shedding.shed_opening")
@@ -155,8 +161,11 @@ def _tools(loom: LoomDesign, report: Report) -> Rows:
 def _set(  # noqa: PLR0917 - the columns of a row
     key: str, expected: str, instrument: str, error: float, unit: str, source: str, **words: str
 ) -> Setting:
-    """A setting by the keys of its sentence and of its instrument's, with its tolerance ± in a unit; "%": a share."""
-    tolerance = f"± {error:.0%}" if unit == "%" else f"± {error:g} {unit}"
+    """A setting by the keys of its sentence and of its instrument's, with its tolerance ± in a unit; "%": a share.
+
+    A limit has none: what is measured is on its right side.
+    """
+    tolerance = "–" if expected[0] in "≤≥" else f"± {error:.0%}" if unit == "%" else f"± {error:g} {unit}"
     return Sentence(f"setting.{key}", **words), expected, tolerance, Sentence(f"instrument.{instrument}"), source
 
 

@@ -13,14 +13,21 @@ from ilmek.elements.motor_loads import CONTROL_VOLTS, MAINS, PHASE, STEPPER_VOLT
 from ilmek.elements.wiring import protective_section, section_for
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.circuit import CIRCUIT
+from ilmek.machines.automated_loom.equipment.circuit import CIRCUIT, HANDLE
 from ilmek.machines.automated_loom.equipment.power_plan import MotorCircuit, PowerPlan
-from ilmek.machines.automated_loom.equipment.signals import signals_of
+from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
+from ilmek.machines.automated_loom.equipment.terminals import TerminalLevel
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.braking import braking_section
 from ilmek.machines.automated_loom.papers.circuit_diagrams import FedRow, MotorRow, safety_circuit, single_line
+from ilmek.machines.automated_loom.papers.connections import (
+    cable_table,
+    channel_tables,
+    protected_table,
+    strip_table,
+)
 from ilmek.machines.automated_loom.papers.safety_functions import safety_functions
 from ilmek.machines.automated_loom.papers.values import value_of
 from ilmek.machines.automated_loom.papers.wiring import (
@@ -32,17 +39,17 @@ from ilmek.machines.automated_loom.papers.wiring import (
     channels,
     connected_at,
     feeds,
+    levels_of,
     numbers_of,
     plan_of,
-    run_of,
+    signal_rows,
     signs_of,
-    terminal_rows,
 )
 from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.part.shapes import shape_box
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity, mm
+from ilmek.units import format_quantity, in_mm, mm
 
 SAFE = frozenset(("emergency stop", "interlock", "actuator", "light grid", "button", "safety relay", "enabling device"))
 """Processes of devices of the safety circuit."""
@@ -64,7 +71,10 @@ def electrical(loom: LoomDesign, report: Report) -> Paper:
             _feeds(loom, plan),
             braking_section(loom),
             *_brakes(loom),
-            *_channels(loom),
+            *channel_tables(loom),
+            strip_table(loom),
+            protected_table(plan),
+            cable_table(loom),
             _cabinet(loom, plan),
         ),
     )
@@ -83,7 +93,7 @@ def _supply(loom: LoomDesign, report: Report, plan: PowerPlan) -> PaperSection:
         (Sentence("electric.mains"), f"3 x {MAINS:g} V, N, PE"),
         (Sentence("electric.connected"), f"{plan.connected / 1e3:.3g} kVA"),
         (Sentence("electric.mean"), format_quantity(value_of(report, "power_mean"), "W", 3)),
-        (Sentence("electric.main-current"), f"{plan.current:.3g} A"),
+        (Sentence("electric.phases"), ", ".join(f"L{k} {own:.3g} A" for k, own in enumerate(plan.currents, 1))),
         (Sentence("electric.main-fuse"), f"F0: 3 x {fuse:g} A gG"),
         (Sentence("electric.main-wire"), f"5 x {section:g} mm² Cu, PE {protective_section(section):g} mm²"),
         *sources,
@@ -107,7 +117,11 @@ def _supply(loom: LoomDesign, report: Report, plan: PowerPlan) -> PaperSection:
             for source in plan.sources
         ],
     )
-    return PaperSection(title, (Sentence("electric.supply-how"),), Table("supply", title, heads, rows), figure=picture)
+    (control,) = site_of(loom).near.of(CONTROL)
+    height = in_mm(HANDLE * float(control.high[1] - control.low[1]))
+    return PaperSection(
+        title, (Sentence("electric.supply-how", height=height),), Table("supply", title, heads, rows), figure=picture
+    )
 
 
 _VOLTS = (MAINS, PHASE, STEPPER_VOLTS, CONTROL_VOLTS)
@@ -160,7 +174,9 @@ def _motors(plan: PowerPlan) -> PaperSection:
         Column(Sentence("electric.fuse"), "", 3),
         Column(Sentence("electric.section"), "", 3),
         Column(Sentence("electric.together")),
+        Column(Sentence("electric.phase")),
     )
+    phases = plan.phasing
     rows = tuple(
         (
             motor.sign,
@@ -173,11 +189,19 @@ def _motors(plan: PowerPlan) -> PaperSection:
             motor.load.fuse,
             motor.section,
             motor.together,
+            _phases(motor, phases),
         )
         for motor in plan.motors
     )
     title = Sentence("electric.motors")
     return PaperSection(title, (Sentence("electric.motors-how"),), Table("motors", title, heads, rows))
+
+
+def _phases(motor: MotorCircuit, phases: Mapping[str, tuple[int, ...]]) -> str:
+    """The phase of each piece in their order; "" of one on direct current."""
+    if motor.load.volts == MAINS:
+        return "L1 L2 L3"
+    return " ".join(f"L{phase}" for phase in phases.get(motor.part.id, ()))
 
 
 def _feeds(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
@@ -204,28 +228,6 @@ def _feeds(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
     return PaperSection(title, (*texts, *braking), Table("feeds", title, heads, rows))
 
 
-def _channels(loom: LoomDesign) -> Iterator[PaperSection]:
-    """A row for each run of inputs of a module that read pieces of one sensor."""
-    titles = {part.id: part.title for part, _ in loom_tree(loom).occurrences()}
-    signs, runs = signs_of(loom), dict[tuple[str, str], list[tuple[int, int]]]()
-    for module, number, name, piece in channels(loom):
-        runs.setdefault((module, name), []).append((number, piece))
-    rows = tuple(
-        (module, run_of([own[0] for own in run]), signs[name], titles[name], run_of([own[1] for own in run]))
-        for (module, name), run in runs.items()
-    )
-    heads = (
-        Column(Sentence("electric.module")),
-        Column(Sentence("electric.inputs")),
-        Column(Sentence("electric.sign")),
-        Column(Sentence("electric.device")),
-        Column(Sentence("electric.piece")),
-    )
-    title = Sentence("electric.channels")
-    if rows:
-        yield PaperSection(title, (Sentence("electric.channels-how"),), Table("channels", title, heads, rows))
-
-
 def _sensors(loom: LoomDesign) -> PaperSection:
     return _devices(loom, Sentence("electric.sensors"), SENSING, signs_of(loom), connected_at(loom))
 
@@ -235,7 +237,7 @@ def _devices(
 ) -> PaperSection:
     """Devices of some kinds with their signs, by their ids, the signals that they give, and where each is connected."""
     given = dict[str, list[str]]()
-    for name, parts in signals_of(loom.heads, loom.weavers):
+    for name, parts in site_of(loom).signals:
         for part in parts:
             given.setdefault(part, []).append(name)
     rows = tuple(
@@ -265,11 +267,11 @@ def _terminals(loom: LoomDesign) -> PaperSection:
     title = Sentence("electric.terminals")
     heads = (
         Column(Sentence("electric.signal")),
+        Column(Sentence("electric.input")),
         Column(Sentence("electric.terminal")),
-        Column(Sentence("electric.level")),
         Column(Sentence("electric.parts")),
     )
-    table = Table("terminals", title, heads, tuple(terminal_rows(loom)))
+    table = Table("terminals", title, heads, tuple(signal_rows(loom)))
     return PaperSection(title, (Sentence("electric.terminals-how"),), table)
 
 
@@ -307,18 +309,23 @@ def _safety(loom: LoomDesign, report: Report) -> PaperSection:
     functions, stops = tuple(safety_functions(loom, report)), stopping_time(loom)
     signs = {name: sign for own in functions for name, sign in own.signs.items()}
     made = _devices(loom, Sentence("electric.safety"), SAFE, signs | {name: SIGNS[name] for name in _SAFE_SIGNS})
+    halt = next(own.address for own in channels(loom) if own.part == signals.RELAY)
+    runs = dict[str, list[TerminalLevel]]()
+    for level in levels_of(loom):
+        if level.strip == "X3":
+            runs.setdefault(level.part, []).append(level)
+    ends = {part: f"{run[0].address} … {run[-1].number}{run[-1].level}" for part, run in runs.items()}
     text = Sentence(
         "electric.safety-how",
         relay=RELAY.name,
         circuit=format_quantity(stops.circuit, "s", 3),
         whole=format_quantity(stops.whole, "s", 3),
         axis=stops.axis,
+        halt=halt,
     )
-    addresses = {
-        part: f"X1:{number}{level}" for _, number, level, parts in terminal_rows(loom) for part in parts.split()[:1]
-    }
-    devices = [(own.sign, own.number, addresses.get(own.part, "")) for own in functions]
-    picture = safety_circuit(devices, SIGNS[signals.ENABLING], numbers_of(loom)[AMPLIFIER], addresses[signals.RELAY])
+    devices = [(own.sign, own.number, " ".join(ends[part] for part in own.pieces)) for own in functions]
+    setting = (SIGNS[signals.ENABLING], ends.get(signals.ENABLING, "")), (SIGNS[signals.RESET], ends[signals.RESET])
+    picture = safety_circuit(devices, setting, numbers_of(loom)[AMPLIFIER], halt)
     texts = text, Sentence("electric.enabling-how", sign=SIGNS[signals.ENABLING]), Sentence("electric.residual")
     return PaperSection(made.title, texts, made.table, figure=picture)
 

@@ -7,7 +7,9 @@ from ilmek.elements.motor_loads import CONTROL_VOLTS, MAINS, PHASE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.power_plan import PowerPlan, consumption, power_plan
-from ilmek.machines.automated_loom.equipment.signals import signals_of
+from ilmek.machines.automated_loom.equipment.site import site_of
+from ilmek.machines.automated_loom.equipment.terminals import TerminalLevel, module_inputs, terminal_levels
+from ilmek.machines.automated_loom.equipment.tree import without_circuit
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.catalogue import brakes_of
 from ilmek.part.part import Bought, Part
@@ -21,6 +23,7 @@ SIGNS: Mapping[str, str] = {
     signals.INPUTS: "A2",
     signals.YARN_INPUTS: "A3",
     signals.OUTPUTS: "A4",
+    signals.ANALOG_INPUTS: "A5",
     signals.STRAIN_AMPLIFIER: "N1",
     signals.SUPPLY: "G1",
     signals.STEPPER_SUPPLY: "G2",
@@ -31,7 +34,9 @@ SIGNS: Mapping[str, str] = {
     signals.RESET: "S0",
     signals.ENABLING: "S9",
     signals.TERMINAL: "X1",
+    signals.MAINS_TERMINAL: "X0",
     signals.FAN: "E1",
+    signals.PROTECTIVE_BAR: "PE",
 }
 """Signs of devices that a loom has one kind of: IEC 81346-2."""
 
@@ -109,29 +114,57 @@ def signs_of(loom: LoomDesign) -> dict[str, str]:
     return {part: f"B{number}" for number, part in enumerate(sensors, 101)}
 
 
-def channels(loom: LoomDesign) -> Iterator[tuple[str, int, str, int]]:
-    """Each input of a module that reads a sensor: sign of the module, input, id of the sensor, which of its pieces."""
-    numbers, used = numbers_of(loom), 0
-    for name, share in signals.READ.items():
-        for piece in range(1, numbers.get(name, 0) + 1, share):
-            yield f"{SIGNS[signals.INPUTS]}.{used // CHANNELS + 1}", used % CHANNELS + 1, name, piece
-            used += 1
+@record
+class Channel:
+    """An input of a module: sign of the module, input, signal of the program or "", id of the device, its piece."""
+
+    module: str
+    number: int
+    signal: str
+    part: str
+    piece: int
+
+    @property
+    def address(self) -> str:
+        """Module and input."""
+        return f"{self.module}:{self.number}"
+
+
+_SAFETY = {
+    signals.STOP: "S", signals.BENCH_STOP: "S", signals.INTERLOCK: "B", signals.GRID: "B", signals.HANDS: "H",
+}  # fmt: skip
+
+
+def safety_signs(loom: LoomDesign) -> dict[str, str]:
+    """Letter of the signs of what starts a safety function, by the ids of the parts."""
+    return {part: f"{sign}1 …" for part, sign in _SAFETY.items() if part in numbers_of(loom)}
+
+
+def channels(loom: LoomDesign) -> Iterator[Channel]:
+    """Each input of a module in the cabinet, then on the heads."""
+    numbers = numbers_of(loom)
+    for wire in module_inputs(site_of(loom).signals, numbers):
+        module = f"{SIGNS[wire.module]}.{wire.index // wire.channels + 1}"
+        yield Channel(module, wire.index % wire.channels + 1, wire.signal, wire.part, wire.piece)
     each = numbers.get(signals.YARN_STOP, 0) // max(loom.heads, 1)
     modules = numbers.get(signals.YARN_INPUTS, 0) // max(loom.heads, 1)
     for head in range(loom.heads if each else 0):
         for yarn in range(each):
-            module = head * modules + yarn // CHANNELS + 1
-            piece = head * each + yarn + 1
-            yield f"{SIGNS[signals.YARN_INPUTS]}.{module}", yarn % CHANNELS + 1, signals.YARN_STOP, piece
+            module = f"{SIGNS[signals.YARN_INPUTS]}.{head * modules + yarn // CHANNELS + 1}"
+            yield Channel(module, yarn % CHANNELS + 1, "", signals.YARN_STOP, head * each + yarn + 1)
+
+
+def levels_of(loom: LoomDesign) -> tuple[TerminalLevel, ...]:
+    """The levels of the terminals of a loom."""
+    return terminal_levels(site_of(loom).signals, without_circuit(loom))
 
 
 def connected_at(loom: LoomDesign) -> dict[str, str]:
-    """Where each sensor is connected, by its id: a terminal, inputs of a module, or what reads it."""
-    first = dict[str, list[str]]()
-    for _, number, level, parts in terminal_rows(loom):
-        for part in parts.split()[:1]:
-            first.setdefault(part, []).append(f"X1:{number}{level}")
-    at = {part: _addresses(own) for part, own in first.items()}
+    """Where each sensor is connected, by its id: inputs of a module, or what reads it."""
+    inputs = dict[str, list[str]]()
+    for channel in channels(loom):
+        inputs.setdefault(channel.part, []).append(channel.address)
+    at = {part: _addresses(own) for part, own in inputs.items()}
     motors = {one.part.id: one.sign for one in plan_of(loom).motors}
     at |= {
         name: f"T{motors[motor][1:]}"
@@ -139,9 +172,7 @@ def connected_at(loom: LoomDesign) -> dict[str, str]:
         for motor in offered
         if motor in motors
     }
-    for module, _, name, _ in channels(loom):
-        at[name] = module.partition(".")[0]
-    return at | {signals.TENSION: SIGNS[signals.STRAIN_AMPLIFIER]}  # whose output is at a terminal
+    return at | {signals.TENSION: SIGNS[signals.STRAIN_AMPLIFIER]}  # whose output is at an analog input
 
 
 def _addresses(own: Sequence[str]) -> str:
@@ -151,11 +182,14 @@ def _addresses(own: Sequence[str]) -> str:
 _MANY = 3
 
 
-def terminal_rows(loom: LoomDesign) -> Iterator[tuple[str, int, str, str]]:
-    """Each signal of the control with an address: its name, its terminal and level, its parts."""
+def signal_rows(loom: LoomDesign) -> Iterator[tuple[str, str, str, str]]:
+    """Each signal of the control with an address: its name, its input or A1, its terminal or "", its parts."""
     there = numbers_of(loom)
-    for number, (name, parts) in enumerate(signals_of(loom.heads, loom.weavers)):
-        yield name, number // 2 + 1, "ab"[number % 2], " ".join(part for part in parts if part in there)
+    inputs = {own.signal: own.address for own in channels(loom) if own.signal}
+    levels = {own.what: own.address for own in levels_of(loom)}
+    for name, parts in site_of(loom).signals:
+        shown = " ".join(part for part in parts if part in there)
+        yield name, inputs.get(name, SIGNS[signals.CONTROLLER]), levels.get(name, ""), shown
 
 
 def run_of(numbers: Sequence[int]) -> str:
