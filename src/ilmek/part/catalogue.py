@@ -257,10 +257,12 @@ def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
 
 
 def screw(name: str, title: str, row: MachineScrew, length: float) -> Part:
-    """A hexagon head screw along z: its head below z = 0, its thread above; the mass is that of both in steel."""
-    shape = stepped((row.across, row.head), (row.diameter, length))
+    """A screw along z, of steel: its head below z = 0, with its washer, its thread above."""
+    washer, thickness = row.washer
+    steps = (row.across, row.head), (washer, thickness), (row.diameter, length - thickness)
+    shape = stepped(*(step for step in steps if min(step) > 0))
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
-    placed = Sum((Placed(shape, (placement(z=-row.head),)),))
+    placed = Sum((Placed(shape, (placement(z=-row.head - thickness),)),))
     return bought_part(name, title, "fastener", placed, bought)
 
 

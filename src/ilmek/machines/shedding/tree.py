@@ -206,7 +206,7 @@ def _bar(design: SheddingDesign, index: int) -> Part:
 def cut_square(shaft: CamShaft) -> Contour:
     """The square of the bar, its corners cut where they would be in the way of the bearings' screws."""
     half, seat = shaft.shaft.bar / 2, shaft.seat
-    edge = abs(seat.corners()[0]) - seat.screws.screw.across / 2 - mm
+    edge = abs(seat.corners()[0]) - max(seat.screws.screw.across, seat.screws.screw.washer[0]) / 2 - mm
     side = min(max(math.sqrt(2) * edge - half, mm), half)  # half of what remains of a side
     ends = np.array([half + 1j * side, side + 1j * half]) if side < half else np.array([half + 1j * half])
     return polygon(np.concatenate([ends * 1j**k for k in range(4)]))
