@@ -139,8 +139,9 @@ def _insert(prefix: str) -> list[RollingBearing]:
         *columns, bolt = rest
         *numbers, flanged, side, pitch, hole = (float(column) for column in columns)
         bearing = _bearing(f"{prefix} {name}", INSERT, numbers)
-        housing = {"flange": side * mm, "pitch": pitch * mm, "hole": hole * mm}
-        bearings.append(replace(bearing, mass=flanged, bolt=bolt, **housing) if prefix == "UCF" else bearing)
+        if prefix == "UCF":
+            bearing = replace(bearing, mass=flanged, flange=side * mm, pitch=pitch * mm, hole=hole * mm, bolt=bolt)
+        bearings.append(bearing)
     return bearings
 
 

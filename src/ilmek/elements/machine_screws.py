@@ -129,9 +129,7 @@ class MachineScrew:
 
 
 SCREWS = {
-    name: MachineScrew(
-        name, diameter * mm, area * mm**2, across * mm, head * mm, washer=(washer * mm, thickness * mm)
-    )
+    name: MachineScrew(name, diameter * mm, area * mm**2, across * mm, head * mm, washer=(washer * mm, thickness * mm))
     for name, diameter, area, across, head, washer, thickness in (
         ("M6", 6, 20.1, 10, 4.0, 12, 1.6),
         ("M8", 8, 36.6, 13, 5.3, 16, 1.6),

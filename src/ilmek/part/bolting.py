@@ -1,9 +1,10 @@
 """Screws of the fixed joints of a tree: where parts that stand to each other touch with plane faces, screws hold them.
 
 One part has holes with counterbores for the heads, the other the threads; nothing stands out of either. Screws stand
-1.5 of their diameter off the edges of both faces and 40 of it apart at most; bought parts have theirs where their
-catalogue has them. Of all sizes it is the largest that the part under the heads allows, half of its thickness, and for
-which the other part is thick enough for the thread; in a part that ends in an axle one, by DIN 332-2.
+1.5 of their diameter off the edges of both faces and 40 of it apart at most. Bought parts whose catalogue states their
+holes have screws in all of these, or none. Of all sizes it is the largest that the part under the heads allows, half of
+its thickness, and for which the other part is thick enough for the thread; in a part that ends in an axle one, by
+DIN 332-2.
 
 Parts of a frame that are welded [`welds`] have none, nor have what turns, hangs or is stacked on its shaft.
 """
@@ -18,7 +19,15 @@ import numpy as np
 from ilmek.arrays import ComplexArray, Float
 from ilmek.elements.machine_screws import SOCKET_LENGTHS, SOCKET_SCREWS, MachineScrew
 from ilmek.part import catalogue
-from ilmek.part.bolt_contacts import FaceSide, StandingPiece, face_contacts, pattern_of, standing_groups
+from ilmek.part.bolt_contacts import (
+    FaceSide,
+    StandingPiece,
+    face_contacts,
+    is_given,
+    pattern_of,
+    patterns_of,
+    standing_groups,
+)
 from ilmek.part.bolt_holes import DrilledPart
 from ilmek.part.bolt_spots import clear, free_points, mapped, pattern_points, row_points
 from ilmek.part.part import WELDED, Part
@@ -191,7 +200,7 @@ def _options(
     mouths = head.frame.points(np.array([[point.real, point.imag, -deep] for point in made.points]))
     free = not any(_covers(own, mouths) for own in group if own is not head.piece)
     several = len(made.points) > 1 or thread.face.turned
-    flange = thread.part.purchase is not None and pattern_of(head.part) is not None  # of two bought parts, the motor's
+    flange = thread.part.purchase is not None and bool(patterns_of(head.part))  # of two bought parts, the motor's
     yield (several, flange, free, head.part.purchase is None, -deep), made
 
 
@@ -209,11 +218,14 @@ def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:
 def _offered(head: FaceSide, thread: FaceSide) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
     """Screws that a joint may have with the points where they may stand, or all stand, the best first."""
     across = thread.frame.inverse.after(head.frame)
-    for side in (head, thread):
-        pattern = pattern_of(side.part)
-        if pattern is not None:
+    holed = [side for side in (head, thread) if is_given(side)]
+    for side in holed:
+        pattern = pattern_of(side)
+        if pattern is not None and pattern.tapped == (side is thread):
             points = pattern_points(pattern, side.face)
             yield SOCKET_SCREWS[pattern.thread], points if side is head else mapped(across.inverse, points), True
+    if holed:
+        return
     if thread.face.turned:
         diameter = 2 * thread.face.high.real / mm
         largest = SOCKET_SCREWS[next(name for most, name in _CENTRES if diameter <= most + 1e-9)]
@@ -242,7 +254,8 @@ def _of_size(
         return None
     if fixed:
         inside = clear(head.face, points, _sink(head.part, screw) / 2)
-        points = points[inside & clear(thread.face, mapped(across, points), _LEAST_EDGE * screw.diameter)]
+        if not (inside & clear(thread.face, mapped(across, points), _LEAST_EDGE * screw.diameter)).all():
+            return None
     made: _Screwed | None = None
     for target in points if fixed else row_points(points, screw.diameter):
         nearest = points[np.argsort(np.abs(points - target), kind="stable")][: 1 if fixed else _TRIED]
@@ -255,7 +268,7 @@ def _of_size(
                 if all(abs(point - own) >= _BETWEEN * screw.diameter for own in chosen):
                     made = replace(tried, points=(*chosen, point))
                     break
-    return made
+    return None if fixed and made is not None and len(made.points) < len(points) else made
 
 
 def _sink(part: Part, screw: MachineScrew) -> float:

@@ -14,11 +14,13 @@ from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
+    DEVICE_PLATE,
     TO_THE_BACK,
     TO_THE_LEFT,
     TO_THE_RIGHT,
     UPWARDS,
     device,
+    device_plate,
     placed,
 )
 from ilmek.machines.automated_loom.equipment.guards import (
@@ -215,16 +217,21 @@ def _latches(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
 
 
 def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
-    """Emergency stops at front and rear, the reset at the last post of the front."""
+    """Emergency stops at front and rear, the reset at the last post of the front, each on its plate."""
     height = fence.floor + _STOP_HEIGHT
     stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
     # Beside the creel's rails, which may reach past the corner.
     left, right = fence.left - POST + STOP.size[0] / 2, fence.right + POST - STOP.size[0] / 2
     back = placed(left, height, fence.rear - POST, TO_THE_BACK)
     before = (placement(min(max(x, left), right), height, outer) for x in _stations(front))
-    yield Occurrence(stop, (*before, back))
+    on_posts = (*before, back)
+    under_reset = placement(right, fence.floor + _RESET_HEIGHT, outer)
+    plate = device_plate(part_id("device-plate"), "plate of a device on a post", STOP)
+    yield Occurrence(plate, (*on_posts, under_reset))
+    on_plate = placement(z=DEVICE_PLATE)
+    yield Occurrence(stop, tuple(own.after(on_plate) for own in on_posts))
     reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
-    yield Occurrence(reset, (placement(right, fence.floor + _RESET_HEIGHT, outer),))
+    yield Occurrence(reset, (under_reset.after(on_plate),))
     enabling = device(signals.ENABLING, "enabling switch for setting up", ENABLING)
     under = height - (STOP.size[1] + ENABLING.size[1]) / 2 - GAP
     yield Occurrence(enabling, (placement(right, under, outer),))
