@@ -109,6 +109,18 @@ def test_a_planted_screw_without_holes_is_seen() -> None:
     assert len(list(faults(Tree((RigidBody("test/body", (*bare.occurrences, screw)),))))) == 1
 
 
+def test_heads_are_sunk_no_deeper_than_they_are_high_where_screws_are_long_enough() -> None:
+    tree = bolted(loom_tree(MACHINE.designed(MACHINE.params())))
+    rows = {round(row.sink, 6): row for row in SOCKET_SCREWS.values()}
+    made = (part.shape for part, _ in tree.occurrences() if part.material is not None)
+    holes = [hole for shape in made if shape is not None for hole in drillings(shape)]
+    mouths = [(rows.get(round(hole.steps[0][0], 6)), hole.steps[0][1]) for hole in holes]
+    over = [deep - row.head for row, deep in mouths if row is not None]
+    assert len(over) > 100
+    # Through the height of the bracket, 40 mm, screws of M2 and M2.5 are as long as ten of their diameters.
+    assert sum(depth > 1.001 * mm for depth in over) <= 4
+
+
 @pytest.mark.parametrize("settings", SETTINGS)
 def test_bought_parts_of_a_loom_have_screws_in_all_holes_of_their_catalogue(settings: dict[str, str]) -> None:
     tree = bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))

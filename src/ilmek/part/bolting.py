@@ -40,7 +40,7 @@ from ilmek.units import mm, um
 _CLAMPED = (2.0, 1.0)
 """Thickness of the flange of a bought part over the diameter of its screws, most and least; assumed by this project."""
 
-_LONGEST = 6.0
+_LONGEST = 10.0
 """Length of a screw under its head that is not in the thread over its diameter, at most: the head is sunk deeper."""
 
 _PLAY = 0.1 * mm
@@ -103,6 +103,10 @@ class _Screwed:
         return (head, Drilling(mouth, steps, through=True)), (thread, tapped)
 
 
+_Key = tuple[str, str, str, float]
+"""Parts that screws hold, the one under their heads first, size and length of these."""
+
+
 @lru_cache(maxsize=16)
 def bolted(tree: Tree) -> Tree:
     """The tree with the screws of its fixed joints, and the holes for them in its parts; one that has them as it is."""
@@ -110,8 +114,8 @@ def bolted(tree: Tree) -> Tree:
         return tree
     worked: dict[str, DrilledPart] = {}
     known: dict[tuple[object, ...], _Screwed | None] = {}
-    placed: dict[tuple[str, str, float], dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))
-    joined: dict[tuple[str, str, float], tuple[MachineScrew, tuple[Part, Part]]] = {}
+    placed: dict[_Key, dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))
+    joined: dict[_Key, tuple[MachineScrew, tuple[Part, Part]]] = {}
     for group in standing_groups(tree):
         for one, other in face_contacts(group):
             lies = one.frame.inverse.after(other.frame)
@@ -122,7 +126,7 @@ def bolted(tree: Tree) -> Tree:
             if made is None:
                 continue
             head, thread = (one, other) if made.head.part is one.part else (other, one)
-            ids = head.part.id, thread.part.id, round(made.length, 6)
+            ids = head.part.id, thread.part.id, made.screw.name, round(made.length, 6)
             joined[ids] = made.screw, (head.part, thread.part)
             host = min((head.piece, thread.piece), key=lambda own: len(own.body.positions))
             to_body = host.own.after(host.lies.inverse).after(head.frame)
@@ -139,8 +143,8 @@ def _rounded(lies: Placement) -> tuple[float, ...]:
 def _with(
     tree: Tree,
     worked: Mapping[str, DrilledPart],
-    placed: Mapping[tuple[str, str, float], Mapping[str, list[Placement]]],
-    joined: Mapping[tuple[str, str, float], tuple[MachineScrew, tuple[Part, Part]]],
+    placed: Mapping[_Key, Mapping[str, list[Placement]]],
+    joined: Mapping[_Key, tuple[MachineScrew, tuple[Part, Part]]],
 ) -> Tree:
     """The tree with drilled parts, and screws in its bodies."""
     parts = {name: own.finished for name, own in worked.items()}
@@ -152,7 +156,7 @@ def _with(
         stem = f"{both[0].id.rpartition('/')[0]}/{first}-{second}-screw"
         names[stem] += 1
         name = stem if names[stem] == 1 else f"{stem}-{names[stem]}"
-        own = replace(catalogue.screw(name, f"screw of the {both[0].title}", screw, ids[2]), joins=ids[:2])
+        own = replace(catalogue.screw(name, f"screw of the {both[0].title}", screw, ids[3]), joins=ids[:2])
         for body, positions in bodies.items():
             screws[body].append(Occurrence(own, tuple(positions)))
     return tree.replaced(
@@ -299,7 +303,8 @@ def _at_point(
 def _lengths(
     screw: MachineScrew, deep: float, least: float, most: float, *, made_part: bool
 ) -> tuple[float, float] | None:
-    """Lengths of a screw before the thread and in it [m]: the shortest with enough thread, its head sunk.
+    """Lengths of a screw before the thread and in it [m]: of those that are sold with enough thread the one whose head
+    is sunk least in a made part; in the flange of a bought one, the shortest.
 
     deep  of the part under the head      least, most  of the thread
     """
@@ -312,8 +317,9 @@ def _lengths(
         longest, shortest = (min(share * screw.diameter, deep - screw.head) for share in _CLAMPED)
     if shortest <= 0:
         return None
-    for length in SOCKET_LENGTHS:
-        engaged = min(max(length - longest, least), most)
-        if shortest - um <= length - engaged <= longest + um:
-            return length - engaged, engaged
-    return None
+    engaged = {length: min(max(length - longest, least), most) for length in SOCKET_LENGTHS}
+    fitting = {length: length - own for length, own in engaged.items() if shortest - um <= length - own <= longest + um}
+    if not fitting:
+        return None
+    length = max(fitting, key=lambda own: (round(fitting[own], 6) if made_part else 0.0, -own))
+    return fitting[length], engaged[length]
