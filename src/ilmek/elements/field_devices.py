@@ -87,7 +87,8 @@ ROWS = (
         holes=_holes(0, 36, "M4"),
     ),
     FieldDevice(
-        "RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9, power=1.2
+        "RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9, power=1.2,
+        holes=_holes(0, 78, "M4", end=False),
     ),
     FieldDevice(
         "actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, _LOCK,

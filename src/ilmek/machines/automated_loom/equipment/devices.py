@@ -21,7 +21,9 @@ DEVICE_PLATE = 5 * mm
 
 def device_plate(name: str, title: str, row: FieldDevice) -> Part:
     """The plate that is welded to a post and has the threads for a device, from z = 0."""
-    wide, high, _ = row.size
+    wide, high, long = row.size
+    if not any(own.end for own in row.holes):
+        high = long
     return Part(name, title, LASER_CUT, in_mm(DEVICE_PLATE), box(wide, high, DEVICE_PLATE), STEEL)
 
 

@@ -207,13 +207,15 @@ def _grid(fence: Fence) -> Occurrence:
 
 
 def _latches(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
-    """Interlocks at the latches of the doors."""
-    wide, thick, _ = INTERLOCK.size
+    """Interlocks at the latches of the doors, each on its plate."""
+    wide, thick, tall = INTERLOCK.size
     latch = device(signals.INTERLOCK, "interlock of a door", INTERLOCK)
-    height, inner = fence.floor + _STOP_HEIGHT, fence.front - thick / 2
+    height, inner = fence.floor + _STOP_HEIGHT, fence.front - DEVICE_PLATE
     # Beside the last post's middle, to which the panel of the side reaches.
     beside = wide / 2 + 2 * WIRE
-    yield Occurrence(latch, tuple(placed(x - beside, height, inner, UPWARDS) for x in front[1:]))
+    plate = device_plate(part_id("latch-plate"), "plate of an interlock on a post", INTERLOCK)
+    yield Occurrence(plate, tuple(placement(x - beside, height + tall / 2, inner) for x in front[1:]))
+    yield Occurrence(latch, tuple(placed(x - beside, height, inner - thick / 2, UPWARDS) for x in front[1:]))
 
 
 def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
