@@ -137,7 +137,7 @@ class RapierSide:
         drive = [catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)]
         if axis.drive is not None and axis.drive.reducer.ratio != 1:
             drive.append(catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer, row))
-        end = (_upright(left + SIDE / 2, low),)  # its pulley's axis
+        end: tuple[Placement, ...] = (_upright(left + SIDE / 2, low),)  # its pulley's axis
         adapters, end = catalogue.adapted(part_id("adapter"), f"adapter of the {carrier}", drive[-1], SIDE, end)
         yield from adapters
         for geared in drive[1:]:
