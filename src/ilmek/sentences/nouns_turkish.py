@@ -16,7 +16,8 @@ inputs for the yarns of a head = kafa ipliklerinin girişleri+ | steppers = adı
 plate of an eye bolt on a column = kolondaki mapa levha+sı | lifting eyes = kaldırma mapaları+ | eye-bolt = mapa
 plate of an eye bolt on a foot = ayaktaki mapa levha+sı | plate of an arm for its axis = kolun eksen levha+sı
 plate of a device on a post = dikmedeki aygıt levha+sı | plate of an interlock on a post = dikmedeki kilit levha+sı
-console of a motor at an edge = kenar motoru konsol+u | adapter = adaptör | adapter of a vertical axis = düşey eksen adaptör+ü
+console of a motor at an edge = kenar motoru konsol+u | adapter = adaptör
+adapter of a vertical axis = düşey eksen adaptör+ü
 half of the guide of the followers = izleyici kızağı yarı+sı
 actuator = karşılık | angle reducer = açılı redüktör | arm = kol | arm 1 = 1. kol | arm 2 = 2. kol | axes = eksenler
 attachment bar = bağlama çubuğ+u | axis = eksen | axle = dingil | back = geri | back rest = arka köprü | bar = çubuk
