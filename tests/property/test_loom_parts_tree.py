@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import pytest
+from cam_bars import beyond_cams
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from made_parts import moving_error
@@ -14,15 +15,11 @@ from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.parts import needs_of, parts_of_loom
-from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE as SHEDDING
-from ilmek.machines.shedding.tree import NUT, bearing_inner, cut_square
 from ilmek.machines.shedding.tree import tree as shedding_tree
 from ilmek.machines.tension_compensator.tree import tree as compensator_tree
 from ilmek.machines.warp_tension.tree import tree as cylinder_tree
-from ilmek.part.catalogue import BEFORE_KEY, keyed_journal
 from ilmek.part.tree import Tree
-from ilmek.plane.contours import area
 from ilmek.plane.solids import volume
 
 _LOOMS = st.fixed_dictionaries(
@@ -79,20 +76,18 @@ def test_the_stacks_of_cams_weigh_what_their_parts_do(shafts: int) -> None:
 
 
 def _spare(design: Any) -> float:
-    """Mass of the bars beyond their stacks, of their journals and of the clamping nuts [kg]."""
+    """Mass of the bars beyond their stacks, of their ends, and of what clamps the cams [kg]."""
     steel = MATERIALS["structural steel"].density
     return math.fsum(_spare_volume(design, index) for index in range(len(design.shafts))) * steel
 
 
 def _spare_volume(design: Any, index: int) -> float:
     shaft = design.shafts[index]
-    bar, seat = shaft.shaft.bar, shaft.seat
-    square = bar**2 * (2 * bearing_inner(design, index) - sum(shaft.numbers) * shaft.stack.shares.pitch)
-    square -= 2 * seat.screw_room * (bar**2 - area(cut_square(shaft)))
-    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * (seat.bearing.width + BRACKET + BEFORE_KEY)
-    end = shaft.driven_end
-    journals += keyed_journal(end).volume + end.number * end.keyway.width * end.keyway.height * end.length
-    return float(square + journals + 2 * NUT * (math.pi * bar**2 - bar**2))
+    end, nut = shaft.driven_end, shaft.nut
+    key = end.number * end.keyway.width * end.keyway.height * end.length
+    ring = math.pi / 4 * (nut.outer**2 - nut.thread**2) * (nut.washer + nut.width)
+    length = sum(shaft.numbers) * shaft.stack.shares.pitch
+    return float(beyond_cams(design, index, length) + key + 2 * ring)
 
 
 def test_the_spacer_weighs_its_tube_less_its_slots() -> None:

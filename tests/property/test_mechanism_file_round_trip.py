@@ -178,6 +178,7 @@ def loads(draw):
         Torque(spot[0], draw(AMOUNT)),
         Drag(*spot, draw(LEAST)),
         TabulatedLoad(PointForce(*spot, 1j), "crank", at, tuple(draw(AMOUNT) for _ in at)),
+        TabulatedLoad(Torque(spot[0], 1.0), None, at, tuple(draw(AMOUNT) for _ in at), turns=False),
     )
     window = AngleRange(draw(AMOUNT), draw(AMOUNT))
     springs = (
@@ -227,7 +228,8 @@ def test_a_machine_with_its_loads_is_read_again(named, motion, gravity, size):
             size, size, size, MotorDrive(size, -size, size, size), (StopEvent("x", "speed", -size, terminal=False),)
         ),
         study=SpeedStudy((size, 2 * size)),
-        servo="crank",
+        servo="B0",
+        actuators=("B0",),
         paths=(("rocker", "B"),),
         transmission=("B",),
     )
@@ -239,6 +241,7 @@ def test_a_machine_with_its_loads_is_read_again(named, motion, gravity, size):
         assert all(same(springs[name], load) for name, load in named.items())
         assert (found.gravity, found.frictions, found.members) == (gravity, machine.frictions, machine.members)
         assert (found.pins, found.motions["crank"].law) == (machine.pins, motion.law)
+        assert (found.actuators, found.servo) == (machine.actuators, machine.servo)
         assert write(found) == text
 
 

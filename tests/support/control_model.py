@@ -217,7 +217,7 @@ class Model:
             yield from self.crashing(world.disc, world.moving, world.woven, world.budget)
 
     def endings(self, world: World) -> Iterator[World]:
-        """Each operation in progress ends, or fails."""
+        """Each operation in progress ends, or fails; but after a missed grip it may have got into the carpet."""
         for order in self.members(world.moving):
             bit = self.bits[order]
             ended = replace(world, moving=world.moving & ~bit)
@@ -226,6 +226,9 @@ class Model:
                 left = replace(world.budget, faults=world.budget.faults - 1)
                 for fault in FAULTS[type(order)]:
                     yield from self.reacted(replace(ended, budget=left), (Failed(order, fault, 0),))
+                    if fault is not Fault.MISSED_GRIP:
+                        lying = replace(ended, budget=left, woven=world.woven | bit)
+                        yield from self.reacted(lying, (Failed(order, fault, 0),))
 
     def answers(self, world: World) -> Iterator[World]:
         """The sensor, then the operator, tells the truth; the sensor may not know."""

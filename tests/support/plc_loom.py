@@ -1,84 +1,219 @@
-"""A loom behind a generated control program: the program's scans, with a host that gives rows and a twin that works."""
+"""A loom behind a generated control program: its scans, a host that gives carpet and rows, stations that work or lie.
 
+Nothing here knows the program's inner variables: the plant sees orders, the host requests, the operator state, alarm
+and questions. The plant's row is the number of its take-ups.
+"""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from structured_text import Machine
+from structured_text import Instance, Machine, PowerCut
 
+from ilmek.io.plc.host_data import HostRow, digest_words, host_row
 from ilmek.io.plc.project import plc_project, size_of
-from ilmek.io.plc.sequence_variables import PlcSize
-from ilmek.loom.operations import LoomProgramme, RowOperations
+from ilmek.loom.control.alarms import ALARMS, JournalFault
+from ilmek.loom.control.packml import PackCommand, PackState
+from ilmek.loom.operations import LoomProgramme, RowEnd
 
 SENSORS: dict[str, Any] = {
     "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0,
     "BeaterBack": True, "ShedClosed": True,
 }  # fmt: skip
+CYCLE = 0.5
+"""Cycle of the program in tests [s]: a knot takes 4 scans and more."""
+
+COMMANDS = {
+    PackState.STOPPED: PackCommand.RESET,
+    PackState.IDLE: PackCommand.START,
+    PackState.HELD: PackCommand.UNHOLD,
+    PackState.SUSPENDED: PackCommand.UNSUSPEND,
+    PackState.ABORTED: PackCommand.CLEAR,
+}
+"""What leads the loom on from where it stands."""
+
+
+@dataclass(frozen=True)
+class Act:
+    """What a station does with an order.
+
+    tied    the operation gets into the carpet         fault    reported instead of the end, 0: none
+    silent  it reports nothing                         early    it reports at once
+    hasty   it never reports that it has accepted      stuck    scans for which its report stays behind the order
+    """
+
+    tied: bool = True
+    fault: int = 0
+    silent: bool = False
+    early: bool = False
+    hasty: bool = False
+    stuck: int = 0
+
+
+HONEST = Act()
+
+
+class Station:
+    """A head, or the loom behind the heads: done and status follow from its orders."""
+
+    def __init__(self, scans: Callable[[], int], act: Callable[[], Act], tied: Callable[[], None]) -> None:
+        self.scans, self.act_of, self.tied = scans, act, tied
+        self.done, self.status, self.unasked = False, 0, 0
+        self.elapsed = self.left = self.stuck = 0
+        self.act = HONEST
+
+    def step(self, order: bool) -> None:
+        if order and not self.elapsed:
+            self.act, self.left = self.act_of(), self.scans()
+        if order:
+            self.elapsed += 1
+            self._work()
+        else:
+            if self.elapsed:
+                self.elapsed, self.stuck = 0, self.act.stuck
+            self.stuck = max(self.stuck - 1, -1)
+            if self.stuck < 0:
+                self.done, self.status = False, 0
+            if self.unasked:
+                self.unasked, self.done = self.unasked - 1, True
+
+    def _work(self) -> None:
+        act = self.act
+        if not act.hasty and self.status == 0:
+            self.status = 1
+        if self.elapsed != (1 if act.early else self.left):
+            return
+        if act.tied:
+            self.tied()
+        if act.fault:
+            self.status = act.fault
+        elif not act.silent:
+            self.done = True
+
+    def cut_off(self, *, ended: bool) -> None:
+        """Power fails while it works: the operation has got into the carpet, or not."""
+        if 0 < self.elapsed < self.left and ended and not self.act.early and self.act.tied:
+            self.tied()
+        self.done, self.status, self.elapsed, self.stuck = False, 0, 0, -1
 
 
 class PlcLoom:
     """Executes the control program of a programme. Operations take a number of scans that differs from head to head.
 
     heads_clear  what the sensor states; None: the heads are clear while none ties
-    carpet  (row, column) -> how often and from which tube a knot was tied there      ends  row ends in their order
+    carpet  (row, column) -> the tubes from which knots were tied there      ends  row ends in their order
+    next_act    what a station does with its next order       disturb_row, disturb_recipe  what a bad host gives instead
     """
 
-    def __init__(self, programme: LoomProgramme) -> None:
+    def __init__(self, programme: LoomProgramme, capacity: LoomProgramme | None = None) -> None:
         self.programme, self.heads = programme, programme.setup.heads
-        self.project, self.size = plc_project(programme), size_of(programme)
-        self.machine = Machine(self.project.text)
+        self.size = size_of(capacity or programme, CYCLE)
+        self.machine = Machine(plc_project(capacity or programme, CYCLE).text)
         self.loom = self.machine.instance("Loom")
         self.carpet: dict[tuple[int, int], list[int]] = {}
         self.ends: list[tuple[int, int]] = []
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
-        self.scans = 0
+        self.scans = self.row = self.command = 0
+        self.given = self.requested = -1
         self.heads_clear: bool | None = None
-        self._left: dict[int, int] = {}
-        self._fail: dict[int, int] = {}
-        self.command = 0
+        self.alarms: list[int] = []
+        self.next_act: Callable[[int], Act] = lambda _: HONEST
+        self.disturb_row: Callable[[HostRow], HostRow] = lambda row: row
+        self.disturb_recipe: Callable[[dict[str, Any]], dict[str, Any]] = lambda recipe: recipe
+        self.host_silent = False
+        self.stations = [self._head(head) for head in range(self.heads)]
+        self.stations.append(Station(self._end_scans, lambda: self.next_act(self.heads), self._end))
+        self._changing = 0
+        self._latch()
 
-    def give_row(self) -> None:
-        """The host: writes the row that the program requests."""
-        number = self.read("RowRequest")
-        if number == self.read("RowData.Number") or number >= self.programme.setup.rows:
+    def _latch(self) -> None:
+        """What the stations see: the outputs at the end of a scan; one that was cut off has none."""
+        self.orders = [*self.read("TieStart"), self.read("EndStart")]
+        self.columns, self.tubes, self.end_code = self.read("TieColumn"), self.read("TieTube"), self.read("EndCode")
+
+    def _head(self, head: int) -> Station:
+        return Station(lambda: 4 + head, lambda: self.next_act(head), lambda: self._tie(head))
+
+    def _end_scans(self) -> int:
+        return self.size.row_ends[self.end_code].least + 2
+
+    def next_carpet(self, programme: LoomProgramme) -> None:
+        """An operator takes the carpet out; the host has another programme, and begins its journal."""
+        self.programme, self.given, self.row = programme, -1, 0
+        self.carpet.clear()
+        self.ends.clear()
+
+    # -- the host ----------------------------------------------------------------------------------------------------
+
+    def host(self) -> None:
+        """Writes the carpet, and a row when the request changes or it was refused; the journal names the row before."""
+        if self.host_silent:
             return
-        for name, values in row_values(self.programme.operations(number), self.size).items():
-            self.machine.write(self.loom, f"RowData.{name}", values)
-        self.machine.write(self.loom, "RowData.Number", number)
+        setup, number = self.programme.setup, self.read("RowRequest")
+        if 0 <= number < setup.rows:
+            self.given = max(self.given, number)
+        recipe = {"Programme": digest_words(self.programme.digest), "Rows": setup.rows, "Columns": setup.columns,
+                  "Tubes": setup.tubes, "Row": self.given}  # fmt: skip
+        self._write("Recipe", self.disturb_recipe(recipe))
+        asked_again = number != self.requested or self.read("Alarm") == ALARMS[JournalFault.ROW_DAMAGED].number
+        self.requested = number
+        if asked_again and 0 <= number < setup.rows:
+            self.give(self.host_row(number))
+
+    def host_row(self, number: int) -> HostRow:
+        return host_row(self.programme.operations(number), self.programme.digest)
+
+    def give(self, row: HostRow) -> None:
+        given = self.disturb_row(row)
+        limits = [0] * (self.size.heads * self.size.phases)
+        for head, ends in enumerate(given.limits):
+            limits[head * self.size.phases : head * self.size.phases + len(ends)] = ends
+        missing = self.size.columns - len(given.columns)
+        values = {
+            "Columns": given.columns + [0] * missing, "Tubes": given.tubes + [0] * missing, "First": given.first,
+            "Limits": limits, "StopBefore": given.stop_before + [False] * (self.size.phases - given.phases),
+            "Phases": given.phases, "Check": given.check, "Number": given.number,
+        }  # fmt: skip
+        self._write("RowData", values)
+
+    def _write(self, structure: str, values: dict[str, Any]) -> None:
+        for name, value in values.items():
+            self.machine.write(self.loom, f"{structure}.{name}", value)
+
+    # -- scans -------------------------------------------------------------------------------------------------------
 
     def read(self, path: str) -> Any:
         return self.machine.read(self.loom, path)
 
-    def fail(self, head: int, alarm: int) -> None:
-        """The next knot of a head ends with a fault; head -1: the next operation after the knots."""
-        self._fail[head] = alarm
-
     def scan(self, **inputs: Any) -> None:
-        """One scan: the loom's reports since the last one, the sensors, then the program."""
+        """One scan: what the stations report since the last one, the sensors, then the program."""
         self.scans += 1
-        self.give_row()
-        done, fault = [False] * self.heads, [0] * self.heads
-        ended, end_fault = False, 0
-        for head in range(self.heads):
-            if self._over(head, self.read("TieStart")[head], 2 + head):
-                fault[head] = self._fail.pop(head, 0)
-                done[head] = fault[head] == 0
-                if done[head]:
-                    self._tie(head)
-        if self._over(-1, self.read("EndStart"), 3):
-            end_fault = self._fail.pop(-1, 0)
-            ended = end_fault == 0
-            if ended:
-                self._end()
-        changed = bool(self._over(-2, self.read("ChangeStart"), 2))
-        if changed:
-            self.changes.append(self.read("Row"))
+        self.host()
+        for station, order in zip(self.stations, self.orders, strict=True):
+            station.step(order)
+        *heads, end = self.stations
+        self._changing = self._changing + 1 if self.read("ChangeStart") else 0
+        if self._changing == 2:
+            self.changes.append(self.row)
         command, self.command = self.command, 0
-        clear = self.heads_clear if self.heads_clear is not None else not any(self.read("TieStart"))
-        self.machine.run(
-            self.loom, **self.sensors, HeadsClear=clear, TieDone=done, TieFault=fault, EndDone=ended,
-            EndFault=end_fault, ChangeDone=changed, CntrlCmd=command, CmdChangeRequest=command > 0, **inputs,
-        )  # fmt: skip
+        clear = self.heads_clear if self.heads_clear is not None else not any(self.orders[:-1])
+        moving = RowEnd(self.end_code) if end.elapsed and not end.done else None
+        given = {
+            **self.sensors, "HeadsClear": clear, "TieDone": [one.done for one in heads],
+            "TieStatus": [one.status for one in heads], "EndDone": end.done, "EndStatus": end.status,
+            "ChangeDone": self._changing >= 2, "CntrlCmd": command, "CmdChangeRequest": command > 0,
+        }  # fmt: skip
+        if moving in {RowEnd.FIRST_BEAT, RowEnd.SECOND_BEAT}:
+            given["BeaterBack"] = False
+        elif moving in {RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT}:
+            given["ShedClosed"] = False
+        self.machine.run(self.loom, **(given | inputs))
+        self._latch()
+        alarm = self.read("Alarm")
+        if alarm and (not self.alarms or alarm != self.alarms[-1]):
+            self.alarms.append(alarm)
 
     def until(self, name: str, value: Any, most: int = 20_000) -> None:
         """Scan until an output has a value. Raises AssertionError after a number of scans."""
@@ -86,7 +221,7 @@ class PlcLoom:
             if self.read(name) == value:
                 return
             self.scan()
-        raise AssertionError(f"{name} stays {self.read(name)}, alarm {self.read('Alarm')}, row {self.read('Row')}")
+        raise AssertionError(f"{name} stays {self.read(name)}, alarm {self.read('Alarm')}, row {self.row}")
 
     def start(self) -> None:
         """Reset and start."""
@@ -95,54 +230,62 @@ class PlcLoom:
         self.command = 2
         self.until("StateCurrent", 6)
 
-    def power_cut(self, *, tied: bool) -> None:
-        """All but the retained variables is lost; if `tied`, operations in progress end before, else not at all."""
-        kept = {}
-        for one in self.machine.units["LOOM"].variables:
-            if one.section == "VAR RETAIN":
-                kept[one.name] = self.read(one.name)
-        if tied:
-            for head in range(self.heads):
-                if self.read("TieStart")[head]:
-                    self._tie(head)
-            if self.read("EndStart"):
-                self._end()
-        self.loom = self.machine.instance("Loom")
-        self._left.clear()
-        for name, value in kept.items():
-            self.machine.write(self.loom, name, value)
+    def attend(self, scans: int) -> None:
+        """An operator for a number of scans: acknowledges, answers as the sensor does, leads the loom on to its end."""
+        for _ in range(scans):
+            state = PackState(self.read("StateCurrent"))
+            if state is PackState.COMPLETE:
+                return
+            acknowledge = self.read("Alarm") > 0 and self.scans % 2 == 0
+            if not self.read("Alarm"):
+                self.command = COMMANDS.get(state, 0)
+            elif state is PackState.ABORTED:
+                self.command = PackCommand.CLEAR
+            self.scan(Acknowledge=acknowledge, **self.answers())
 
-    def _over(self, key: int, started: bool, scans: int) -> bool:
-        """Whether an operation that is ordered ends in this scan."""
-        if not started:
-            self._left.pop(key, None)
-            return False
-        left = self._left.setdefault(key, scans)
-        self._left[key] = left - 1
-        if left > 1:
-            return False
-        del self._left[key]
-        return True
+    def answers(self) -> dict[str, Any]:
+        """What the sensor answers to the questions of the program: whether the knot or operation is in the carpet."""
+        row, columns = self.read("RowRequest"), self.read("TieColumn")
+        ties = [
+            (1 + ((row, columns[head]) in self.carpet) if asked else 0)
+            for head, asked in enumerate(self.read("AskTie"))
+        ]
+        end = 1 + ((row, self.read("EndCode")) in self.ends) if self.read("AskEnd") else 0
+        return {"TieAnswer": ties, "EndAnswer": end}
+
+    def power_cut(self, *, tied: bool, steps: int = -1) -> None:
+        """All but the retained variables is lost; if `tied`, operations in progress end before, else not at all.
+
+        steps  of a last scan that are executed before the power fails; its orders get nowhere
+        """
+        if steps >= 0:
+            self.machine.steps = steps
+            with suppress(PowerCut):
+                self.scan()
+            self.machine.steps = -1
+        for station in self.stations:
+            station.cut_off(ended=tied)
+        retained = {one.name for one in self.loom.unit.variables if one.section == "VAR RETAIN"}
+        kept = {name: value for name, value in self.loom.values.items() if name in retained}
+        self.loom: Instance = self.machine.instance("Loom")
+        self.loom.values.update(kept)
+        self._changing = 0
+        self._latch()
 
     def _tie(self, head: int) -> None:
-        at = self.read("Row"), self.read("TieColumn")[head]
-        self.carpet.setdefault(at, []).append(self.read("TieTube")[head])
+        self.carpet.setdefault((self.row, self.columns[head]), []).append(self.tubes[head])
 
     def _end(self) -> None:
         """An operation after the knots is in the carpet."""
-        self.ends.append((self.read("Row"), self.read("EndCode")))
+        self.ends.append((self.row, self.end_code))
+        self.row += self.end_code == RowEnd.TAKE_UP
 
-
-def row_values(row: RowOperations, size: PlcSize) -> dict[str, list[int] | list[bool]]:
-    """The values of the structure's arrays by name; phases that a row lacks repeat its last one."""
-    limits = np.cumsum(row.counts, axis=1)
-    missing = size.phases - row.phases
-    limits = np.concatenate([limits, np.repeat(limits[:, -1:], missing, axis=1)], axis=1)
-    stops = {stop.phase for stop in row.stops}
-    return {
-        "Columns": row.columns.tolist(),
-        "Tubes": row.tubes.tolist(),
-        "First": row.starts[:-1].tolist(),
-        "Limits": limits.ravel().tolist(),
-        "StopBefore": [phase in stops for phase in range(size.phases)],
-    }
+    def woven(self) -> bool:
+        """Whether every knot is in the carpet once, in its colour, and every operation after the knots once."""
+        setup = self.programme.setup
+        ends = [(row, int(end)) for row in range(setup.rows) for end in RowEnd]
+        return self.ends == ends and self.carpet == {
+            (row, column): [yarn]
+            for row in range(setup.rows)
+            for column, yarn in enumerate(self.programme.chart_row(row).tolist())
+        }

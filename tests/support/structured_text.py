@@ -1,9 +1,9 @@
 """An interpreter of IEC 61131-3 structured text, for tests of generated control programs.
 
-It knows what such programs need: FUNCTION, FUNCTION_BLOCK and PROGRAM with their variable sections, structures, arrays
-of one dimension, IF, CASE, FOR, WHILE, RETURN and EXIT, calls with named inputs and outputs. Integers overflow as an
-error, an index outside its array and a variable read before the program declares it are errors: a test fails where a
-controller would misbehave.
+It knows what such programs need: FUNCTION, FUNCTION_BLOCK and PROGRAM with their variable sections, named arrays of one
+dimension, structures, IF, CASE, FOR, WHILE, RETURN and EXIT, calls with named inputs and outputs. Integers overflow as
+an error, an index outside its array and a variable read before the program declares it are errors: a test fails where a
+controller would misbehave. `Machine.steps` cuts the power off before any statement or member of a structure.
 """
 
 import contextlib
@@ -16,7 +16,7 @@ from typing import Any, TypeAlias
 
 RANGES = {
     "SINT": (-(2**7), 2**7 - 1), "INT": (-(2**15), 2**15 - 1), "DINT": (-(2**31), 2**31 - 1),
-    "USINT": (0, 2**8 - 1), "UINT": (0, 2**16 - 1), "UDINT": (0, 2**32 - 1), "BYTE": (0, 255),
+    "USINT": (0, 2**8 - 1), "DWORD": (0, 2**32 - 1), "UINT": (0, 2**16 - 1), "UDINT": (0, 2**32 - 1), "BYTE": (0, 255),
     "LINT": (-(2**63), 2**63 - 1),
 }  # fmt: skip
 REALS = {"REAL", "LREAL"}
@@ -26,11 +26,13 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     "TRUNC": math.trunc, "SEL": lambda choice, no, yes: yes if choice else no, "SQRT": math.sqrt,
     **{f"{one}_TO_{other}": int for one in RANGES for other in RANGES},
     **{f"{one}_TO_{other}": float for one in RANGES for other in REALS},
+    **{f"{one}_TO_DWORD": lambda value: value & 0xFFFF_FFFF for one in RANGES},
     "REAL_TO_LREAL": float, "LREAL_TO_REAL": float,
 }  # fmt: skip
 
 TOKENS = re.compile(
-    r"\s+|\(\*.*?\*\)|//[^\n]*|(?P<number>\d+\.\d+(?:[eE][+-]?\d+)?|\d+(?!\.\d))|(?P<word>[A-Za-z_]\w*)"
+    r"\s+|\(\*.*?\*\)|//[^\n]*|(?P<address>%[IQ][XBWD]?\d+(?:\.\d+)?)|(?P<time>T#\d+ms)"
+    r"|(?P<number>(?:DWORD#)?16#[0-9A-F]+|\d+\.\d+(?:[eE][+-]?\d+)?|\d+(?!\.\d))|(?P<word>[A-Za-z_]\w*)"
     r"|(?P<sign>:=|=>|<>|<=|>=|\.\.|[-+*/<>=()\[\],;:.&])|(?P<bad>.)",
     re.DOTALL,
 )
@@ -38,6 +40,10 @@ TOKENS = re.compile(
 
 class StructuredTextError(Exception):
     """A fault of the text, or of its execution."""
+
+
+class PowerCut(Exception):
+    """The power was cut off in the middle of a scan."""
 
 
 @dataclass
@@ -106,6 +112,8 @@ class Parser:
         self.at = 0
         self.units: dict[str, Unit] = {}
         self.structures: dict[str, Unit] = {}
+        self.arrays: dict[str, Kind] = {}
+        self.tasks: dict[str, str] = {}
 
     @staticmethod
     def _split(text: str) -> Iterator[tuple[str, str]]:
@@ -140,6 +148,8 @@ class Parser:
         while self.tokens[self.at][0] != "end":
             if self.ahead == "TYPE":
                 self._type()
+            elif self.ahead == "CONFIGURATION":
+                self._configuration()
             else:
                 self._unit()
         return self
@@ -148,13 +158,28 @@ class Parser:
         self.take("TYPE")
         name = self.take()
         self.take(":")
-        self.take("STRUCT")
+        if not self.accept("STRUCT"):
+            self.arrays[name] = self._kind()
+            self.take(";")
+            self.take("END_TYPE")
+            return
         made = Unit("STRUCT", name)
         while not self.accept("END_STRUCT"):
             made.variables += self._declaration("VAR")
         self.take(";")
         self.take("END_TYPE")
         self.structures[name] = made
+
+    def _configuration(self) -> None:
+        """A configuration of one resource, task and program instance: the task's interval by the program's name."""
+        for word in ("CONFIGURATION", "", "RESOURCE", "", "ON", "", "TASK", "", "(", "INTERVAL", ":="):
+            self.take(*filter(None, (word,)))
+        interval = self.take()
+        for word in (",", "PRIORITY", ":=", "", ")", ";", "PROGRAM", "", "WITH", "", ":"):
+            self.take(*filter(None, (word,)))
+        self.tasks[self.take()] = interval
+        for word in (";", "END_RESOURCE", "END_CONFIGURATION"):
+            self.take(word)
 
     def _unit(self) -> None:
         kind = self.take("FUNCTION", "FUNCTION_BLOCK", "PROGRAM")
@@ -177,7 +202,7 @@ class Parser:
         while self.accept(","):
             names.append(self.take())
         if self.accept("AT"):
-            raise StructuredTextError("located variables belong to the I/O list")
+            self.at += 1
         self.take(":")
         kind = self._kind()
         initial = self._initial() if self.accept(":=") else None
@@ -186,7 +211,8 @@ class Parser:
 
     def _kind(self) -> Kind:
         if not self.accept("ARRAY"):
-            return Kind(self.take())
+            name = self.take()
+            return self.arrays.get(name) or Kind(name)
         self.take("[")
         low = int(self.take())
         self.take("..")
@@ -311,6 +337,8 @@ class Parser:
         kind, value = self.tokens[self.at]
         self.at += 1
         if kind == "number":
+            if "#" in value:
+                return "value", int(value.rpartition("#")[2], 16)
             return "value", float(value) if "." in value else int(value)
         if value in {"TRUE", "FALSE"}:
             return "value", value == "TRUE"
@@ -344,9 +372,9 @@ class Parser:
         return found
 
 
-def _logical(sign: str, operation: Callable[[bool, bool], bool]) -> Callable[[Any, Any], bool]:
-    def applied(one: Any, other: Any) -> bool:
-        if not isinstance(one, bool) or not isinstance(other, bool):
+def _logical(sign: str, operation: Callable[[Any, Any], Any]) -> Callable[[Any, Any], Any]:
+    def applied(one: Any, other: Any) -> Any:
+        if type(one) is not type(other) or not isinstance(one, int):
             raise StructuredTextError(f"{sign} of {one!r} and {other!r}")
         return operation(one, other)
 
@@ -385,7 +413,8 @@ class Machine:
 
     def __init__(self, text: str) -> None:
         parsed = Parser(text).parse()
-        self.units, self.structures = parsed.units, parsed.structures
+        self.units, self.structures, self.tasks = parsed.units, parsed.structures, parsed.tasks
+        self.steps = -1
         self._evaluators: dict[int, tuple[Evaluator, Any]] = {}
         self._bodies: dict[int, tuple[list[tuple[Callable[..., None], Any]], Any]] = {}
 
@@ -479,6 +508,14 @@ class Machine:
                 assert kind.element is not None
                 made.values[:] = [self._checked(kind.element, one) for one in given]
                 return
+            if isinstance(value, Instance):
+                if value.unit.name != kind.name:
+                    raise StructuredTextError(f"{value.unit.name} assigned to {kind.name}")
+                made = instance.values[name]
+                for member in list(value.values):
+                    self._step()
+                    self._store(made, ("name", member), value.values[member])
+                return
             instance.values[name] = self._checked(kind, value)
             return
         inner = self._value(instance, target[1])
@@ -493,7 +530,16 @@ class Machine:
         if known is None:
             known = self._bodies[id(body)] = [(getattr(self, f"_do_{one[0]}"), one[1:]) for one in body], body
         for statement, arguments in known[0]:
+            if self.steps == 0:
+                raise PowerCut
+            self.steps -= 1
             statement(instance, *arguments)
+
+    def _step(self) -> None:
+        """The power is cut off when `steps` have been executed; -1: never."""
+        if self.steps == 0:
+            raise PowerCut
+        self.steps -= 1
 
     def _do_assign(self, instance: Instance, target: Any, value: Any) -> None:
         self._store(instance, target, self._value(instance, value))

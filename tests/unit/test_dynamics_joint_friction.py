@@ -17,6 +17,7 @@ from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import plan
 
+MASSES = {"rocker": Inertia(0.4, 0.115 + 0.01j, 2e-3)}
 ANGLES = 0.01 + np.arange(48) * (2 * np.pi / 48)
 
 
@@ -192,6 +193,24 @@ def test_every_joint_rubbing_is_consistent_and_closes_the_power_balance() -> Non
                 expected = -pressed * np.sign(spin) - 0.01 * spin
                 np.testing.assert_allclose(forces.frictions[one.joint][good], expected, rtol=1e-7, atol=1e-7)
     assert usable > 100
+
+
+def test_a_linkage_that_starts_from_rest_has_friction_as_it_begins_to_move() -> None:
+    written = plan(four_bar(0.3, 0.06, 0.2, 0.23, branch=+1))
+    time = np.linspace(0.0, 1.0, 5)
+    speed, acceleration = 30 * time**2 * (1 - time) ** 2, 60 * time * (1 - time) * (1 - 2 * time)
+    angle = 10 * time**3 - 15 * time**4 + 6 * time**5
+    pin = PinFriction("B", 0.01, 0.1)
+    whole = inverse(solve(written, angle, speed, acceleration), MASSES, (), (pin,))
+    for sample in (1, 2, 3):
+        single = inverse(solve(written, angle[sample], speed[sample], acceleration[sample]), MASSES, (), (pin,))
+        assert whole.effort("crank")[sample] == pytest.approx(single.effort("crank")[0], rel=1e-12)
+    assert np.all(whole.frictions["B"][[0, -1]] == 0)
+    starting = inverse(solve(written, np.ones(2), np.array([0.0, 1e-9]), 20.0), MASSES, (), (pin,))
+    assert starting.frictions["B"][0] == pytest.approx(
+        inverse(solve(written, 1.0, 1e-9, 20.0), MASSES, (), (pin,)).frictions["B"][0], rel=1e-6
+    )
+    assert starting.frictions["B"][0] != 0
 
 
 def test_bad_friction_is_refused() -> None:

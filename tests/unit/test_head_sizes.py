@@ -67,7 +67,6 @@ def test_the_next_thinner_plate_would_not_bear_the_levers(knots: float) -> None:
 @pytest.mark.parametrize(
     ("size", "value", "check"),
     [
-        ("weaver.cam_gap", "1.7mm", "stress of the follower, side-gripper motion"),
         ("weaver.tool_mass", "0.25kg", "mass that a cam moves, side-gripper motion"),
         ("weaver.opener.height", "20mm", "opener: room of the tools between its plates"),
         ("weaver.sley_stroke", "50mm", "sley: stroke from above the opener to the fell"),

@@ -91,7 +91,7 @@ def test_plates_of_the_groups_have_their_bores_turned() -> None:
         ("guide-cam", 516),
         ("thin-guide-cam", 85),
         ("shims", 85),
-        ("clamping-nut", 2),
+        ("pressure-ring", 2),
     ]
     corners = [complex(plate.cutouts[0].points[0]) for plate in plates[:2]]
     assert np.angle(corners[1] / corners[0]) == pytest.approx(20 * deg)

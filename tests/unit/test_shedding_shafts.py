@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from cam_bars import beyond_cams
 from cloths import cloth
 from scipy.linalg import eigvalsh_tridiagonal
 
@@ -12,18 +13,14 @@ from ilmek.elements.nose_buckling import nose_buckling
 from ilmek.errors import ParameterError
 from ilmek.machines.automated_loom import MACHINE as LOOM
 from ilmek.machines.automated_loom import AutomatedLoomParams
-from ilmek.machines.bearing_seats import BRACKET
 from ilmek.machines.shedding import MACHINE, SheddingDesign, SheddingParams, shed_lengthenings
 from ilmek.machines.shedding.positions import dealt
 from ilmek.machines.shedding.reed import dent
 from ilmek.machines.shedding.stack import shared
-from ilmek.machines.shedding.tree import NUT, bearing_inner, cut_square, reed, tree
+from ilmek.machines.shedding.tree import reed, tree
 from ilmek.machines.shedding.warp import shed_warp
-from ilmek.part import catalogue
-from ilmek.part.catalogue import BEFORE_KEY
 from ilmek.part.contacts import contacts
 from ilmek.part.placement import placement
-from ilmek.plane.contours import area
 from ilmek.report import Report
 from ilmek.units import mm
 
@@ -145,25 +142,16 @@ def test_lengthening_without_spans_is_none_at_all() -> None:
     assert not np.any(shed_lengthenings(made(), np.linspace(0, 6, 7)))
 
 
-def beyond_the_stack(design: SheddingDesign, index: int) -> float:
-    """Volume of a shaft's bar beyond its cams, of its journals through bearings and brackets, and of its nuts [m³]."""
-    shaft = design.shafts[index]
-    bar, seat = shaft.shaft.bar, shaft.seat.bearing
-    square = bar**2 * (2 * bearing_inner(design, index) - shaft.shaft.length)
-    square -= 2 * shaft.seat.screw_room * (bar**2 - area(cut_square(shaft)))
-    driven = catalogue.keyed_journal(shaft.driven_end).volume
-    journals = 2 * math.pi / 4 * seat.bore**2 * (seat.width + BRACKET + BEFORE_KEY)
-    return square + driven + journals + 2 * NUT * (math.pi - 1) * bar**2
-
-
 @pytest.mark.parametrize(("shafts", "guides"), [(1, "cams"), (1, "reed"), (3, "cams"), (2, "reed")])
 def test_parts_weigh_what_the_stacks_weigh(shafts, guides) -> None:
     design = made(shafts=shafts, guides=guides, **SPANS)
     parts = MACHINE.parts(design)
     turning = [part for part in parts if " of the reed" not in part.name and not math.isnan(part.mass)]
     weighed = sum(part.mass_all for part in turning if part.kind in ("laser-cut part", "steel bar"))
-    beyond = design.params.density * math.fsum(beyond_the_stack(design, index) for index in range(shafts))
-    assert weighed == pytest.approx(design.stack.mass + beyond, rel=1e-9)
+    beyond = design.params.density * math.fsum(
+        beyond_cams(design, index, design.shafts[index].shaft.length) for index in range(shafts)
+    )
+    assert weighed == pytest.approx(design.stack.mass + beyond, rel=1e-6)
     assert sum(part.number for part in parts if part.name.startswith("shedding cam")) == 600
     assert sum(part.drives for part in parts) == shafts
     assert len({part.name for part in parts}) == len(parts)

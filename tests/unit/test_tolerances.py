@@ -91,7 +91,7 @@ def test_a_rod_in_a_bore_that_is_drilled_deep_is_loose() -> None:
 def test_a_roller_turns_on_its_pin_though_it_is_no_body() -> None:
     roller = _made("roller", tube(30 * mm, 9 * mm, 10 * mm))
     tree = Tree((RigidBody("fork", (_at(FRAME), _at(PIN), _at(roller, 15 * mm, turning=True))),))
-    assert _classes(tree)["roller"] == [("G7", FitDuty.RUNNING)]
+    assert _classes(tree)["roller"] == [("G7", FitDuty.RUNNING), ("h6", FitDuty.ROLLING)]
     still = Tree((RigidBody("fork", (_at(FRAME), _at(PIN), _at(roller, 15 * mm))),))
     assert _classes(still)["roller"] == [("H7", FitDuty.FIXED)]
 
@@ -273,4 +273,4 @@ def test_the_specification_of_a_part_states_its_process_and_hardening() -> None:
     assert made.hardening is not None
     assert (made.hardening.kind, made.hardening.hardness, made.depth) == ("SHD", 55, pytest.approx(1 * mm))
     frame = specification(_made("beam", box(0.1, 0.1, 1.0), "welded frame"))
-    assert (frame.designation, frame.general, frame.roughness) == ("S235JR EN 10025-2", "ISO 13920-BF", None)
+    assert (frame.designation, frame.general, frame.roughness) == ("S235JR EN 10025-2", "ISO 13920-AF", None)

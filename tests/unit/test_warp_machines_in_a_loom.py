@@ -4,16 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from cam_bars import beyond_cams
 from cloths import cloth
 
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.shedding.tree import bearing_inner, cut_square
+from ilmek.machines.shedding.cam_shaft import RING
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.design import USUAL_TUBES, keeps_limits, worst_load
-from ilmek.part.catalogue import keyed_journal
-from ilmek.plane.contours import area
 from ilmek.units import mm
 
 
@@ -43,12 +42,9 @@ def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
     cams = sum(parts[name].mass_all for name in sheets)
     # The stack is weighed with the bar in its bores; the shaft goes on to its bearings and has journals.
     (shaft,) = made.shafts
-    bar, seat = shaft.shaft.bar, shaft.seat
-    beyond = bar**2 * (2 * bearing_inner(made, 0) - made.params.cloth.width)
-    beyond -= 2 * seat.screw_room * (bar**2 - area(cut_square(shaft)))
-    journals = 2 * math.pi / 4 * seat.bearing.bore**2 * seat.journal + keyed_journal(shaft.driven_end).volume
-    within = parts["cam shaft"].mass - made.params.density * (beyond + journals)
-    assert cams + within == pytest.approx(made.stack.mass, rel=1e-9)
+    beyond = beyond_cams(made, 0, made.params.cloth.width) - 2 * RING * (math.pi - 1) * shaft.shaft.bar**2
+    within = parts["cam shaft"].mass - made.params.density * beyond
+    assert cams + within == pytest.approx(made.stack.mass, rel=1e-6)
     assert [part.name for part in parts.values() if part.drives] == ["motor of the cam shaft"]
     assert parts["bearing of the cam shaft"].number == 2
     spans = shedding.design(shedding.SheddingParams(prime_radius=0.2, spans=3))

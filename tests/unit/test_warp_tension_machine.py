@@ -120,7 +120,7 @@ def test_a_wide_loom_takes_a_larger_ratio_before_it_gives_up() -> None:
     wide = made(**WIDE)
     assert wide.reducer.ratio > 100
     assert wide.motor is not None
-    report = answer(**WIDE, ratio="10", tension_shed="18N")
+    report = answer(**WIDE, ratio="10", tension_shed="11N")
     assert [check.name for check in report.failed] == ["motor torque"]
     assert "set another ratio" in report.warnings[0]
 

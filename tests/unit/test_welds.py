@@ -15,7 +15,7 @@ from ilmek.part.part_lists import cut_list
 from ilmek.part.placement import Placement, placement
 from ilmek.part.plates import pieces_of, plates_of
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, square_tube
+from ilmek.part.shapes import Prism, box, square_tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.part.welds import welds_of
 from ilmek.plane.contours import polygon
@@ -25,16 +25,18 @@ from ilmek.units import mm
 
 STEEL = find_material("structural steel")
 X = (1.0, 0.0, 0.0)
+SIDE = 40 * mm
+"""Of an arm, which leaves room for a fillet on its post on both sides."""
 
 
-def tube(name: str, wall: float, length: float, throat: float = 0.0) -> Part:
-    shape = square_tube(50 * mm, wall, length)
+def tube(name: str, wall: float, length: float, throat: float = 0.0, side: float = 50 * mm) -> Part:
+    shape = square_tube(side, wall, length)
     return Part(f"probe/{name}", name, "welded frame", "", shape, STEEL, throat=throat)
 
 
 def frame(gap: float = 0.0, throat: float = 0.0) -> Tree:
     """A post along z, and an arm of a thinner wall whose end stands on its side y = 25 mm, 300 mm up."""
-    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4, throat)
+    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4, throat, SIDE)
     lies = placement(0.0, 25 * mm + gap, 0.3, about=X, angle=-np.pi / 2)
     return Tree((RigidBody("body", (Occurrence(post), Occurrence(arm, (lies,)))),))
 
@@ -42,7 +44,7 @@ def frame(gap: float = 0.0, throat: float = 0.0) -> Tree:
 def test_an_arm_is_welded_round_its_end_by_its_wall_or_its_strength() -> None:
     ((part, (weld,)),) = welds_of(frame()).items()
     assert (part, weld.other, weld.all_round) == ("probe/arm", "probe/post", True)
-    assert weld.throat == 3 * mm  # 0.7 of 3 mm is less than the least
+    assert weld.throat == 2 * mm  # 0.7 of 3 mm is the largest
     assert np.allclose(weld.middle, 0, atol=1e-12)
     assert welds_of(frame(throat=4 * mm))["probe/arm"][0].throat == 4 * mm
 
@@ -70,9 +72,9 @@ def test_the_sheet_of_an_arm_has_the_symbol_and_the_cut_of_the_list(tmp_path: Pa
     assert legs[0] == pytest.approx(legs[1])
     assert legs[2] ** 2 == pytest.approx(2 * legs[0] ** 2)
     words = [text.dxf.text for text in sheet.modelspace().query("TEXT")]
-    assert any(text.startswith("a3") and text.endswith("post") and "200" in text for text in words)
+    assert any(text.startswith("a2") and text.endswith("post") and "160" in text for text in words)
     row = words[words.index("all round") :][:6]
-    assert row == ["all round", "200", "0…50", "0…50", "0", "1/1"]
+    assert row == ["all round", "160", "0…40", "0…40", "0", "1/1"]
     rows = {row[-1]: row for row in cut_list(tree).rows}
     section, _, _, named = rows["probe/arm"][:4]
     assert section in words
@@ -142,7 +144,7 @@ def common_edges(tree: Tree) -> list[np.ndarray]:
 
 def test_two_pieces_of_a_part_may_have_unlike_welds() -> None:
     """Each weld says how many of the pieces have it."""
-    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4)
+    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 3 * mm, 0.4, side=SIDE)
     along, back = (
         placement(0.0, 25 * mm, 0.3, about=X, angle=-np.pi / 2),
         placement(0.0, -25 * mm, 0.3, about=X, angle=np.pi / 2),
@@ -150,4 +152,35 @@ def test_two_pieces_of_a_part_may_have_unlike_welds() -> None:
     tree = Tree((RigidBody("body", (Occurrence(post), Occurrence(arm, (along, back)))),))
     ((_, (weld,)),) = welds_of(tree).items()
     assert weld.pieces == 2
-    assert weld.lengths == pytest.approx((0.2,))
+    assert weld.lengths == pytest.approx((0.16,))
+
+
+def welds_at(height: float, aside: float = 0.0, side: float = SIDE) -> dict[bool, tuple[float, ...]]:
+    """Lengths of the fillets and of the bevels of an arm of a side on a post of 50 mm, which ends 0.6 m up [mm]."""
+    post, arm = tube("post", 5 * mm, 0.6), tube("arm", 5 * mm, 0.4, side=side)
+    lies = placement(aside, 25 * mm, height, about=X, angle=-np.pi / 2)
+    welds = welds_of(Tree((RigidBody("body", (Occurrence(post), Occurrence(arm, (lies,)))),)))["probe/arm"]
+    return {weld.bevel: tuple(round(length / mm, 1) for length in weld.lengths) for weld in welds}
+
+
+def test_an_edge_has_a_fillet_where_the_other_face_goes_on_and_a_bevel_where_both_end() -> None:
+    assert welds_at(0.3) == {False: (160.0,)}
+    assert welds_at(0.3, side=50 * mm) == {False: (50.0, 50.0), True: (50.0, 50.0)}
+    assert welds_at(0.58) == {False: (40.0, 40.0, 40.0), True: (40.0,)}  # flush with the post's end
+    assert welds_at(0.3, aside=5 * mm) == {False: (40.0, 40.0, 40.0), True: (40.0,)}
+
+
+def test_no_seam_crosses_the_open_end_of_a_tube() -> None:
+    """Of an arm that half of stands out over the post, the post's edge lies before the opening: two sides are short."""
+    assert welds_at(0.6) == {False: (40.0, 20.0, 20.0)}
+    assert welds_at(0.3, aside=25 * mm) == {False: (40.0, 20.0, 20.0)}
+
+
+def test_a_long_seam_is_stitched() -> None:
+    bar = Part("probe/bar", "bar", "laser-cut part", "", box(30 * mm, 10 * mm, 0.5), STEEL)
+    lies = placement(0.0, 30 * mm, 0.05)
+    (weld,) = welds_of(Tree((RigidBody("body", (Occurrence(tube("post", 5 * mm, 0.6)), Occurrence(bar, (lies,)))),)))[
+        "probe/post"
+    ]
+    assert weld.stitched
+    assert weld.lengths == (50 * mm,) * 8  # 2 x 4 of 150 mm pitch in 500 mm

@@ -159,7 +159,9 @@ def test_fasteners_join_the_parts_that_they_are_made_for() -> None:
     assert (screws["joins"], screws["and"]) == ("automated-loom/cam-bracket", "shedding/bearing")
     assert rows["warp-tension/upper-key"]["and"] == "warp-tension/reducer"
     assert float(screws["tightening torque [Nm]"]) == pytest.approx(SCREWS["M10"].torque, rel=1e-4)
-    assert all((row["tightening torque [Nm]"] != "") is row["designation"].startswith("ISO 4") for row in rows.values())
+    tightened = {name for name, row in rows.items() if row["tightening torque [Nm]"]}
+    assert tightened == {name for name, row in rows.items() if row["designation"].startswith(("ISO 4", "DIN 981"))}
+    assert rows["shedding/locknut"]["tightening torque [Nm]"]
 
 
 def rows_of(page: str, section: int) -> list[tuple[float | int | str, ...]]:
@@ -220,6 +222,13 @@ def test_commissioning_expects_what_the_report_says() -> None:
                 )
                 compared += 1
     assert compared >= 10
+
+
+def test_commissioning_says_where_the_cams_stand() -> None:
+    """608 cams and 609 guide cams of 1 mm; a pile of shims sets every seventh of them."""
+    rows = [row for row in rows_of("commissioning", 1) if "cam stack" in str(row[0])]
+    assert [row[1] for row in rows] == ["14 mm more for each pile", "1217 mm", "60 Nm"]
+    assert all("7 cams" in str(row[4]) for row in rows[:2])
 
 
 def test_belts_are_tuned_by_their_mass_and_tension() -> None:

@@ -158,7 +158,7 @@ class PlateCamTask:
     speed        of the cam shaft [rad/s]                     mass     at the follower, forward and back [kg]
     braked       whether a brake holds the forward mass       closure  "spring", doubling over the lift, or "groove"
     contact_force  least of a sprung roller [N]               pressure_angle  largest [rad]
-    shaft        its diameter [m]          roller_radius, thickness   of the roller and of the plate [m]
+    shaft        its diameter [m]          roller_radius, roller_width, thickness   of the roller and of the plate [m]
     load         force on the follower against its lift [N] at angles of the shaft [rad]; default: none
     """
 
@@ -170,6 +170,7 @@ class PlateCamTask:
     pressure_angle: float
     shaft: float
     roller_radius: float
+    roller_width: float
     thickness: float
     load: Callable[[FloatArray], FloatArray] | None = None
 
@@ -193,7 +194,7 @@ def loaded_plate_cam(
     preload = _preload(task, np.minimum(need, 0.0) * FASTER**2 + load, weight)  # at every speed from 0 on
     force = need + load + preload * weight
     contact = np.abs(force) / np.cos(trace.pressure_angle)
-    width = task.thickness
+    width = min(task.roller_width, task.thickness)
     pressure = line_contact(contact / width, 1 / task.roller_radius + trace.surface_curvature, MODULUS).pressure
     area, polar = polygon_moments(trace.surface[::-1])
     return LoadedPlateCam(
@@ -216,8 +217,8 @@ def loaded_plate_cam(
         pressure=pressure,
         lift_off=_lift_off(task, need / speed**2, preload * weight + load),
         area=area,
-        inertia=polar * width * STEEL.density,
-        thickness=width,
+        inertia=polar * task.thickness * STEEL.density,
+        thickness=task.thickness,
         speed=speed,
     )
 

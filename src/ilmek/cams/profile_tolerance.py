@@ -23,6 +23,10 @@ GROUND = 2 * um
 grinders of camshafts hold some micrometres per degree."""
 
 
+FLANK = 0.4 * um
+"""Ra of a ground cam's track [m]."""
+
+
 def increment_tolerance(spare: float, speed: float, step: float) -> float:
     """Largest change of the error of radii [m] from one step to the next [rad], in whole micrometres, at most `BAND`.
 

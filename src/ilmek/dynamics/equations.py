@@ -12,6 +12,9 @@ have no generalized force g on the relative motion of their joint:
     a dyad                       with w the force of the inner joint on the first body:  g_A(need_1 - w) = 0,
                                  g_B(need_2 + w) = 0; two equations for the two components of w, for all kinds of dyads
     any other group              all its equations at once
+
+Where actuators drive the motion in place of the inputs, their efforts A are those at which those of the inputs vanish:
+Q_0 + R A = 0, with R the response of the inputs' efforts to a unit effort of each actuator.            [superposition]
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -53,12 +56,60 @@ def add(to: Needs, poses: PoseBlock, body: str, pull: ForceAndMoment, at: Comple
         to[body] = ForceAndMoment(to[body].force + pull.force, to[body].moment + moment)
 
 
+def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
+    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other; see `drive`.
+
+    Returns needs of the same shapes, [N] and [N m] per sample.
+    """
+    changed = dict(needed)
+    for name, effort in efforts.items():
+        joint = poses.joints[name]
+        for body, sign in ((joint.on, -1), (joint.by, +1)):
+            pull = ForceAndMoment(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
+            add(changed, poses, body, pull, joint.at)
+    return changed
+
+
 def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
     """Forces [N] and moments [N m] of all joints, including the drive efforts, one value per sample.
 
     poses  the block of samples      needed  of `needs`
-    The values are inf or NaN where the equations are singular.
+    The values are inf or NaN where the equations are singular, and where the actuators do not move the inputs.
     """
+    pulls = _pulls_by_inputs(poses, needed)
+    if not poses.actuators:
+        return pulls
+    samples = poses.motion.status.shape[0]
+    nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
+    responses = [_response(poses, name, nothing, samples) for name in poses.actuators]
+    matrix = np.stack([_input_efforts(poses, response, samples) for response in responses], axis=-1)
+    efforts = solve_many(matrix, -_input_efforts(poses, pulls, samples))
+    for response, effort in zip(responses, efforts.T, strict=True):
+        pulls = {
+            name: ForceAndMoment(
+                pull.force + effort * response[name].force, pull.moment + effort * response[name].moment
+            )
+            for name, pull in pulls.items()
+        }
+    return pulls
+
+
+def _response(poses: PoseBlock, actuator: str, nothing: Needs, samples: int) -> Pulls:
+    """The forces of all joints to a unit effort of an actuator, with that effort in its own joint."""
+    pulls = _pulls_by_inputs(poses, loaded(poses, nothing, {actuator: np.ones(samples)}))
+    own, unit = pulls[actuator], poses.joints[actuator].drive
+    return pulls | {actuator: ForceAndMoment(own.force + unit.force, own.moment + unit.moment)}
+
+
+def _input_efforts(poses: PoseBlock, pulls: Pulls, samples: int) -> FloatArray:
+    """Efforts of the inputs, shape (samples, inputs)."""
+    joints = [poses.joints[entry.joint] for entry in poses.motion.plan.mechanism.inputs]
+    efforts = [joint.generalized_force(pulls[joint.name], joint.at) for joint in joints]
+    return np.stack([np.broadcast_to(effort, samples) for effort in efforts], axis=-1)
+
+
+def _pulls_by_inputs(poses: PoseBlock, needed: Needs) -> Pulls:
+    """The forces of all joints where the inputs' own efforts drive the motion."""
     needed = dict(needed)
     found: Pulls = {}
     driven = {entry.joint for entry in poses.motion.plan.mechanism.inputs}

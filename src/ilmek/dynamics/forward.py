@@ -126,7 +126,7 @@ class _Equation:
         effort = float(self.drive(time, position, speed)) if self.drive is not None else 0.0
         if not self.reduced.live:
             return effort, 0.0
-        return effort, float(self.reduced.live_force(np.array([position]), np.array([speed]))[0])
+        return effort, float(self.reduced.live_force(*np.array([[position], [speed], [time]]))[0])
 
     def rates(self, time: float, row: Row) -> tuple[float, float, float, float]:
         """Time derivative of a row; NaN where the mechanism does not close."""

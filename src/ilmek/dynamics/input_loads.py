@@ -1,4 +1,4 @@
-"""Loads that follow the machine: over a table of an input, in the direction of a body, viscous drag."""
+"""Loads that follow the machine: over a table of an input or of time, in the direction of a body, viscous drag."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -51,18 +51,18 @@ class Drag:
 
 @record
 class TabulatedLoad:
-    """A load times a factor that is given at values of an input, with straight lines between.
+    """A load times a factor that is given at values of an input, or at times, with straight lines between.
 
-    load        the load at a factor of 1      input_name  name of the input
-    at          values of the input [rad; m], ascending      factors  [1] at these values
+    load        the load at a factor of 1      input_name  name of the input; None: the table is over time
+    at          values of the input [rad; m] or times [s], ascending      factors  [1] at these values
     turns       whether the table repeats in every turn of the input; else its end values hold outside
 
     A table that repeats is read from its last entry to its first one turn later. Raises MechanismError for fewer than
-    two entries, values that do not ascend, and a table that repeats and is longer than a turn.
+    two entries, values that do not ascend, and a table that repeats and is over time or longer than a turn.
     """
 
     load: Load
-    input_name: str
+    input_name: str | None
     at: tuple[float, ...]
     factors: tuple[float, ...]
     turns: bool = True
@@ -73,12 +73,14 @@ class TabulatedLoad:
             raise MechanismError(given, allowed="the same number, 2 or more")
         if not np.all(np.diff(self.at) > 0):
             raise MechanismError("the values of a table do not ascend", do="write each above the one before")
+        if self.turns and self.input_name is None:
+            raise MechanismError("a table over time repeats in every turn", do="give it over an input, or turns=False")
         if self.turns and self.at[-1] - self.at[0] > turn * (1 + 1e-12):
             given = f"a table over a turning input is {self.at[-1] - self.at[0]:g} rad long"
             raise MechanismError(given, allowed="at most a turn")
 
     def factor(self, values: FloatArray | float) -> FloatArray:
-        """The factor at values of the input [rad; m], of the same shape."""
+        """The factor at values of the input [rad; m] or times [s], of the same shape."""
         at, factors = np.asarray(self.at), np.asarray(self.factors)
         if self.turns:
             values = at[0] + np.mod(np.asarray(values) - at[0], turn)
@@ -88,8 +90,11 @@ class TabulatedLoad:
         return found
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:
-        """The wrenches of the load, times the factor."""
-        factor = self.factor(motion.drives[self.input_name].value)
+        """The wrenches of the load, times the factor. Raises MechanismError where the motion has no time."""
+        values = motion.time if self.input_name is None else motion.drives[self.input_name].value
+        if values is None:
+            raise MechanismError("a load varies over time, and the inputs stand still", do="give a speed or a motion")
+        factor = self.factor(values)
         for wrench in self.load.wrenches(motion, inertias):
             yield Wrench(wrench.body, wrench.force * factor, wrench.at, wrench.torque * factor)
 

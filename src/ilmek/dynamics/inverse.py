@@ -15,19 +15,20 @@ import numpy as np
 
 from ilmek.arguments import Arguments
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
-from ilmek.dynamics.equations import Needs, joint_pulls, needs
+from ilmek.dynamics.equations import Needs, joint_pulls, loaded, needs
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, loaded, tooth_separations
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, tooth_separations
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
 from ilmek.dynamics.undetermined import Undetermined, undetermined
 from ilmek.errors import MechanismError
-from ilmek.linkage.model import GROUND, Mechanism, Rotation, Slide
+from ilmek.linkage.model import GROUND, Joint, Mechanism, Pin, Rotation, Slide
 from ilmek.linkage.motion import Motion
+from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross, dot
 from ilmek.records import record
-from ilmek.units import format_quantity
+from ilmek.units import counted, format_quantity
 
 _GIVEN = Arguments("", MechanismError)
 
@@ -53,12 +54,14 @@ class Forces:
     torques       gears, belt -> torque on the second wheel about its middle [N m]
     acting        joint or coupling -> all its force [N] and moment [N m] about its point, on the same body: reaction,
                   couple, effort, friction; with each tension that is not determined at 0
-    efforts       input -> torque [N m] or force along the line [N] on the driven body; NaN where it is not determined
+    efforts       input, or actuator in its place -> torque [N m] or force along the line [N] on the driven body; NaN
+                  where it is not determined
     frictions     joint with friction -> torque [N m] or force along the line [N] on the same body as its reaction
-    input_power   Σ effort times input speed [W]
+    input_power   Σ effort times its speed [W]
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
     undetermined  what depends on the tension of belts and chains
+    actuators     joints whose efforts drive the motion; (): those of the inputs
 
     >>> from ilmek import bar, four_bar, inverse_dynamics, solve
     >>> motion = solve(four_bar(0.300, 0.060, 0.200, 0.230), [0.0, 0.5, 1.0], speed=15.5)
@@ -79,6 +82,7 @@ class Forces:
     load_power: FloatArray
     kinetic_rate: FloatArray
     undetermined: Undetermined = Undetermined()
+    actuators: tuple[str, ...] = ()
 
     @property
     def mechanism(self) -> Mechanism:
@@ -124,11 +128,35 @@ class Forces:
     def effort(self, entry: str) -> FloatArray:
         """Torque [N m] or force [N] on the driven body, one value per sample.
 
-        entry  name of the input: that of the driven body, or of the slide
+        entry  name of the input: that of the driven body, or of the slide; of an actuator: its joint
 
         Raises MechanismError for an unknown input.
         """
         return self.efforts[_GIVEN.one_of("input", entry, self.efforts)]
+
+    def turning(self, entry: str) -> bool:
+        """Whether an input or actuator turns."""
+        return isinstance(self._driven(entry), Pin)
+
+    def rate(self, entry: str) -> FloatArray:
+        """Speed of an input [rad/s; m/s], or of an actuator in its joint, one value per sample."""
+        if not self.actuators:
+            return np.asarray(self.motion.drives[entry].speed)
+        return joint_rate(self.motion, entry)
+
+    def acceleration(self, entry: str) -> FloatArray:
+        """Acceleration of an input [rad/s²; m/s²], or of an actuator in its joint, one value per sample."""
+        if not self.actuators:
+            return np.asarray(self.motion.drives[entry].acceleration)
+        joint = self.mechanism.joint(entry)
+        if isinstance(joint, Pin):
+            return np.asarray(self.motion.alpha(joint.second) - self.motion.alpha(joint.first))
+        return output_history(self.motion, Travel(entry)).second_rate
+
+    def _driven(self, entry: str) -> Joint:
+        """The joint of an input or actuator."""
+        joints = {drive.name: drive.joint for drive in self.mechanism.inputs}
+        return self.mechanism.joint(entry if self.actuators else joints[entry])
 
     @property
     def power_residual(self) -> FloatArray:
@@ -155,6 +183,7 @@ def inverse(
     joint_frictions: Sequence[JointFriction] = (),
     *,
     side: RealField = 1.0,
+    actuators: Sequence[str] = (),
 ) -> Forces:
     """Joint forces and drive efforts of a motion under inertia, loads and joint friction.
 
@@ -164,21 +193,26 @@ def inverse(
     joint_frictions  friction of joints, consistent with the joint forces; see `joint_friction`; default: none
     side             at a reversal of a joint with friction: +1 the forces just after it in time, -1 just before; a
                      number or one value per sample
+    actuators        joints with the motors, as many as inputs; default: the joints of the inputs
 
-    Raises MechanismError for an unknown body or joint, and for friction where no input moves. A single sample never
-    raises: see `Forces.status` and `Forces.require`.
+    Raises MechanismError for an unknown body or joint, another number of actuators than of inputs, and for friction
+    where no input moves. A single sample never raises: see `Forces.status` and `Forces.require`.
     """
     mechanism = motion.plan.mechanism
     for body in inertias:
         mechanism.body(body)
     check_joints(mechanism, joint_frictions)
+    _check_actuators(mechanism, actuators)
+    if joint_frictions and not any(np.any(drive.speed) for drive in motion.drives.values()):
+        given = f"friction in {mechanism.name} has no direction: its inputs stand still"
+        raise MechanismError(given, do="give an input a speed")
     bodies = {body: inertias.get(body, MASSLESS) for body in mechanism.moving}
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):  # rates are infinite at a dead centre
         wrenches = [wrench for load in loads for wrench in load.wrenches(motion, bodies) if wrench.body != GROUND]
-        forces, missing = _empty_forces(motion, joint_frictions), Undetermined()
+        forces, missing = _empty_forces(motion, joint_frictions, actuators), Undetermined()
         for start in range(0, len(motion), BLOCK):
             part = slice(start, start + BLOCK)
-            poses = pose_block(part_of(motion, part), bodies)
+            poses = pose_block(part_of(motion, part), bodies, tuple(actuators))
             acting = [wrench.part(part) for wrench in wrenches]
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
@@ -197,7 +231,23 @@ def inverse(
     return _without(forces, missing) if missing else forces
 
 
-def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction]) -> Forces:
+def _check_actuators(mechanism: Mechanism, actuators: Sequence[str]) -> None:
+    for name in actuators:
+        mechanism.joint(name)
+    if actuators and len(set(actuators)) != len(mechanism.inputs):
+        given = f"{mechanism.name} has {counted(len(set(actuators)), 'actuator')}"
+        raise MechanismError(given, allowed=f"as many as inputs: {len(mechanism.inputs)}")
+
+
+def joint_rate(motion: Motion, name: str) -> FloatArray:
+    """Speed in a joint [rad/s; m/s along a slide], of a pin's second body or of the sliding body, per sample."""
+    joint = motion.plan.mechanism.joint(name)
+    if isinstance(joint, Pin):
+        return np.asarray(motion.omega(joint.second) - motion.omega(joint.first))
+    return output_history(motion, Travel(name)).rate
+
+
+def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actuators: Sequence[str]) -> Forces:
     """Forces with arrays still to be filled."""
     mechanism, samples = motion.plan.mechanism, len(motion)
     joined = (*mechanism.joints, *mechanism.couplings)
@@ -208,11 +258,12 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction]) -> F
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
         torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind != "rack"},
         acting={joint.name: WholeForce(np.empty(samples, complex), np.empty(samples)) for joint in joined},
-        efforts={entry.name: np.empty(samples) for entry in mechanism.inputs},
+        efforts={name: np.empty(samples) for name in actuators or [entry.name for entry in mechanism.inputs]},
         frictions={law.joint: np.zeros(samples) for law in joint_frictions},
         input_power=np.zeros(samples),
         load_power=np.zeros(samples),
         kinetic_rate=np.zeros(samples),
+        actuators=tuple(actuators),
     )
 
 
@@ -251,11 +302,10 @@ def _store_reactions(
     pulls = joint_pulls(poses, needed)
     failed = forces.status[part] != Status.OK
     driving: dict[str, FloatArray] = {}
-    for entry in forces.mechanism.inputs:
-        joint = poses.joints[entry.joint]
-        pull = pulls[entry.joint]
+    for driver, joint in poses.drivers.items():
+        pull = pulls[joint.name]
         effort = np.where(failed, np.nan, joint.generalized_force(pull, joint.at))
-        forces.efforts[entry.name][part] = effort if entry.name in (joint.on, joint.name) else -effort
+        forces.efforts[driver][part] = effort if driver in (joint.on, joint.name) else -effort
         forces.input_power[part] += effort * poses.rate(joint)
         driving[joint.name] = effort
         pulls[joint.name] = ForceAndMoment(pull.force - effort * joint.drive.force, pull.moment)

@@ -9,6 +9,7 @@ the whole compares the force on the frame, summed over joints and drives, with l
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,12 +17,11 @@ from ilmek.arrays import FloatArray
 from ilmek.dynamics.attached import attached
 from ilmek.dynamics.balance import Shaking, on_frame, shaking
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.inverse import MASSLESS, Forces, inverse
+from ilmek.dynamics.inverse import MASSLESS, Forces, inverse, joint_rate
 from ilmek.dynamics.loads import Gravity, Load
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.linkage.model import GROUND, Pin, Rotation
+from ilmek.linkage.model import GROUND, Pin
 from ilmek.linkage.motion import Motion
-from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross
 from ilmek.records import computed, record, result
@@ -59,19 +59,24 @@ class InverseRun:
         return np.asarray((self.forces.status != Status.OK) & (self.forces.motion.status == Status.OK))
 
     @property
+    def driver(self) -> str | None:
+        """Name of the effort that drives: of the driving input, or of the actuator in its place; None without one."""
+        names = (entry.name for entry in self.forces.mechanism.inputs)
+        return dict(zip(names, self.forces.efforts, strict=True)).get(self.driving or "")
+
+    @property
     def turning(self) -> bool:
-        """Whether the driving input turns."""
-        inputs = self.forces.mechanism.inputs
-        return any(isinstance(entry, Rotation) for entry in inputs if entry.name == self.driving)
+        """Whether the drive turns."""
+        return self.driver is not None and self.forces.turning(self.driver)
 
     @property
     def effort(self) -> FloatArray | None:
-        """Effort of the driving input [N m; N]; None without one."""
-        return None if self.driving is None else self.forces.effort(self.driving)
+        """Effort of the drive [N m; N]; None without one."""
+        return None if self.driver is None else self.forces.effort(self.driver)
 
     @property
     def peak(self) -> float | None:
-        """Greatest effort of the driving input [N m; N]; None without one."""
+        """Greatest effort of the drive [N m; N]; None without one."""
         return None if self.effort is None else greatest(self.effort)
 
     def _drive(self, turning: bool, kind: str) -> float | None:
@@ -126,9 +131,9 @@ class InverseRun:
         if self.effort is None:
             return None
         if self.time is None:
-            return float(np.trapezoid(self.effort, np.asarray(self.forces.motion.drives[str(self.driving)].value)))
-        drive = self.forces.motion.drives[str(self.driving)]
-        power = self.effort * drive.speed
+            drive = self.forces.motion.drives.get(str(self.driver))
+            return None if drive is None else float(np.trapezoid(self.effort, np.asarray(drive.value)))
+        power = self.effort * self.forces.rate(str(self.driver))
         # Samples may run against time: over a descending range, or at a negative speed.
         work = float(np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time))
         return 0.0 if abs(work) < NO_WORK * abs(float(np.trapezoid(np.abs(power), self.time))) else work
@@ -165,11 +170,11 @@ def inverse_run(machine: OwnMachine, motion: Motion, driving: str | None, time: 
     motion   with speeds and accelerations      driving  name of the driving input; None: all inputs are fixed
     time     of the samples [s], ascending; None: the inputs stand still, and the friction of joints is left out
 
-    Raises MechanismError as `inverse`, for unknown bodies or joints.
+    Raises MechanismError as `inverse`, for unknown bodies or joints, and for a load over time without one.
     """
-    loads = all_loads(machine)
+    loads, motion = all_loads(machine), replace(motion, time=time)
     moves = any(np.any(np.asarray(drive.speed) != 0) for drive in motion.drives.values())
-    forces = inverse(motion, machine.inertias, loads, machine.frictions if moves else ())
+    forces = inverse(motion, machine.inertias, loads, machine.frictions if moves else (), actuators=machine.actuators)
     shaken, frame = shaking(motion, machine.inertias, ABOUT), on_frame(forces, ABOUT)
     return InverseRun(driving, time, forces, shaken, frame, _misfit(forces, frame, shaken, loads, machine.inertias))
 
@@ -188,14 +193,6 @@ def friction_power(forces: Forces) -> FloatArray | None:
     for name, effort in forces.frictions.items():
         total = total - effort * joint_rate(forces.motion, name)
     return total
-
-
-def joint_rate(motion: Motion, name: str) -> FloatArray:
-    """Speed in a joint [rad/s; m/s along a slide], of a pin's second body or of the sliding body, per sample."""
-    joint = motion.plan.mechanism.joint(name)
-    if isinstance(joint, Pin):
-        return np.asarray(motion.omega(joint.second) - motion.omega(joint.first))
-    return output_history(motion, Travel(name)).rate
 
 
 def _misfit(

@@ -24,7 +24,7 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexField, FloatArray, RealField
-from ilmek.dynamics.equations import Needs, add, joint_pulls
+from ilmek.dynamics.equations import Needs, joint_pulls, loaded
 from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
@@ -166,8 +166,8 @@ def efforts(
     side    at a reversal of a joint: +1 just after it in time, -1 just before; a number or one per sample
 
     Returns joint -> torque [N m] or force along the line [N] on its `on` body, coupling -> force [N] that separates
-    its teeth, one value per sample, NaN where locked; and the locked samples. Raises MechanismError for friction where
-    no input moves.
+    its teeth, one value per sample, NaN where locked; and the locked samples. Where a joint has neither speed nor
+    acceleration its friction is 0: at rest, a force up to its limit may act in either direction.
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]
@@ -184,20 +184,6 @@ def efforts(
         signs = np.where(separating, signs, np.sign(rates + _time_offset(poses, side) * second))
     sizes, locked = _consistent(joints, laws, signs, unloaded, responses)
     return {law.joint: size for law, size in zip(laws, viscous + sizes, strict=True)}, locked
-
-
-def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
-    """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other; see `drive`.
-
-    Returns needs of the same shapes, [N] and [N m] per sample.
-    """
-    changed = dict(needed)
-    for name, effort in efforts.items():
-        joint = poses.joints[name]
-        for body, sign in ((joint.on, -1), (joint.by, +1)):
-            pull = ForceAndMoment(sign * effort * joint.drive.force, sign * effort * joint.drive.moment)
-            add(changed, poses, body, pull, joint.at)
-    return changed
 
 
 def _consistent(
@@ -241,15 +227,13 @@ def _size_change(force: ComplexField, change: ComplexField) -> RealField:
 
 
 def _time_offset(poses: PoseBlock, side: RealField) -> RealField:
-    """Time before or after an instant at which the direction of friction is evaluated [s]."""
+    """Time before or after an instant at which the direction of friction is evaluated [s].
+
+    Where all inputs rest, any time: the accelerations give the direction in which the joints begin to move, or stopped.
+    """
     speeds = [np.abs(np.asarray(drive.speed, dtype=float)) for drive in poses.motion.drives.values()]
     fastest = np.asarray(sum(speeds))
-    if not fastest.all():
-        raise MechanismError(
-            f"friction in {poses.motion.plan.mechanism.name} has no direction: its inputs stand still",
-            do="give an input a speed",
-        )
-    offset: RealField = np.asarray(side) * OFFSET / fastest
+    offset: RealField = np.asarray(side) * OFFSET / np.where(fastest > 0, fastest, 1.0)
     return offset
 
 

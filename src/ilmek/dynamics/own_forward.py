@@ -116,7 +116,7 @@ def own_forward(machine: OwnMachine, plan: Plan, task: ForwardTask) -> OwnForwar
         rtol=RTOL,
         most_steps=MOST_STEPS,
     )
-    frictionless = replace(machine, frictions=())
+    frictionless = replace(machine, frictions=(), actuators=())
     forces = inverse_run(frictionless, run.motion(), plan.mechanism.inputs[0].name, run.time)
     return OwnForward(run, forces, wheel, task.duration)
 

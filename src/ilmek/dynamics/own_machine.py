@@ -167,6 +167,7 @@ class OwnMachine:
     transmission  pins at which the transmission angle is listed; (): every free pin of a dyad
     shapes     body -> the pieces whose inertia it has, where its file gives them with thickness and material
     open_masses  moving bodies whose mass the file does not give: that of their parts, once they are made
+    actuators  joints with the motors, as many as inputs; (): the joints of the inputs
 
     Raises MechanismError for a value of another kind.
 
@@ -190,6 +191,7 @@ class OwnMachine:
     transmission: tuple[str, ...] = ()
     shapes: Mapping[str, tuple[FlatShape, ...]] = field(default_factory=dict)
     open_masses: frozenset[str] = frozenset()
+    actuators: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         given = Arguments("a machine", MechanismError)
@@ -204,7 +206,12 @@ class OwnMachine:
             object.__setattr__(self, name, given.mapping(name, getattr(self, name), partial(given.record, kind=kind)))
         for body in (*self.inertias, *self.members):
             self.mechanism.body(body)
-        for name, kinds in (("loads", NamedLoad), ("frictions", (PinFriction, SlideFriction)), ("transmission", str)):
+        for name, kinds in (
+            ("loads", NamedLoad),
+            ("frictions", (PinFriction, SlideFriction)),
+            ("transmission", str),
+            ("actuators", str),
+        ):
             object.__setattr__(self, name, given.sequence(name, getattr(self, name), kinds))
         for name, optional in (("forward", ForwardTask), ("study", SpeedStudy), ("servo", str)):
             if getattr(self, name) is not None:

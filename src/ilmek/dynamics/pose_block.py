@@ -89,6 +89,7 @@ class PoseBlock:
     """Motions of the bodies, of their mass centres, and poses of the joints, by name.
 
     length         characteristic length of the mechanism [m]; moments are divided by it in equations with forces
+    actuators      joints whose efforts drive the motion; (): those of the inputs
     point_motions  motions of body points computed so far
     """
 
@@ -97,6 +98,7 @@ class PoseBlock:
     centres: Mapping[str, PointMotion]
     joints: Mapping[str, JointPoses]
     length: float
+    actuators: tuple[str, ...] = ()
     point_motions: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
 
     def point_motion(self, body: str, local: complex) -> PointMotion:
@@ -104,6 +106,13 @@ class PoseBlock:
         if (body, local) not in self.point_motions:
             self.point_motions[body, local] = self.bodies[body].carry(local)
         return self.point_motions[body, local]
+
+    @property
+    def drivers(self) -> dict[str, JointPoses]:
+        """What drives the motion, by the name of its effort: the actuators, or without them the inputs."""
+        if self.actuators:
+            return {name: self.joints[name] for name in self.actuators}
+        return {entry.name: self.joints[entry.joint] for entry in self.motion.plan.mechanism.inputs}
 
     def velocity(self, body: str, position: ComplexField) -> ComplexField:
         """Velocity [m/s] of the body's point that coincides with a position [m] in the ground frame."""
@@ -117,17 +126,18 @@ class PoseBlock:
         return dot(joint.line, self.velocity(joint.on, joint.at) - self.velocity(joint.by, joint.at))
 
 
-def pose_block(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
+def pose_block(motion: Motion, inertias: Mapping[str, Inertia], actuators: tuple[str, ...] = ()) -> PoseBlock:
     """Poses of the mechanism at the samples of a motion; inertias: body -> inertia [kg, m, kg m²].
 
-    motion  with accelerations, shape (samples,)
+    motion     with accelerations, shape (samples,)
+    actuators  joints whose efforts drive the motion; default: those of the inputs
     [the pole of gears is derived from the velocities of rolling pitch circles]
     """
     with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
-        return _poses(motion, inertias)
+        return _poses(motion, inertias, actuators)
 
 
-def _poses(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
+def _poses(motion: Motion, inertias: Mapping[str, Inertia], actuators: tuple[str, ...]) -> PoseBlock:
     bodies: dict[str, BodyMotion] = {GROUND: STILL}
     for step in motion.plan.steps:
         bodies.update(step.locate(bodies, {body: motion.columns[body] for body in step.bodies}))
@@ -140,6 +150,7 @@ def _poses(motion: Motion, inertias: Mapping[str, Inertia]) -> PoseBlock:
         {joint.name: _joint_poses(mechanism, joint, bodies) for joint in mechanism.joints}
         | {coupling.name: _coupling_poses(mechanism, coupling, bodies) for coupling in mechanism.couplings},
         characteristic_length(mechanism),
+        actuators,
         {(body, inertias[body].centre): centre for body, centre in centres.items()},
     )
 

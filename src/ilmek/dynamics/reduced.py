@@ -9,6 +9,7 @@ differences.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -50,7 +51,7 @@ class ReducedMechanism:
 
     weights   gravity loads
     steady    other loads that depend on the pose only
-    live      loads that may depend on the speed as well
+    live      loads that may depend on speed and time as well
     flywheel  inertia that moves with the input, including the motor's rotor [kg m²; kg for a sliding input]
     """
 
@@ -77,14 +78,15 @@ class ReducedMechanism:
         weight, push = (self._force(unit, unit, loads) for loads in (self.weights, self.steady))
         return Terms(inertia, slope, weight, push, unit.status)
 
-    def live_force(self, position: Samples, speed: Samples) -> Samples:
-        """Q of the loads that may depend on the motion [N m; N], at input values [rad; m] and speeds [rad/s; m/s].
+    def live_force(self, position: Samples, speed: Samples, time: Samples) -> Samples:
+        """Q of the loads that may depend on the motion [N m; N], at input values [rad; m], speeds [rad/s; m/s] and
+        times [s].
 
         The loads are evaluated with an input acceleration of 0.
         """
         if not self.live:
             return np.zeros(len(position))
-        motion = solve(self.plan, position, speed)
+        motion = replace(solve(self.plan, position, speed), time=time)
         if np.all(speed):  # the power of the loads over the speed: one motion serves both
             with np.errstate(invalid="ignore", over="ignore"):
                 return np.asarray(self._force(motion, motion, self.live) / speed)

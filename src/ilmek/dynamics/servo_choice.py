@@ -9,6 +9,7 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics.attached import attached
+from ilmek.dynamics.inverse import joint_rate
 from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.elements.duty import INERTIA_RATIO, MARGIN, LoadCycle, MotorDuty, ServoDrive, duty, size_motor
@@ -75,21 +76,21 @@ class ServoChoice:
 
 
 def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
-    """The smallest servo that is sufficient for the driving input over a run.
+    """The smallest servo that is sufficient for the driving input, or the actuator in its place, over a run.
 
     Over samples at which the mechanism does not close or locks the effort is interpolated.
     Raises MechanismError where the servo's input slides, is not the driving one, or stands still.
     """
     name = machine.servo
-    if name is None or name != run.driving or not run.turning or run.time is None:
+    if name is None or name != run.driver or not run.turning or run.time is None:
         raise MechanismError(
-            f"a servo is required for input {name!r}, the driving input is {run.driving or 'none'}",
-            allowed="the driving input, turning and moving",
+            f"a servo is required for {name!r}, the drive is {run.driver or 'none'}",
+            allowed="the drive, turning and moving",
         )
-    motion, time = run.forces.motion, np.abs(run.time - run.time[0])
-    drive, good = motion.drives[name], np.isfinite(run.forces.effort(name))
+    time, effort, felt = np.abs(run.time - run.time[0]), run.forces.effort(name), felt_inertia(machine, run, name)
+    good = np.isfinite(effort) & np.isfinite(felt)
     even = (np.arange(SAMPLES) + 0.5) / SAMPLES * time[-1]
-    curves = (drive.speed, drive.acceleration, run.forces.effort(name), felt_inertia(machine, run, name))
+    curves = (run.forces.rate(name), run.forces.acceleration(name), effort, felt)
     speed, rate, effort, felt = (
         np.interp(even, time[good], np.broadcast_to(curve, time.shape)[good]) for curve in curves
     )
@@ -99,11 +100,17 @@ def servo_choice(machine: OwnMachine, run: InverseRun) -> ServoChoice:
 
 
 def felt_inertia(machine: OwnMachine, run: InverseRun, name: str) -> FloatArray:
-    """Inertia of all bodies that an input feels [kg m²; kg], one value per sample, the other inputs at rest."""
+    """Inertia of all bodies that a drive feels [kg m²; kg], one value per sample, the other inputs at rest.
+
+    name  the driving input, or a turning actuator in its place; infinite where that stands still
+    """
     motion = run.forces.motion
-    unit = solve(motion.plan, {entry: drive.value for entry, drive in motion.drives.items()}, {name: 1.0})
+    unit = solve(motion.plan, {entry: drive.value for entry, drive in motion.drives.items()}, {str(run.driving): 1.0})
     total = np.zeros(len(unit))
     for body, inertia in machine.inertias.items():
         centre = attached(unit, body, inertia.centre)
         total = total + inertia.mass * np.abs(centre.velocity) ** 2 + inertia.moment * unit.omega(body) ** 2
-    return total
+    if not run.forces.actuators:
+        return total
+    with np.errstate(divide="ignore"):
+        return np.asarray(total / joint_rate(unit, name) ** 2)

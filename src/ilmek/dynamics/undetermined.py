@@ -139,9 +139,9 @@ class _Response:
     pulls: Mapping[str, ForceAndMoment]
 
     def inputs(self) -> set[str]:
-        """The inputs whose effort responds."""
+        """The inputs, or actuators, whose effort responds."""
         efforts = {name: effort for name, effort in self._efforts().items() if self._responds(effort)}
-        return {entry.name for entry in self.poses.motion.plan.mechanism.inputs if entry.joint in efforts}
+        return {name for name, joint in self.poses.drivers.items() if joint.name in efforts}
 
     def joints(self) -> set[str]:
         """The joints and couplings whose force responds, the effort of a drive aside."""
@@ -174,10 +174,9 @@ class _Response:
     def _efforts(self) -> dict[str, ForceAndMoment]:
         """The efforts of the drives, by joint."""
         efforts = {}
-        for entry in self.poses.motion.plan.mechanism.inputs:
-            joint = self.poses.joints[entry.joint]
-            effort = joint.generalized_force(self.pulls[entry.joint], joint.at)
-            efforts[entry.joint] = ForceAndMoment(effort * joint.drive.force, effort * joint.drive.moment)
+        for joint in self.poses.drivers.values():
+            effort = joint.generalized_force(self.pulls[joint.name], joint.at)
+            efforts[joint.name] = ForceAndMoment(effort * joint.drive.force, effort * joint.drive.moment)
         return efforts
 
     def _without_efforts(self) -> dict[str, ForceAndMoment]:

@@ -122,9 +122,9 @@ class MachineScrew:
         """As ordered, with its washer.
 
         >>> SCREWS["M12"].designation(0.04)
-        'ISO 4017 - M12 x 40 - 8.8, washer ISO 7089 - 12 - 200 HV'
+        'ISO 4017 - M12 x 40 - 8.8 with washer ISO 7089 - 12 - 200 HV'
         """
-        washer = f", washer ISO 7089 - {self.diameter / mm:g} - 200 HV" if self.washer[1] else ""
+        washer = f" with washer ISO 7089 - {self.diameter / mm:g} - 200 HV" if self.washer[1] else ""
         return f"{_SUNK if self.sink else _HEXAGON} - {self.name} x {length / mm:g} - 8.8{washer}"
 
 

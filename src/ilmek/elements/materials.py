@@ -42,6 +42,7 @@ class Material:
     tensile   strength [Pa]     poisson  ratio         hardness  of its surface, Brinell below 400, else Vickers
     fatigue   limit in reversed bending [Pa]; hertz    allowed pressure for infinite life [Pa]; None: not known
     treatment  of a hardened surface; None: it is as delivered
+    carbon     equivalent CEV of a steel that may be welded, most of its standard [EN 1011-2, C.1]; 0: not known
     """
 
     name: str
@@ -56,6 +57,7 @@ class Material:
     hertz: float | None
     designation: str
     treatment: Hardening | None = None
+    carbon: float = 0.0
 
     def __repr__(self) -> str:
         return f"<Material {self.name}>"
@@ -80,6 +82,7 @@ def _material(
     hertz: float | None = None,
     poisson: float = 0.3,
     treatment: Hardening | None = None,
+    carbon: float = 0.0,
 ) -> Material:
     """From GPa, MPa; `fatigue` is a share of the tensile strength."""
     return Material(
@@ -95,6 +98,7 @@ def _material(
         None if hertz is None else hertz * MPa,
         designation,
         treatment,
+        carbon,
     )
 
 
@@ -106,12 +110,14 @@ MATERIALS: dict[str, Material] = {
             "S235JR EN 10025-2",
             "EN 1993-1-1; up to 16 mm thick",
             modulus=210, density=7850, strength=235, tensile=360, hardness=110, fatigue=0.45, hertz=110 + 190,
+            carbon=0.35,
         ),
         _material(
             "heat-treatable steel",
             "C45+QT EN 10083-2",
             "its standard, up to 16 mm (430 to 40 mm)",
             modulus=210, density=7850, strength=490, tensile=700, hardness=210, fatigue=0.45, hertz=0.925 * 210 + 360,
+            carbon=0.63,
         ),
         _material(
             "alloy heat-treatable steel",

@@ -1,19 +1,20 @@
 """Parallel keys between a shaft and its hub: length by surface pressure.
 
-    p = 2 T / (n f d (h - t1) l) <= 0.9 Re                                                [DIN 6892, method C]
+    p = 2 T / (n f d (h - t1) l) <= Re / 1.5                   [DIN 6892, method C; Roloff/Matek, 12.2: one-sided load]
 
 d is the shaft's diameter, h the key's height, t1 the depth of its groove in the shaft, l its bearing length (form B,
-with plane ends, in a groove that is open to the end), Re the least yield strength of shaft, key and hub. No more than
-1.3 d of it bears, over which the method holds. Where one key is not enough two lie opposite (n = 2), of which f = 0.75
-bears; f = 1 of one. Sections, grooves and shortest lengths: `keyways`. One key lies through all hubs of a stack: of the
-length that they need together, beyond the longest of DIN 6885 cut from key steel.
+with plane ends, in a groove that is open to the end), Re the least yield strength of shaft, key and hub, of C45 by its
+size. No more than 1.3 d of it bears, over which the method holds. Where one key is not enough two lie opposite (n = 2),
+of which f = 0.75 bears; f = 1 of one. Sections, grooves and shortest lengths: `keyways`. One key lies through all hubs
+of a stack: of the length that they need together, beyond the longest of DIN 6885 cut from key steel.
 """
 
+import math
+
 from ilmek.elements.keyways import Keyway, keyway_for
-from ilmek.elements.materials import MATERIALS
 from ilmek.records import record
 from ilmek.report import Check, at_most
-from ilmek.units import format_quantity, mm
+from ilmek.units import MPa, format_quantity, mm
 
 LENGTHS = tuple(
     length * mm
@@ -24,14 +25,14 @@ LENGTHS = tuple(
 )
 """Lengths of keys [m]: DIN 6885-1; of a section those from its shortest to its longest."""
 
-STRENGTH = MATERIALS["heat-treatable steel"].strength
-"""Yield strength of key and hub [Pa]: C45 +QT, also of a reducer's hollow shaft; assumed by this project."""
+_STRENGTHS = ((16 * mm, 490 * MPa), (40 * mm, 430 * MPa), (math.inf, 370 * MPa))
+"""Largest size, and yield strength of C45 +QT [Pa]: EN 10083-2; also of a reducer's hollow shaft, assumed."""
 
 BEARING = {1: 1.0, 2: 0.75}
 """Share f of a number of keys that bears."""
 
-SHARE, LONGEST = 0.9, 1.3
-"""Allowed pressure over the yield strength, and length over the diameter: DIN 6892, method C."""
+SAFETY, LONGEST = 1.5, 1.3
+"""Yield strength over the allowed pressure, and length over the diameter."""
 
 
 @record
@@ -63,7 +64,8 @@ class KeyedEnd:
     @property
     def allowed(self) -> float:
         """Allowed surface pressure [Pa]."""
-        return SHARE * min(self.strength, STRENGTH)
+        hub = next(strength for size, strength in _STRENGTHS if self.diameter <= size + 1e-9)
+        return min(self.strength, hub) / SAFETY
 
     @property
     def designation(self) -> str:

@@ -20,9 +20,19 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.bearings import life
+from ilmek.units import mm
 
 PIN_DIAMETERS = tuple(size * 1e-3 for size in (6, 8, 10, 12, 16, 20, 25, 30, 40, 50, 63, 80, 100))
 """Diameters of pins to choose from [m]: of ISO 2341 and 2340."""
+
+
+def side_play(width: float) -> float:
+    """Play along its pin of what turns between cheeks [m]: more than ISO 2768-m takes of its width and theirs.
+
+    >>> round(side_play(0.006), 6), round(side_play(0.012), 6)
+    (0.00025, 0.00045)
+    """
+    return (0.25 if width <= 6 * mm * (1 + 1e-9) else 0.45) * mm
 
 
 def pin_shear(force: float, diameter: float, *, fork: bool = True) -> float:

@@ -155,6 +155,7 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "duct": PriceRates(per_m=12.0),
     "conduit": PriceRates(per_m=1.5),
     "energy chain": PriceRates(each=20.0, per_m=60.0),
+    "hinge": PriceRates(each=4.0, per_kg=20.0),
     "guard mesh": PriceRates(each=20.0, per_kg=6.0),
 }
 

@@ -16,13 +16,14 @@ from ilmek.elements import bearings, shafts
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.fatigue import Loading, endurance_limit, goodman
+from ilmek.elements.locknuts import locknut_for
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.sections import square_section
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.elements.whirl import uniform_speed
 from ilmek.records import computed, group, record, result
 from ilmek.report import Json
-from ilmek.units import turn
+from ilmek.units import mm, turn
 
 
 @record
@@ -220,11 +221,20 @@ def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float)
             (one.bore for one in offered if one.bore >= journal and shoulder(one).safety >= LEAST_SAFETY), journal
         )
         found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=bore)
-        bearing = found if found is not None and found.bore <= bar else _strongest(bar)
+        bearing = found if found is not None and found.bore <= _passing(bar) else _strongest(bar)
     else:
         bearing = bearings.find_bearing(task.bearing)
     lives = bearings.life(bearing.dynamic, bearings.equivalent_load(bearing, reaction), bearing.kind)
     return ShaftBearings(reaction, journal, bearing, lives * turn / task.speed, shoulder(bearing))
+
+
+LEAST_BAR = 28 * mm
+"""The smallest bar with a thread whose nut passes over the journal of the smallest insert bearing [m]."""
+
+
+def _passing(bar: float) -> float:
+    """Largest journal over which the nut on a bar's end passes [m]."""
+    return locknut_for(bar, math.inf).core
 
 
 _STEP = 1e-3
@@ -233,12 +243,12 @@ _STEP = 1e-3
 
 def _bar(least: float) -> float:
     """The smallest stock bar that is not below a side; the largest of stock beyond it [m]."""
-    return shafts.stock_side(least) or shafts.STOCK_SIDES[-1]
+    return shafts.stock_side(max(least, LEAST_BAR)) or shafts.STOCK_SIDES[-1]
 
 
 def _strongest(bar: float) -> RollingBearing:
     """The insert bearing of greatest load rating that fits a bar [m]; the smallest bore where none fits."""
-    fitting = [insert for insert in _inserts() if insert.bore <= bar]
+    fitting = [insert for insert in _inserts() if insert.bore <= _passing(bar)]
     return max(fitting, key=lambda one: one.dynamic) if fitting else min(_inserts(), key=lambda one: one.bore)
 
 

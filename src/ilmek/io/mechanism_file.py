@@ -45,7 +45,7 @@ from ilmek.io.mechanism.masses import STATED, check_link, flat_member, inertia_o
 from ilmek.io.mechanism.mechanism import mechanism_of
 from ilmek.io.mechanism.motions import motions_of
 from ilmek.io.mechanism.names import parts_of
-from ilmek.io.mechanism.tasks import forward_of, paths_of, servo_of, study_of, transmission_of
+from ilmek.io.mechanism.tasks import actuators_of, forward_of, paths_of, servo_of, study_of, transmission_of
 from ilmek.io.mechanism.values import named_values
 from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
@@ -147,6 +147,7 @@ def _machine(data: Table, source: SourceText) -> OwnMachine:
     members, inertias = _masses(data, mechanism, source)
     pins = pin_members(data.get("pins", {}), parts, source)
     loads = loads_of(data, mechanism, source)
+    actuators = actuators_of(data.get("actuators", {}), parts, mechanism, source)
     return OwnMachine(
         mechanism,
         inertias,
@@ -158,11 +159,12 @@ def _machine(data: Table, source: SourceText) -> OwnMachine:
         motions_of(data.get("motions", {}), mechanism, source),
         forward_of(data.get("forward"), mechanism, loads, source),
         study_of(data.get("study"), mechanism, source),
-        servo_of(data.get("servo"), mechanism, source),
+        servo_of(data.get("servo"), mechanism, actuators, source),
         paths_of(data.get("paths", ()), mechanism, source),
         transmission_of(data.get("transmission", ()), parts, source),
         {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
         frozenset(name for name in mechanism.moving if not data["bodies"][name].keys() & STATED),
+        actuators,
     )
 
 

@@ -48,6 +48,7 @@ _TYPES = {
 }
 
 _SQUARES = {FeatureKind.SQUARE, FeatureKind.SQUARE_BORE}
+_THREADS, _OUTER = {FeatureKind.THREAD, FeatureKind.OUTER_THREAD}, {FeatureKind.JOURNAL, FeatureKind.OUTER_THREAD}
 
 
 @record
@@ -80,7 +81,10 @@ def add_tolerances(
             added.size(feature, first, second)
         if feature.depth:
             added.depth(feature, surfaces)
-    lettered = {feature.datum: added.labels(_both(faces[feature.name])) for feature in features if feature.datum}
+    lettered = {
+        letter: added.labels(_both([pair for own in features if own.datum == letter for pair in faces[own.name]]))
+        for letter in {feature.datum for feature in features if feature.datum}
+    }
     for feature in features:
         for tolerance in feature.geometric:
             added.geometric(tolerance, added.labels(_both(faces[feature.name])), lettered)
@@ -111,7 +115,7 @@ class _Added:
     def size(self, one: ToleratedFeature, first: Sequence[_Surface], second: Sequence[_Surface]) -> None:
         """The nominal size with its class and limits: of a cylinder, or from side to side."""
         size = _dimension("Size_Diameter" if not second else "Location_LinearDistance", one.nominal, one.name)
-        if one.kind is not FeatureKind.THREAD:
+        if one.kind not in _THREADS:
             _limit(size, one.lower, one.upper)
             size.SetClassOfTolerance(*_class(one.tolerance))
         self._set(size, first, second)
@@ -271,7 +275,7 @@ def _faces(one: ToleratedFeature, surfaces: tuple[_Surface, ...]) -> tuple[_Side
         sides = (frame.planes(1, sense=sense, distance=half, beyond=0.0) for sense in (1, -1))
         pairs = ((next(sides), next(sides)),)
     else:
-        found = frame.cylinders(half, inside=one.kind is not FeatureKind.JOURNAL)
+        found = frame.cylinders(half, inside=one.kind not in _OUTER)
         return _required(one, ((found, ()),), found)
     return _required(one, pairs, *(side for pair in pairs for side in pair))
 

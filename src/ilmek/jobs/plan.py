@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ilmek.carpet.yarn_plan import EURO
 from ilmek.errors import LoomError, ParameterError, did_you_mean
+from ilmek.factory.annealing import annealed_plan
 from ilmek.factory.heuristic import first_plan
 from ilmek.factory.model import HOUR, MONEY, FactoryPlan, PlannedCarpet, SolveLimits
 from ilmek.factory.rescue import Rescue, rescues
@@ -24,6 +25,12 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
 from ilmek.report import Check, Json, at_most
 from ilmek.units import g, minute, parse_quantity
+
+MOVES = 4_000
+"""Moves of the annealing in a second of the time limit: it takes about a quarter of it."""
+
+ANNEALING_SHARE = 0.4
+"""Share of the time limit after which a clock ends the annealing, on a slow computer."""
 
 LEAST_LIMIT, MOST_LIMIT = 1.0, 3600.0
 """Bounds of --time-limit [s]."""
@@ -172,11 +179,19 @@ def plan_factory(
     if not inputs.factory.jobs:
         return PlanResult(inputs, None, (), (), limit)
     begun = time.monotonic()
-    first = first_plan(inputs.factory, progress.part(0.3, 0.4, "first plan"))
+    first = first_plan(inputs.factory, progress.part(0.3, 0.35, "first plan"))
+    annealed_by = begun + ANNEALING_SHARE * limit
+    first, whole = annealed_plan(
+        first,
+        round(MOVES * limit),
+        progress.part(0.35, 0.5, "annealing"),
+        ended=lambda: time.monotonic() > annealed_by,
+    )
     left = limit - (time.monotonic() - begun)
     share = SOLVER_SHARE if first.late else 1.0
-    progress.part(0.4, 0.8, "plan")
+    progress.part(0.5, 0.8, "plan")
     solved = solve(inputs.factory, first, SolveLimits(PACE * share * limit, max(0.5, share * left)))
+    solved = replace(solved, repeatable=solved.repeatable and whole)
     faults = plan_faults(solved.plan, solved.plan.cost)
     if faults:
         raise LoomError(f"the plan does not hold: {faults[0]}", do="report this with both files")

@@ -33,6 +33,7 @@ class Motion:
     samples, and may be a read-only view. NaN where a sample is not solved.
 
     status  Status of each sample (int8)        drives  the inputs' motions by name
+    time    of the samples [s], for loads that vary over it; None: not known
 
     >>> from ilmek import four_bar, solve
     >>> motion = solve(four_bar(0.300, 0.060, 0.200, 0.230), [0.0, 0.5, 1.0], speed=15.5)
@@ -46,6 +47,7 @@ class Motion:
     drives: Mapping[str, InputMotion]
     columns: Mapping[str, Columns]
     status: Int8[np.ndarray, " samples"]
+    time: Reals | None = None
 
     def __len__(self) -> int:
         return len(self.status)

@@ -12,6 +12,7 @@ from itertools import chain, groupby
 
 import numpy as np
 
+from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
 from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
@@ -29,7 +30,7 @@ from ilmek.part.welds import welds_of
 from ilmek.records import record
 from ilmek.report import Check, Column, Drawing, Paper, PaperSection, Stroke, Table, at_most
 from ilmek.sentences import Sentence, joined
-from ilmek.units import format_quantity, in_mm, mm
+from ilmek.units import format_quantity, mm
 
 MOST_CURVES = 400
 """Most outlines of a picture: the largest; a smaller one would be a spot."""
@@ -46,7 +47,7 @@ class AssemblyStep:
     pieces  the parts that come where they stand      moves  directions by which each comes, in turn; none: it stands
     onto    bodies that it touches     built  how many come whose parts came on the bench, in the steps before; 0: parts
     stack   the order of parts that alternate along an axis      screws  how many of each hold what comes in this step
-    welds   ids of the two parts that each weld joins which is made in this step, with its throat [m]
+    welds   ids of the two parts that each weld joins which is made in this step, with its sizes: `a4, s8`
     """
 
     bodies: tuple[str, ...]
@@ -56,7 +57,7 @@ class AssemblyStep:
     built: int = 0
     stack: tuple[StackRun, ...] = ()
     screws: Mapping[Part, int] = field(default_factory=dict)
-    welds: tuple[tuple[str, str, float], ...] = ()
+    welds: tuple[tuple[str, str, str], ...] = ()
 
     @property
     def parts(self) -> Mapping[Part, int]:
@@ -86,6 +87,16 @@ def fastening_check(screwed: Tree) -> Check:
     source = "; ".join(dict.fromkeys(titles[name] for name in loose)) or "welds, screws, keys, fits, neighbours"
     check = at_most("assembly: parts without a fastening", len(loose), 0, "1", source)
     return check.with_cure("screw, weld, key or press in the parts named", *loose)
+
+
+def weld_check(screwed: Tree) -> Check:
+    """Whether each weld of a tree burns through no wall."""
+    bad = [(name, weld.other) for name, own in welds_of(screwed).items() for weld in own if weld.too_thick]
+    titles = {part.id: part.title for part, _ in screwed.occurrences()}
+    named = (f"{titles[name]} to {titles.get(other, 'itself')}" for name, other in bad[:3])
+    source = "; ".join(named) or "DIN EN 1993-1-8/NA, NCI to 4.5.2: 0.7 of the thinner wall"
+    check = at_most("assembly: welds that burn through a wall", len(bad), 0, "1", source)
+    return check.with_cure("thicken the wall, or share the force by more seams", *dict(bad))
 
 
 def _every(steps: Sequence[Insertion]) -> Iterator[Insertion]:
@@ -172,7 +183,11 @@ def with_screws(
 
 def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblyStep]:
     """The rows with the welds of a tree, each with the second of its parts."""
-    pairs = {(name, weld.other): weld.throat for name, own in welds_of(tree).items() for weld in own if weld.other}
+    pairs = dict[tuple[str, str], str]()
+    for name, weld in ((name, weld) for name, own in welds_of(tree).items() for weld in own if weld.other):
+        known = pairs.setdefault((name, weld.other), weld.mark)
+        if weld.mark not in known.split(", "):
+            pairs[name, weld.other] = f"{known}, {weld.mark}"
     welded, boxes = frozenset(chain(*pairs)), defaultdict[str, list[Box]](list)
     for step in steps:
         pieces = [piece for piece in step.pieces if piece.part.id in welded]
@@ -274,7 +289,7 @@ def _row(
     parts = {} if step.built else step.parts
     fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
     fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
-    fastened += [(Sentence("manual.weld", throat=in_mm(throat)), pair) for *pair, throat in step.welds]
+    fastened += [(Sentence("manual.weld", size=size), pair) for *pair, size in step.welds]
     named = [f"{parts[part]} × {part.title}" for part in parts if part.process != FASTENER]
     return (
         number,
@@ -304,7 +319,7 @@ def _in_turn(words: Sequence[str]) -> str:
 def _tightened(part: Part, number: int) -> str:
     """A screw with its torque, or a key."""
     assert part.purchase is not None
-    screw = screw_of(part.purchase.row)
+    screw = screw_of(part.purchase.row) or locknut_of(part.purchase.row)
     torque = "" if screw is None else f", {format_quantity(screw.torque, 'Nm', 3)}"
     return f"{number} × {part.purchase.row}{torque}"
 

@@ -3,7 +3,7 @@
 from ilmek.elements.prices import PRICES
 from ilmek.machines.automated_loom.papers.maintenance import spares_of
 from ilmek.machines.making_checks import making_checks
-from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual
+from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual, weld_check
 from ilmek.part.bolting import bolted
 from ilmek.part.insertion import insertions
 from ilmek.part.part_lists import part_lists
@@ -17,5 +17,5 @@ def tree_papers(tree: Tree, *, in_space: bool) -> Papers:
     steps, whole = insertions(tree, UP), bolted(tree)
     pages = tree_manual(tree, steps, widest_view(tree), whole), spares_of(whole)
     shown = tuple(page for page in pages if page is not None)
-    checks = assembly_check(steps), fastening_check(whole), *making_checks(tree)
+    checks = assembly_check(steps), fastening_check(whole), weld_check(whole), *making_checks(tree)
     return Papers(shown, part_lists(whole, PRICES), checks, whole, in_space)

@@ -10,6 +10,7 @@ from ilmek.elements.belts import BeltType
 from ilmek.elements.columns import STEEL
 from ilmek.elements.holding_brakes import brake_for
 from ilmek.elements.linear_guides import LinearGuide
+from ilmek.elements.locknuts import Locknut
 from ilmek.elements.machine_screws import MachineScrew
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
@@ -273,6 +274,13 @@ def keys(name: str, title: str, end: KeyedEnd, *positions: Placement) -> Occurre
     part = Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
     turned = [placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number)]
     return Occurrence(part, tuple(position.after(one) for position in positions for one in turned))
+
+
+def locked(name: str, title: str, row: Locknut, *, washer: bool = False) -> Part:
+    """A locknut about z from z = 0, or its tab washer."""
+    thick, designation = (row.washer, row.washer_designation) if washer else (row.width, row.designation)
+    shape = tube(row.outer, (row.outer - row.thread) / 2, thick)
+    return bought_part(name, title, "fastener", shape, Bought(designation, shape.volume * STEEL.density))
 
 
 def length_of(part: Part) -> float:

@@ -13,12 +13,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
 from ilmek.part.contacts import StandingTouches, connected, joined_by, standing_touches
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
 from ilmek.part.tree import JointKind, Tree
-from ilmek.part.welds import welded_together
+from ilmek.part.welds import welded_pairs
 from ilmek.records import record
 from ilmek.units import mm
 
@@ -65,7 +66,7 @@ class Fastenings:
 def fastenings(tree: Tree) -> Fastenings:
     """What holds the parts of a tree."""
     parts = {part.id: part for part, _ in tree.occurrences()}
-    means = _means(tree, parts)
+    means = _means(tree, parts) | dict.fromkeys(welded_pairs(tree), Means.WELD)
     counted, loose = Counter[Means](), dict[str, None]()
     for group in standing_touches(tree):
         joined, free = list[tuple[int, int]](), list[tuple[int, int]]()
@@ -110,7 +111,8 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
     fasteners = {name for name, part in parts.items() if part.process == "fastener"}
     for name, joined in joined_by(tree, frozenset(fasteners)).items():
         purchase = parts[name].purchase
-        means = Means.KEY if purchase is None or screw_of(purchase.row) is None else Means.SCREW
+        screwed = purchase is not None and (screw_of(purchase.row) or locknut_of(purchase.row))
+        means = Means.SCREW if screwed else Means.KEY
         for other in joined:
             found |= {frozenset((name, other)): means}
             found |= {frozenset((other, third)): means for third in joined if third != other}
@@ -118,7 +120,5 @@ def _means(tree: Tree, parts: Mapping[str, Part]) -> dict[Pair, Means]:
 
 
 def _by_itself(one: Part, other: Part) -> Means:
-    if welded_together(one, other):
-        return Means.WELD
     own = one.fixing or other.fixing or {one.process, other.process} & OWN.keys()
     return Means.OWN if own else Means.NONE

@@ -94,8 +94,7 @@ def _of_contour(contour: Contour, length: float, *, inside: bool) -> Iterator[Fe
         first, *others = np.angle(keyed.directions).tolist()
         lies = placement(keyed.centre.real, keyed.centre.imag, about=_Z, angle=first)
         turned = tuple(angle - first for angle in others)
-        if keyway is not None:
-            yield FeatureOfSize(lies, 2 * keyed.radius, length, inside, keyway, turned)
+        yield FeatureOfSize(lies, 2 * keyed.radius, length, inside, keyway, turned if keyway else ())
     elif _is_square(contour):
         points = counter_clockwise(contour).points
         middle, side = complex(points.mean()), complex(points[1] - points[0])

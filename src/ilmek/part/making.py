@@ -32,7 +32,7 @@ from ilmek.part.features import drillings
 from ilmek.part.folding import folded_sheet
 from ilmek.part.forms import form_of, members_of
 from ilmek.part.part import Part
-from ilmek.part.placement import IDENTITY
+from ilmek.part.placement import IDENTITY, Placement
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, shape_box
 from ilmek.plane.contours import as_hole, as_keyed, length
 from ilmek.report import ProcessStep
@@ -44,6 +44,7 @@ WEB, KERF, OFFCUT = 8 * mm, 3 * mm, 0.05
 _TOUCHES = 0.05 * mm
 
 Steps = Iterator[ProcessStep]
+PlacedShape = tuple[Shape, Placement]
 
 
 def _of_material(material: Material, volume: float) -> ProcessStep:
@@ -75,20 +76,20 @@ def seam_length(shape: Shape) -> float:
     """Length of the joints between the members of a sum [m]: the perimeters of what their boxes share, where it is
     flat.
     """
-    return sum(2 * float(np.sort(high - low)[1:].sum()) for low, high in seams(shape))
+    return sum(2 * float(np.sort(high - low)[1:].sum()) for (low, high), _ in seams(shape))
 
 
-def seams(shape: Shape) -> Iterator[tuple[FloatArray, FloatArray]]:
-    """What the boxes of two members of a sum share, where it is flat: its least and greatest x, y, z [m]."""
+def seams(shape: Shape) -> Iterator[tuple[tuple[FloatArray, FloatArray], tuple[PlacedShape, PlacedShape]]]:
+    """What the boxes of two members of a sum share, where it is flat: its least and greatest x, y, z [m], and these."""
     boxes = [
-        shape_box(member) if position is IDENTITY else shape_box(Sum((Placed(member, (position,)),)))
-        for member, position in members_of(shape)
+        (shape_box(own) if position is IDENTITY else shape_box(Sum((Placed(own, (position,)),))), (own, position))
+        for own, position in members_of(shape)
     ]
-    for (low, high), (other_low, other_high) in combinations(boxes, 2):
+    for ((low, high), first), ((other_low, other_high), second) in combinations(boxes, 2):
         begin, end = np.maximum(low, other_low), np.minimum(high, other_high)
         shared = np.sort(end - begin)
         if abs(shared[0]) < _TOUCHES < shared[1]:
-            yield begin, end
+            yield (begin, end), (first, second)
 
 
 def _milled(shape: Shape, material: Material) -> Steps:

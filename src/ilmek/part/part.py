@@ -59,6 +59,7 @@ class Bought:
     drives  how many of them drive an axis of the control together; 0: it is no motor
     holes   for its screws      drilled  faces without holes have them where its seat is, by its maker, or slots
     housing  tolerance class of the bore in which its outer ring sits
+    hardness  least one of the shaft on which its rollers run [HRC]; 0: they run on a ring of its own
     """
 
     row: str
@@ -70,6 +71,7 @@ class Bought:
     holes: tuple[HolePattern, ...] = ()
     drilled: bool = False
     housing: str = "H7"
+    hardness: int = 0
 
 
 @record

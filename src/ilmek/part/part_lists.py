@@ -8,6 +8,7 @@ import math
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 
+from ilmek.elements.locknuts import locknut_of
 from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.assemblies import drawings_of_parts
@@ -120,7 +121,7 @@ def bars_for(pieces: Sequence[float], bar: float) -> tuple[tuple[float, ...], ..
 
 
 def fastener_list(tree: Tree) -> Table:
-    """A row for each fastener: the parts that it touches, which it joins, and the torque of a screw."""
+    """A row for each fastener: the parts that it touches, which it joins, and the torque of a screw or nut."""
     fasteners = [(part, number) for part, number in tree.occurrences() if part.process == FASTENER]
     joined = joined_by(tree, frozenset(part.id for part, _ in fasteners))
     heads = columns("designation | id | quantity | joins | and | tightening torque [Nm] 3 | preload [N] 3")
@@ -134,7 +135,7 @@ def fastener_list(tree: Tree) -> Table:
 
 def _fastener(part: Part, number: int, joined: Sequence[str]) -> tuple[str | int | float, ...]:
     assert part.purchase is not None
-    screw = screw_of(part.purchase.row)
+    screw = screw_of(part.purchase.row) or locknut_of(part.purchase.row)
     tightened = (math.nan, math.nan) if screw is None else (screw.torque, screw.tightened)
     first, *others = (*joined, "")
     return part.purchase.row, part.id, number, first, " ".join(filter(None, others)), *tightened

@@ -68,11 +68,11 @@ class SeatFace:
             away = points - start
             share = np.clip((np.conj(side) * away).real / np.abs(side) ** 2, 0.0, 1.0)
             room = np.minimum(room, np.abs(away - share * side).min(0))
-            inside ^= _crossed(loop, points)
+            inside ^= crossed(loop, points)
         return np.where(inside, room, -room)
 
 
-def _crossed(loop: ComplexArray, points: ComplexArray) -> BoolArray:
+def crossed(loop: ComplexArray, points: ComplexArray) -> BoolArray:
     """Whether a line from each point to the right crosses a polygon an odd number of times."""
     start, end = loop[:, None], following(loop)[:, None]
     over = (start.imag > points.imag) != (end.imag > points.imag)

@@ -11,6 +11,9 @@ from ilmek.units import mm, um
 AS_DELIVERED = frozenset({"welded frame", "steel tube", "steel bar", "carbon tube", "laser-cut part"})
 """Processes that leave the surface of stock, or of a laser's cut."""
 
+WELDMENT = "ISO 13920-AF"
+"""General tolerances of what is welded: its seats are machined after."""
+
 _MACHINED = 3.2 * um
 """Ra of machined surfaces without a function [m]; assumed by this project."""
 
@@ -26,7 +29,7 @@ class PartSpecification:
 
     designation  of the material      hardening  of its surface; None: as delivered
     depth      least hardened depth [m], which may be exceeded by half; 0: through, or not hardened
-    general    tolerances of dimensions without one: ISO 2768-mK, of weldments ISO 13920-BF
+    general    tolerances of dimensions without one: ISO 2768-mK, of weldments ISO 13920-AF
     roughness  Ra of all other surfaces [m]: ISO 21920; None: not machined, as cut or delivered
     outer_edge, inner_edge   ISO 13715: undercut below 0, burr or passing above 0 [m]
     """
@@ -55,7 +58,7 @@ def specification(part: Part) -> PartSpecification:
         sold_as(part),
         hardening,
         _depth(part) if hardening is not None and hardening.kind else 0.0,
-        "ISO 13920-BF" if part.process == "welded frame" else "ISO 2768-mK",
+        WELDMENT if part.process == "welded frame" else "ISO 2768-mK",
         None if part.process in AS_DELIVERED else _MACHINED,
     )
 

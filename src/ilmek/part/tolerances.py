@@ -31,6 +31,7 @@ class FeatureKind(StrEnum):
     SQUARE_BORE = "square bore"
     SQUARE = "square"
     THREAD = "thread"
+    OUTER_THREAD = "outer thread"
     SHAFT_KEYWAY = "shaft keyway"
     HUB_KEYWAY = "hub keyway"
     FACE = "face"
@@ -44,9 +45,10 @@ class FitDuty(StrEnum):
     RUNNING = "runs"
     KEYED = "carries a hub with a key"
     FIXED = "is fixed"
-    SCREWED = "takes a screw"
+    SCREWED = "takes a screw or a nut"
     GUIDING = "seats a guide"
     SLIDING = "slides on a face"
+    ROLLING = "rolls on a track"
 
 
 class Characteristic(StrEnum):
@@ -85,7 +87,7 @@ class ToleratedFeature:
               sits on it, z out of the part
     length    along the axis [m]; of a face 0
     nominal   diameter, width across flats, width of a keyway, length of what sits on a face [m]
-    tolerance class by ISO 286, `H7`, or of a thread by ISO 965, `6H`; of a face none
+    tolerance class by ISO 286, `H7`, or of a thread by ISO 965, `6H`, `× 2 - 6g`; of a face none
     lower, upper  limit deviations of the nominal size [m]; of a thread those of ISO 965, here 0
     depth     of a keyway: from the opposite side of the shaft or bore to its floor, d - t1 or d + t2 [m]; else 0
     depth_lower, depth_upper   limit deviations of the depth [m]

@@ -10,7 +10,8 @@ which follows from the joint between them [`meetings`]; both parts read it from 
     square                             H9/h11, as laser-cut H12: the bar is bright drawn
     seat of a rolling bearing          shaft k6, up to 18 mm js6; where its outer ring turns, of an insert bearing with
                                        grub screws and of a freewheel h6; housing H7, of a freewheel N7
-    end of a screw                     thread 6H
+    what turns, about its bore         h6, run-out to the bore; a roller
+    end of a screw                     thread 6H; under a locknut 6g
     face under a bought guide          flat
     faces that slide on each other     flat
 
@@ -24,18 +25,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-import numpy as np
-
 from ilmek.elements.bearing_table import INSERT
 from ilmek.elements.bearings import find_bearing
-from ilmek.elements.fits import fit, tolerance_grade, tolerance_zone
+from ilmek.elements.fits import tolerance_grade, tolerance_zone
 from ilmek.elements.keyways import Keyway
+from ilmek.elements.locknuts import Locknut, locknut_of
 from ilmek.elements.making import DRAWN, FINEST, LASER
 from ilmek.errors import ParameterError
 from ilmek.part.blanks import SHEET
+from ilmek.part.datums import related
 from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
 from ilmek.part.placement import Placement, placement
+from ilmek.part.shapes import Turned
 from ilmek.part.specification import AS_DELIVERED
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
 from ilmek.part.tree import JointKind, Tree
@@ -72,7 +74,7 @@ class _Met:
     def duty(self) -> FitDuty:
         """The first of its duties, in the order in which they decide."""
         keyed = (FitDuty.KEYED,) if self.seat.feature.keyway is not None else ()
-        duties = {*keyed, *(duty for duty, _, _ in self.others)}
+        duties = {*keyed, *(duty for duty, _, _ in self.others)} or {FitDuty.ROLLING}
         return next(duty for duty in FitDuty if duty in duties)
 
     def has(self, duty: FitDuty) -> bool:
@@ -94,20 +96,22 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
         machined = seat.part.machined or seat.part.process not in AS_DELIVERED
         if machined and seat.part.material is not None:  # what is not machined is shimmed
             features[seat.part.id].append(_face(seat))
-    return {part: tuple(_related(_named(own))) for part, own in features.items()}
+    return {part: tuple(related(_named(own))) for part, own in features.items()}
 
 
 _Key = tuple[str, int]
 
 
 def _met(tree: Tree) -> Iterator[tuple[_Key, _Met]]:
-    """The features that meet another, or have a keyway."""
+    """The features that meet another, or have a keyway, and the outsides of rollers."""
     others: dict[_Key, list[tuple[FitDuty, SeatFeature, Meeting]]] = defaultdict(list)
     seats: dict[_Key, SeatFeature] = {}
+    turning = (own.part for body in tree.bodies for own in body.occurrences if own.turning)
+    rollers = {part.id for part in turning if isinstance(part.shape, Turned)}
     for part, _ in tree.occurrences():
         if part.shape is not None and part.material is not None:
             for number, feature in enumerate(features_of_size(part.shape)):
-                if feature.keyway is not None:
+                if feature.keyway is not None or (part.id in rollers and not feature.inside):
                     seats[part.id, number] = SeatFeature(part, number, feature)
     for meeting in meetings(tree):
         for own, other in ((meeting.bore, meeting.inner), (meeting.inner, meeting.bore)):
@@ -123,12 +127,23 @@ def _duty(meeting: Meeting, own: SeatFeature, other: SeatFeature) -> FitDuty | N
     if own.feature.square and "welded frame" in (own.part.process, other.part.process):
         return None  # a hollow section as delivered, welded in
     if other.part.process == "fastener":
-        return FitDuty.SCREWED if own is meeting.bore and meeting.ends else None
+        screwed = meeting.ends if own is meeting.bore else _locknut(other) is not None
+        return FitDuty.SCREWED if screwed else None
     if other.part.process == "bearing":
         return FitDuty.HOUSING if own is meeting.bore else FitDuty.BEARING
-    if meeting.joint is not JointKind.FIXED:
+    if meeting.joint is not JointKind.FIXED and not _on_motor(own, other):
         return FitDuty.RUNNING
     return FitDuty.KEYED if own.feature.keyway or other.feature.keyway else FitDuty.FIXED
+
+
+def _on_motor(*seats: SeatFeature) -> bool:
+    """Whether one of two features is the shaft of a motor, which turns in it."""
+    return any(seat.part.purchase is not None and seat.part.purchase.drives for seat in seats)
+
+
+def _locknut(seat: SeatFeature) -> Locknut | None:
+    """The locknut that a feature is the bore of, if any."""
+    return locknut_of(seat.part.purchase.row) if seat.part.purchase is not None else None
 
 
 _LONG = 20.0
@@ -150,13 +165,15 @@ def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     """Tolerance class of a journal or a square."""
     if one.seat.feature.square:
         return f"h{DRAWN}"
-    if one.duty is FitDuty.BEARING:
-        return min(_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+    if one.duty in {FitDuty.SCREWED, FitDuty.BEARING}:
+        nuts = (nut.thread_class for _, other, _ in one.others if (nut := _locknut(other)) is not None)
+        rings = (_bearing_shaft(other, meeting) for duty, other, meeting in one.others if duty is FitDuty.BEARING)
+        return min(rings, default="") or next(nuts)
     if one.duty is FitDuty.RUNNING:
         if any(_is_long(own, meeting) for own, _, meeting in one.others):
             return "c11"
         return "h6" if one.has(FitDuty.FIXED) or one.has(FitDuty.KEYED) else "g6"
-    if one.duty is FitDuty.KEYED:
+    if one.duty in {FitDuty.KEYED, FitDuty.ROLLING}:
         return "h6"
     own = (other for (part, _), other in met.items() if part == one.seat.part.id)
     return "s6" if any(other.seat.feature.inside and other.has(FitDuty.RUNNING) for other in own) else "m6"
@@ -205,6 +222,7 @@ _ROUGH = {
     FitDuty.SCREWED: 3.2 * um,
     FitDuty.GUIDING: 1.6 * um,
     FitDuty.SLIDING: 0.8 * um,
+    FitDuty.ROLLING: 0.4 * um,
 }
 """Ra by duty [m]; a bore in which a journal runs is twice as rough."""
 
@@ -218,6 +236,8 @@ _KINDS = {
     (False, True): FeatureKind.SQUARE,
 }
 
+_THREADS = {True: FeatureKind.THREAD, False: FeatureKind.OUTER_THREAD}
+
 
 def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     """The feature with its size, form and surface."""
@@ -230,7 +250,7 @@ def _sized(one: _Met, tolerance: str) -> ToleratedFeature:
     return ToleratedFeature(
         part=one.seat.part.id,
         name="",
-        kind=FeatureKind.THREAD if threaded else _KINDS[feature.inside, feature.square],
+        kind=_THREADS[feature.inside] if threaded else _KINDS[feature.inside, feature.square],
         position=feature.position,
         length=feature.length,
         nominal=size,
@@ -319,57 +339,3 @@ def _named(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
         numbers[feature.kind] += 1
         named.append(replace(feature, name=f"{feature.kind.value.replace(' ', '-')}-{numbers[feature.kind]}"))
     return named
-
-
-def _related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
-    """The features with their tolerances of position and run-out, from datums among them."""
-    seats = [feature for feature in features if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING]
-    datums: dict[str, str] = {}
-    if seats:
-        axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
-        datums = {one.name: letter for one, letter in zip(dict.fromkeys(axis), "AB", strict=False)}
-        return [_turning_true(feature, datums) for feature in features]
-    bores = [feature for feature in features if feature.kind is FeatureKind.BORE and feature.duty in _LINKED]
-    if len(bores) < _TWO or not _parallel(bores):
-        return list(features)
-    datums = {one.name: letter for one, letter in zip(bores, "AB", strict=False)}
-    return [_located(feature, datums) if feature in bores else feature for feature in features]
-
-
-_LINKED = {FitDuty.RUNNING, FitDuty.FIXED, FitDuty.HOUSING, FitDuty.BEARING}
-_TWO = 2
-
-
-def _parallel(features: Sequence[ToleratedFeature]) -> bool:
-    along = [feature.position.rotation[:, 2] for feature in features]
-    return all(bool(np.abs(np.cross(one, along[0])).max() < um) for one in along)
-
-
-def _turning_true(one: ToleratedFeature, datums: Mapping[str, str]) -> ToleratedFeature:
-    """A feature of a shaft with the run-out that it needs about its bearings."""
-    letter, common = datums.get(one.name, ""), ("-".join(datums.values()),)
-    if one.kind is not FeatureKind.JOURNAL or (letter and len(datums) == 1):
-        return replace(one, datum=letter)
-    total = one.duty is FitDuty.BEARING
-    characteristic = Characteristic.TOTAL_RUN_OUT if total else Characteristic.RUN_OUT
-    reason = "the bearings lie in line" if total else "what is on the shaft turns true"
-    value = tolerance_grade(5 if total else 7, one.nominal)
-    run_out = GeometricTolerance(characteristic, value, common, reason=reason)
-    return replace(one, datum=letter, geometric=(*one.geometric, run_out))
-
-
-def _located(one: ToleratedFeature, datums: Mapping[str, str]) -> ToleratedFeature:
-    """A bore of a link with its position: no more beside its place than its joint has play."""
-    letter = datums.get(one.name, "")
-    before = tuple(other for name, other in datums.items() if other != letter)[: 1 if letter else 2]
-    if letter == "A":
-        return replace(one, datum=letter)
-    loose = fit("H7/g6", one.nominal).largest_clearance
-    value = max(_STEP, loose // _STEP * _STEP)
-    reason = "a pin's distance may err by the play of its joint"
-    position = GeometricTolerance(Characteristic.POSITION, value, before, round=True, reason=reason)
-    return replace(one, datum=letter, geometric=(*one.geometric, position))
-
-
-_STEP = 5 * um
-"""Step of tolerances of position [m]."""

@@ -30,7 +30,8 @@ bundle = demet | bush = burç | cam = kam | cam belt = kam kayış+ı | cam shaf
 carriage = araba | tubes = tüpler | yarns = iplikler | heads' belt about a pulley = kasnaktaki kafa kayış+ı
 carriages = arabalar | carrier = taşıyıcı | centre gripper = orta kıskaç | centre jaws = orta çeneler | creel = cağlık
 centre-gripper grasp = orta kıskaç kavrama+sı | centre-gripper motion = orta kıskaç hareket+i | chain = zincir
-chains = zincirler | circuit = devre | clamp = bağlantı | clamping nut = sıkma somun+u | close = kapan | cloth = kumaş
+chains = zincirler | circuit = devre | clamp = bağlantı | close = kapan | cloth = kumaş
+pressure ring = baskı bileziğ+i | locknut = kontra somun+u | tab washer = emniyet rondela+sı
 collar = bilezik | colours = renkler | column = kolon | comb = tarak | compensator = dengeleyici | control = kumanda
 conduits = kılavuz hortumlar | cover = kapak | cross = geç | cross bar = enine çubuk | cross-piece = ara parça
 cutter = kesici | cylinder = silindir | devices at an edge = kenar aygıtları+ | door = kapı | doors = kapılar

@@ -16,6 +16,9 @@ from ilmek.io.mechanism.points import complex_of, polar
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
 
+TIME = "time"
+"""What a table is over in place of an input."""
+
 
 def loads_of(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
     """The loads, springs and dampers of a file whose data satisfy the schema. Raises MechanismError with the line."""
@@ -91,11 +94,13 @@ def _tabulated(table: Table, unit: str, load: Load, mechanism: Mechanism) -> Loa
         if "over" in table:
             raise MechanismError("`over` is given without a table", do="give the table, or use `while`")
         return load
-    entry = input_of(table.get("over"), mechanism)
+    timed = table.get("over", TIME if any(row[0].unit == "s" for row in table["table"]) else None) == TIME
+    entry = None if timed else input_of(table.get("over"), mechanism)
     turning = isinstance(entry, Rotation)
-    at = tuple(value_of(row[0], "rad" if turning else "m", "the first of a row") for row in table["table"])
+    at_unit = "s" if timed else "rad" if turning else "m"
+    at = tuple(value_of(row[0], at_unit, "the first of a row") for row in table["table"])
     factors = tuple(value_of(row[1], unit, "the second of a row") for row in table["table"])
-    return TabulatedLoad(load, entry.name, at, factors, turning)
+    return TabulatedLoad(load, None if entry is None else entry.name, at, factors, turning)
 
 
 def _window(table: Table, mechanism: Mechanism) -> tuple[Input, AngleRange | ValueRange]:

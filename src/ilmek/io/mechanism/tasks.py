@@ -10,6 +10,7 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism.names import input_of, unknown, value_of
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Joint, Mechanism, Pin, Rotation
+from ilmek.units import counted
 
 MOST_SPEEDS_RATIO = 1e4
 """Greatest ratio of the speeds of a study."""
@@ -87,11 +88,44 @@ def study_of(table: Table | None, mechanism: Mechanism, source: SourceText) -> S
         return SpeedStudy(tuple(sorted(set(speeds))))
 
 
-def servo_of(name: str | None, mechanism: Mechanism, source: SourceText) -> str | None:
-    """The turning input for which a servo motor is chosen."""
+def effort_of(joint: Joint) -> str:
+    """The kind of effort that an actuator has in a joint."""
+    return "torque" if isinstance(joint, Pin) else "force"
+
+
+def actuators_of(
+    efforts: Mapping[str, str], parts: Mapping[str, Sequence[Joint]], mechanism: Mechanism, source: SourceText
+) -> tuple[str, ...]:
+    """The joints with the motors. Raises MechanismError for an unknown joint, a joint of several bodies, an effort of
+    another kind, and another number than of inputs.
+    """
+    for name, effort in efforts.items():
+        with source.located("actuators", name):
+            if name not in parts:
+                raise unknown("joint", name, parts)
+            if len(parts[name]) != 1:
+                raise MechanismError(f"{name!r} joins more than two bodies", do="give the actuator a joint of two")
+            kind = effort_of(parts[name][0])
+            if effort != kind:
+                raise MechanismError(f"the actuator at {name!r} is a {effort}", allowed=f"in this joint a {kind}")
+    with source.located("actuators"):
+        if efforts and len(efforts) != len(mechanism.inputs):
+            given = f"there are {counted(len(efforts), 'actuator')} and {counted(len(mechanism.inputs), 'input')}"
+            raise MechanismError(given, allowed="the same number")
+    return tuple(efforts)
+
+
+def servo_of(name: str | None, mechanism: Mechanism, actuators: Sequence[str], source: SourceText) -> str | None:
+    """The turning input, or actuator in its place, for which a servo motor is chosen."""
     if name is None:
         return None
     with source.located("servo"):
+        if actuators:
+            if name not in actuators:
+                raise unknown("actuator", name, actuators)
+            if not isinstance(mechanism.joint(name), Pin):
+                raise MechanismError(f"a servo motor is for a turning actuator, and {name!r} slides")
+            return name
         entry = input_of(name, mechanism)
         if not isinstance(entry, Rotation):
             raise MechanismError(f"a servo motor is for a turning input, and {name!r} slides")

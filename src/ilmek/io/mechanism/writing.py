@@ -20,9 +20,11 @@ from ilmek.dynamics.own_machine import (
 )
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
+from ilmek.io.mechanism.loads import TIME
 from ilmek.io.mechanism.motions import ConstantSpeed, MotionSequence, MotionStep, TableMotion
 from ilmek.io.mechanism.names import driven_body
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
+from ilmek.io.mechanism.tasks import effort_of
 from ilmek.io.toml_text import written_quantity
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation
 from ilmek.report import Json
@@ -69,6 +71,7 @@ class _Writer:
         turning = {entry.name: isinstance(entry, Rotation) for entry in mechanism.inputs}
         further: dict[str, Json] = {
             "servo": one.servo,
+            "actuators": {name: effort_of(mechanism.joint(name)) for name in one.actuators},
             "paths": [list(spot) for spot in one.paths],
             "transmission": list(one.transmission),
         }
@@ -135,12 +138,12 @@ class _Writer:
     def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Json]:
         if isinstance(load, WindowedLoad) and _is_default(load.side):
             return {**self.load(name, load.load, turning), "while": self.window(load.window, load.input_name, turning)}
-        if isinstance(load, TabulatedLoad) and load.turns == turning.get(load.input_name):
+        if isinstance(load, TabulatedLoad) and load.turns == turning.get(load.input_name or "", False):
             inner = self.load(name, load.load, turning)
             unit = "N" if "force" in inner else "N*m"
-            at = "deg" if turning[load.input_name] else "mm"
+            at = "s" if load.input_name is None else "deg" if load.turns else "mm"
             rows = [[self.quantity(x, at), self.quantity(y, unit)] for x, y in zip(load.at, load.factors, strict=True)]
-            return {**inner, "over": load.input_name, "table": rows}
+            return {**inner, "over": load.input_name or TIME, "table": rows}
         if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_complex(load.force):
             frame = "body" if isinstance(load, FollowerForce) else "ground"
             return {"force": self.xy(complex(load.force), "N"), "on": [load.body, load.point], "frame": frame}

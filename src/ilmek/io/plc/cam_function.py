@@ -43,7 +43,7 @@ def cam_tables(cyclograms: tuple[Cyclogram, ...]) -> tuple[CamTableText, ...]:
 
 
 def cam_units(tables: tuple[CamTableText, ...]) -> tuple[PlcUnit, ...]:
-    """A function for each table: angle [rad] -> position [SI]."""
+    """A function block for each table: angle [rad] -> position [SI]."""
     return tuple(_unit(table) for table in tables)
 
 
@@ -83,11 +83,12 @@ def _unit(table: CamTableText) -> PlcUnit:
         PlcVariable("Low", "INT"),
         PlcVariable("High", "INT"),
         PlcVariable("Middle", "INT"),
-        PlcVariable("Angles", PlcArray(0, last, "REAL"), "master angles [rad]", _numbers(table.angles)),
-        PlcVariable("Points", PlcArray(0, last, "REAL"), "positions [m or rad]", _numbers(table.points)),
+        PlcVariable("Angles", PlcArray(last + 1, "REAL"), "master angles [rad]", _numbers(table.angles)),
+        PlcVariable("Points", PlcArray(last + 1, "REAL"), "positions [m or rad]", _numbers(table.points)),
     )
     sections = (
         PlcSection("VAR_INPUT", (PlcVariable("Angle", "REAL", "master angle [rad], 0 to 2 pi"),)),
+        PlcSection("VAR_OUTPUT", (PlcVariable("Position", "REAL", "position [m or rad]"),)),
         PlcSection("VAR", inner),
     )
     body = f"""\
@@ -101,10 +102,10 @@ WHILE High - Low > 1 DO
         Low := Middle;
     END_IF;
 END_WHILE;
-{table.name} := Points[Low] + (Points[High] - Points[Low]) * (Angle - Angles[Low]) / (Angles[High] - Angles[Low]);
+Position := Points[Low] + (Points[High] - Points[Low]) * (Angle - Angles[Low]) / (Angles[High] - Angles[Low]);
 """
     meaning = f"cam of {table.track}; largest error {table.error:.3g}"
-    return PlcUnit("FUNCTION", table.name, meaning, sections, body, "REAL")
+    return PlcUnit("FUNCTION_BLOCK", table.name, meaning, sections, body)
 
 
 def _numbers(values: tuple[float, ...]) -> tuple[str, ...]:

@@ -6,12 +6,15 @@ Guard...       all rules that end the operation in progress are satisfied
 Blocked...     number of the alarm of the gravest rule that is not, 0: none
 """
 
-from ilmek.io.plc.units import INDENT, PlcArray, PlcSection, PlcUnit, PlcVariable
+from ilmek.io.plc.units import PlcArray, PlcSection, PlcUnit, PlcVariable, loop
 from ilmek.loom.control.alarms import ALARMS
 from ilmek.loom.control.interlocks import (
+    CONTRADICTIONS,
     INTERLOCKS,
+    Contradiction,
     Interlock,
     LoomAxis,
+    Reaction,
     SensorRelation,
     TensionLimits,
     applies,
@@ -53,20 +56,18 @@ OPERATIONS: dict[str, frozenset[LoomAxis]] = {
 
 def interlock_unit(heads: int, limits: TensionLimits) -> PlcUnit:
     """The function block of the interlocks for a number of heads."""
-    lines = [
-        "AllOpen := TRUE;",
-        f"FOR Head := 0 TO {heads - 1} DO",
-        f"{INDENT}AllOpen := AllOpen AND GrippersOpen[Head];",
-        "END_FOR;",
-    ]
+    lines = ["AllOpen := TRUE;", loop("Head", heads, "AllOpen := AllOpen AND GrippersOpen[Head];")]
     lines += [
         f"Satisfied[{number}] := {_condition(rule, limits)}; (* {rule.name} *)"
         for number, rule in enumerate(INTERLOCKS)
     ]
+    suspending = (number for number, rule in enumerate(INTERLOCKS) if rule.reaction is Reaction.SUSPEND)
+    lines.append(f"Slack := {' OR '.join(f'NOT Satisfied[{number}]' for number in suspending)};")
+    lines.append(f"Contradiction := {' OR '.join(_contradictory(one) for one in CONTRADICTIONS)};")
     for name, axes in OPERATIONS.items():
         lines += _operation_lines(name, axes, heads)
     inner = (
-        PlcVariable("Satisfied", PlcArray(0, len(INTERLOCKS) - 1, "BOOL")),
+        PlcVariable("Satisfied", PlcArray(len(INTERLOCKS), "BOOL")),
         PlcVariable("AllOpen", "BOOL"),
         PlcVariable("Head", "INT"),
     )
@@ -86,7 +87,7 @@ def sensor_variables(heads: int) -> tuple[PlcVariable, ...]:
         PlcVariable("DoorClosed", "BOOL", "the door is closed"),
         PlcVariable(TENSION_KNOWN, "BOOL", "the tension sensor answers"),
         PlcVariable("WarpTension", "REAL", "mean tension of a warp [N]"),
-        PlcVariable("GrippersOpen", PlcArray(0, heads - 1, "BOOL"), "no gripper of the head is closed on warps"),
+        PlcVariable("GrippersOpen", PlcArray(heads, "BOOL"), "no gripper of the head is closed on warps"),
         PlcVariable("HeadsClear", "BOOL", "the heads have retreated from the comb"),
         PlcVariable("BeaterBack", "BOOL", "the beater is at its rest"),
         PlcVariable("ShedClosed", "BOOL", "the warps are level"),
@@ -94,9 +95,12 @@ def sensor_variables(heads: int) -> tuple[PlcVariable, ...]:
 
 
 def _outputs(heads: int) -> list[PlcVariable]:
-    outputs = []
+    outputs = [
+        PlcVariable("Slack", "BOOL", "a rule that suspends the machine is not satisfied"),
+        PlcVariable("Contradiction", "BOOL", "two sensors contradict each other"),
+    ]
     for name in OPERATIONS:
-        kind = PlcArray(0, heads - 1, "BOOL") if name == KNOT else "BOOL"
+        kind = PlcArray(heads, "BOOL") if name == KNOT else "BOOL"
         outputs += [
             PlcVariable(f"Permit{name}", kind, "the operation may begin"),
             PlcVariable(f"Guard{name}", "BOOL", "the operation may go on"),
@@ -117,6 +121,12 @@ def _condition(rule: Interlock, limits: TensionLimits) -> str:
     return name if rule.value else f"NOT {name}"
 
 
+def _contradictory(pair: Contradiction) -> str:
+    levels = ((pair.sensor, pair.value), (pair.other, pair.other_value))
+    names = (("AllOpen" if sensor == _PER_HEAD else SENSOR_NAMES[sensor], value) for sensor, value in levels)
+    return f"({' AND '.join(name if value else f'NOT {name}' for name, value in names)})"
+
+
 def _operation_lines(name: str, axes: frozenset[LoomAxis], heads: int) -> list[str]:
     rules = [(number, rule) for number, rule in enumerate(INTERLOCKS) if applies(rule, axes)]
     guards = " AND ".join(f"Satisfied[{number}]" for number, rule in rules if rule.guards) or "TRUE"
@@ -128,9 +138,4 @@ def _operation_lines(name: str, axes: frozenset[LoomAxis], heads: int) -> list[s
     if name != KNOT:
         return [*lines, f"Permit{name} := Blocked{name} = 0;"]
     others = " AND ".join(f"Satisfied[{number}]" for number, rule in rules if rule.sensor != _PER_HEAD) or "TRUE"
-    return [
-        *lines,
-        f"FOR Head := 0 TO {heads - 1} DO",
-        f"{INDENT}Permit{name}[Head] := {others} AND GrippersOpen[Head];",
-        "END_FOR;",
-    ]
+    return [*lines, loop("Head", heads, f"Permit{name}[Head] := {others} AND GrippersOpen[Head];")]

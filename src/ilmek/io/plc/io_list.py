@@ -1,23 +1,24 @@
 """The list of inputs and outputs of the main program, with addresses, and the parts of the loom that they are wired to.
 
-Bits are packed into bytes, words begin at even bytes, double words at multiples of four. Signals of the host (commands,
-the row's data) and of the operator's panel are variables without an address.
+Bits are packed into bytes, words begin at even bytes, double words at multiples of four. An address counts bytes, or
+words and double words as they are: that differs between controllers. Signals of the host (commands, the row's data) and
+of the operator's panel are variables without an address.
 """
 
-from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ilmek.errors import LoomError
 from ilmek.io.csv_cells import csv_rows
-from ilmek.io.plc.units import PlcArray, PlcUnit, PlcVariable
+from ilmek.io.plc.units import PlcUnit
 from ilmek.machines.automated_loom.equipment.signals import SIGNALS
 
 _SIZES = {"BOOL": 0, "USINT": 1, "INT": 2, "DINT": 4, "REAL": 4}
 _LETTERS = {0: "X", 1: "B", 2: "W", 4: "D"}
 
 HOST = frozenset(
-    ("CntrlCmd", "CmdChangeRequest", "UnitMode", "UnitModeChangeRequest", "StepKnot", "Acknowledge", "JogAxis",
-     "RowData", "RowRequest", "StateCurrent", "UnitModeCurrent", "Refused", "Alarm", "KnotsDone", "CarpetDone",
-     "TieAnswer", "EndAnswer", "AskTie", "AskEnd", "ChangeStart", "ChangeDone")
+    ("CntrlCmd", "CmdChangeRequest", "UnitMode", "UnitModeChangeRequest", "StepKnot", "Acknowledge", "GiveUp",
+     "JogAxis", "Recipe", "RowData", "RowRequest", "StateCurrent", "UnitModeCurrent", "Refused", "Alarm", "KnotsDone",
+     "CarpetDone", "TieAnswer", "EndAnswer", "AskTie", "AskEnd", "ChangeStart", "ChangeDone")
 )  # fmt: skip
 """Variables that the host or the operator's panel reads and writes."""
 
@@ -26,7 +27,19 @@ HEADER = ("variable", "direction", "type", "address", "meaning", "parts")
 IoRow = tuple[str, str, str, str, str, str]
 
 
-def io_rows(program: PlcUnit) -> list[IoRow]:
+@dataclass(frozen=True, slots=True)
+class AddressStyle:
+    """How a controller counts addresses: by_bytes: words by their first byte, else by their number; bit: its letter."""
+
+    by_bytes: bool
+    bit: str = "X"
+
+
+USUAL_STYLE = AddressStyle(by_bytes=False)
+"""Words by their number."""
+
+
+def io_rows(program: PlcUnit, style: AddressStyle = USUAL_STYLE) -> list[IoRow]:
     """A row for each signal: variable, direction, type, address, meaning, ids of its parts; those of the host last.
 
     Raises LoomError for a signal with an address that no part of the loom gives or takes.
@@ -34,42 +47,34 @@ def io_rows(program: PlcUnit) -> list[IoRow]:
     field: list[IoRow] = []
     host: list[IoRow] = []
     for kind, direction, letter in (("VAR_INPUT", "input", "I"), ("VAR_OUTPUT", "output", "Q")):
-        addresses = _Addresses(letter)
-        for variable in next(section.variables for section in program.sections if section.kind == kind):
+        addresses = _Addresses(letter, style)
+        for variable in program.of_kind(kind):
             if variable.name in HOST:
                 host.append((variable.name, direction, str(variable.kind), "", variable.meaning, ""))
                 continue
             if variable.name not in SIGNALS:
                 raise LoomError(f"signal {variable.name} without a part", allowed=", ".join(SIGNALS))
             parts = " ".join(SIGNALS[variable.name])
-            for name, element in _elements(variable):
+            for name, element in variable.elements:
                 field.append((name, direction, element, addresses.next(element), variable.meaning, parts))
     return [*field, *host]
 
 
-def io_csv(program: PlcUnit) -> str:
+def io_csv(program: PlcUnit, style: AddressStyle = USUAL_STYLE) -> str:
     """The list as CSV."""
-    return csv_rows((HEADER, *io_rows(program)))
-
-
-def _elements(variable: PlcVariable) -> Iterator[tuple[str, str]]:
-    if isinstance(variable.kind, PlcArray):
-        for index in range(variable.kind.first, variable.kind.last + 1):
-            yield f"{variable.name}[{index}]", variable.kind.element
-    else:
-        yield variable.name, variable.kind
+    return csv_rows((HEADER, *io_rows(program, style)))
 
 
 class _Addresses:
     """Free addresses of inputs or outputs, in ascending order."""
 
-    def __init__(self, letter: str) -> None:
-        self._letter, self._byte, self._bit = letter, 0, 0
+    def __init__(self, letter: str, style: AddressStyle) -> None:
+        self._letter, self._style, self._byte, self._bit = letter, style, 0, 0
 
     def next(self, kind: str) -> str:
         size = _SIZES[kind]
         if size == 0:
-            address = f"%{self._letter}X{self._byte}.{self._bit}"
+            address = f"%{self._letter}{self._style.bit}{self._byte}.{self._bit}"
             self._bit += 1
             if self._bit == 8:
                 self._byte, self._bit = self._byte + 1, 0
@@ -77,6 +82,6 @@ class _Addresses:
         if self._bit:
             self._byte, self._bit = self._byte + 1, 0
         self._byte = -(-self._byte // size) * size
-        address = f"%{self._letter}{_LETTERS[size]}{self._byte // size if size > 1 else self._byte}"
+        address = f"%{self._letter}{_LETTERS[size]}{self._byte if self._style.by_bytes else self._byte // size}"
         self._byte += size
         return address

@@ -13,7 +13,7 @@ from ilmek.io.plc.units import PlcArray, PlcProject, PlcSection, PlcStructure, P
 NAMESPACE = "http://www.plcopen.org/xml/tc6_0201"
 XHTML = "http://www.w3.org/1999/xhtml"
 
-ELEMENTARY = {"BOOL", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "REAL", "LREAL", "STRING"}
+ELEMENTARY = {"BOOL", "DWORD", "SINT", "INT", "DINT", "USINT", "UINT", "UDINT", "REAL", "LREAL", "STRING"}
 
 _KINDS = {"FUNCTION": "function", "FUNCTION_BLOCK": "functionBlock", "PROGRAM": "program"}
 _SECTIONS = {
@@ -39,6 +39,8 @@ def plcopen_xml(project: PlcProject) -> bytes:
         ET.SubElement(ET.SubElement(coordinates, language), "scaling", {"x": "1", "y": "1"})
     types = ET.SubElement(root, "types")
     data = ET.SubElement(types, "dataTypes")
+    for array in project.arrays:
+        _array(ET.SubElement(ET.SubElement(data, "dataType", {"name": array.name}), "baseType"), array)
     for structure in project.structures:
         _structure(data, structure)
     units = ET.SubElement(types, "pous")
@@ -73,7 +75,8 @@ def _section(parent: ET.Element, section: PlcSection) -> None:
 
 def _variables(parent: ET.Element, variables: Iterable[PlcVariable]) -> None:
     for variable in variables:
-        made = ET.SubElement(parent, "variable", {"name": variable.name})
+        located = {"address": variable.address} if variable.address else {}
+        made = ET.SubElement(parent, "variable", {"name": variable.name, **located})
         _type(ET.SubElement(made, "type"), variable.kind)
         if variable.initial:
             _initial(ET.SubElement(made, "initialValue"), variable.initial)
@@ -82,14 +85,16 @@ def _variables(parent: ET.Element, variables: Iterable[PlcVariable]) -> None:
 
 
 def _type(parent: ET.Element, kind: PlcType) -> None:
-    if isinstance(kind, PlcArray):
-        made = ET.SubElement(parent, "array")
-        ET.SubElement(made, "dimension", {"lower": str(kind.first), "upper": str(kind.last)})
-        _type(ET.SubElement(made, "baseType"), kind.element)
-    elif kind in ELEMENTARY:
+    if isinstance(kind, str) and kind in ELEMENTARY:
         ET.SubElement(parent, kind)
     else:
-        ET.SubElement(parent, "derived", {"name": kind})
+        ET.SubElement(parent, "derived", {"name": str(kind)})
+
+
+def _array(parent: ET.Element, array: PlcArray) -> None:
+    made = ET.SubElement(parent, "array")
+    ET.SubElement(made, "dimension", {"lower": "0", "upper": str(array.size - 1)})
+    _type(ET.SubElement(made, "baseType"), array.element)
 
 
 def _initial(parent: ET.Element, initial: str | tuple[str, ...]) -> None:
@@ -110,6 +115,6 @@ def _instances(root: ET.Element, project: PlcProject) -> None:
     resource = ET.SubElement(
         ET.SubElement(configurations, "configuration", {"name": "Configuration"}), "resource", {"name": "Controller"}
     )
-    interval = f"T#{round(1000 * project.cycle)}ms"
-    task = ET.SubElement(resource, "task", {"name": "Main", "interval": interval, "priority": "1"})
-    ET.SubElement(task, "pouInstance", {"name": f"{project.program}Instance", "typeName": project.program})
+    task = ET.SubElement(resource, "task", {"name": "Cycle", "interval": project.interval, "priority": "1"})
+    program = project.units[-1].name
+    ET.SubElement(task, "pouInstance", {"name": f"{program}Instance", "typeName": program})

@@ -1,316 +1,211 @@
-"""The sequence of a row in structured text, and the main program of the loom.
+"""The loom's block in structured text: reports, carpet, interlocks, questions, states, and what begins next.
 
-The host writes the operations of one row into `RowData` when the program requests it; the program executes the row: its
-phases with their stops, the operations after the knots. Position and operations in progress are retained over a power
-failure. An operation that was in progress then is uncertain: in state Resetting the program asks whether it is in the
-carpet (`Ask...`), and the sensor or an operator answers (`...Answer`: 1 no, 2 yes). So every knot is tied once.
-
-An order is a level: `TieStart[h]` stays until `TieDone[h]`, or `TieFault[h]` with the number of a fault's alarm.
+The host gives one row at a time in `RowData`; the block weaves it: its phases with their stops, then the operations
+after the knots. An operation is `Busy` from the scan of its order until it is certain whether it is in the carpet.
 """
 
-from ilmek.io.plc.interlock_logic import KNOT, OPERATIONS, SENSOR_NAMES, TENSION_KNOWN, capitalised
+from ilmek.io.plc.alarm_logic import alarm_units, raised
+from ilmek.io.plc.carpet_logic import crc_unit, giving_up, next_row, recipe_check, row_check, saving, waking
+from ilmek.io.plc.interlock_logic import KNOT, SENSOR_NAMES, TENSION_KNOWN, capitalised
+from ilmek.io.plc.order_logic import questions, reports, watch_begins
 from ilmek.io.plc.sequence_variables import (
     PlcSize,
+    block_inputs,
+    block_outputs,
     inner_variables,
-    program_inputs,
-    program_outputs,
     retained_variables,
 )
 from ilmek.io.plc.state_model import REACTIONS
-from ilmek.io.plc.units import INDENT, PlcSection, PlcUnit, PlcVariable
-from ilmek.loom.control.alarms import ALARM_NUMBERS, ALARMS
+from ilmek.io.plc.units import PlcSection, PlcUnit, cases, indented, loop
+from ilmek.loom.control.alarms import ControlFault, JournalFault
+from ilmek.loom.control.core import ASKING, ENDING
 from ilmek.loom.control.interlocks import LoomAxis, Reaction
 from ilmek.loom.control.packml import PackMode, PackState
-from ilmek.loom.control.ports import Fault
 from ilmek.loom.operations import ROW_ENDS
 
-NO_ANSWER, IN_CARPET = 0, 2
+BLOCK = "Loom"
+"""Name of the loom's block."""
 
 PATIENCE = 200
 """Scans for which an operation after the knots waits for its sensors, 2 s: the heads retreat, the shed closes."""
 
+EMERGENCY = "emergency stop"
+
 
 def sequence_units(size: PlcSize) -> tuple[PlcUnit, ...]:
-    """The function of the reactions, and the program."""
-    return _reaction(), _program(size)
-
-
-def _reaction() -> PlcUnit:
-    lines = ["ReactionOf := 0;", "CASE Alarm OF"]
-    lines += [
-        f"{INDENT}{number}: ReactionOf := {REACTIONS[kind.reaction]}; (* {kind.name} *)"
-        for number, kind in sorted(ALARM_NUMBERS.items())
-    ]
-    lines.append("END_CASE;")
-    inputs = PlcSection("VAR_INPUT", (PlcVariable("Alarm", "INT"),))
-    meaning = "reaction to an alarm: 0 none, 1 suspend, 2 hold, 3 stop, 4 abort"
-    return PlcUnit("FUNCTION", "ReactionOf", meaning, (inputs,), "\n".join(lines), "INT")
-
-
-def _program(size: PlcSize) -> PlcUnit:
+    """The functions of the alarms and of the check sum, and the loom's block."""
     sections = (
-        PlcSection("VAR_INPUT", program_inputs(size.heads)),
-        PlcSection("VAR_OUTPUT", program_outputs(size.heads)),
-        PlcSection("VAR RETAIN", retained_variables(size.heads)),
-        PlcSection("VAR", inner_variables(size.heads)),
+        PlcSection("VAR_INPUT", block_inputs(size)),
+        PlcSection("VAR_OUTPUT", block_outputs(size)),
+        PlcSection("VAR RETAIN", retained_variables()),
+        PlcSection("VAR", inner_variables(size)),
     )
-    body = "\n".join(
-        (_reports(size), _next_row(size), _alarms(size), _uncertain(size), _state(size), _knots(size) + _row_ends())
+    parts = (
+        waking(size),
+        reports(size),
+        giving_up(size),
+        next_row(size),
+        _alarms(size),
+        questions(size),
+        recipe_check(size),
+        _state(size),
+        row_check(size),
+        _weaving(size),
+        loop("Head", size.heads, "TieStart[Head] := Order[Head];\nTieColumn[Head] := Now.Column[Head];"),
+        f"EndStart := Order[{size.heads}];",
+        saving(),
     )
-    return PlcUnit("PROGRAM", "Loom", "the loom: states, interlocks, alarms, the sequence of the rows", sections, body)
+    meaning = "the loom: states, interlocks, alarms, the sequence of the rows"
+    return *alarm_units(), crc_unit(), PlcUnit("FUNCTION_BLOCK", BLOCK, meaning, sections, "\n".join(parts))
 
 
-def _raise(number: str, levels: int = 0) -> str:
-    """Raise an alarm unless a graver one is active; the number is an expression."""
-    space = INDENT * levels
-    return (
-        f"{space}Found := {number};\n{space}IF ReactionOf(Found) > ReactionOf(Alarm) OR Alarm = 0 THEN\n"
-        f"{space}{INDENT}Alarm := Found;\n{space}END_IF;"
-    )
-
-
-def _reports(size: PlcSize) -> str:
-    """What the loom reports: an operation is in the carpet, or has failed and nothing of it is."""
-    missed = ALARMS[Fault.MISSED_GRIP].number
-    return f"""\
-(* reports of the loom *)
-StepDone := FALSE;
-FOR Head := 0 TO {size.heads - 1} DO
-    IF TieStart[Head] AND TieDone[Head] THEN
-        Tied[Head] := Tied[Head] + 1;
-        TieBusy[Head] := FALSE;
-        TieStart[Head] := FALSE;
-        Retried[Head] := FALSE;
-        StepDone := StepDone OR StepKnot;
-    ELSIF TieStart[Head] AND TieFault[Head] > 0 THEN
-        TieBusy[Head] := FALSE;
-        TieStart[Head] := FALSE;
-        IF TieFault[Head] = {missed} AND NOT Retried[Head] THEN
-            Retried[Head] := TRUE;
-        ELSE
-            Retried[Head] := FALSE;
-{_raise("TieFault[Head]", 3)}
-        END_IF;
-    END_IF;
-END_FOR;
-IF EndStart AND EndDone THEN
-    EndBusy := FALSE;
-    EndStart := FALSE;
-    EndsDone := EndsDone + 1;
-ELSIF EndStart AND EndFault > 0 THEN
-    EndBusy := FALSE;
-    EndStart := FALSE;
-{_raise("EndFault", 1)}
-END_IF;
-IF ChangeStart AND ChangeDone THEN
-    ChangeStart := FALSE;
-    StopsDone := Phase + 1;
-END_IF;
-"""
-
-
-def _next_row(size: PlcSize) -> str:
-    """The row is woven: to the next one. The knots in the carpet."""
-    return f"""\
-IF EndsDone = {len(ROW_ENDS)} THEN
-    Row := Row + 1;
-    Phase := 0;
-    StopsDone := 0;
-    EndsDone := 0;
-    FOR Head := 0 TO {size.heads - 1} DO
-        Tied[Head] := 0;
-    END_FOR;
-    StepDone := TRUE;
-END_IF;
-CarpetDone := Row >= {size.rows};
-KnotsDone := Row * {size.columns};
-FOR Head := 0 TO {size.heads - 1} DO
-    KnotsDone := KnotsDone + INT_TO_DINT(Tied[Head]);
-END_FOR;
-"""
+def _any_order(stations: int) -> str:
+    return f"Busy := FALSE;\n{loop('Station', stations, 'Busy := Busy OR Order[Station];')}"
 
 
 def _alarms(size: PlcSize) -> str:
     """Sensors against the interlocks: motions in progress are ended by the guards; suspensions end by themselves."""
     sensors = ", ".join(f"{name} := {name}" for name in (*SENSOR_NAMES.values(), TENSION_KNOWN))
-    guards = [f"(NOT Rules.Guard{KNOT} AND Busy)"]
-    lines = [
-        f"    {number}: IF EndStart AND NOT Rules.Guard{name} THEN Found := Rules.Blocked{name}; END_IF;"
-        for number, name in enumerate(capitalised(end.name) for end in ROW_ENDS)
-    ]
+    guards = (
+        (int(end), f"IF NOT Rules.Guard{name} THEN\n    {raised(f'Rules.Blocked{name}')}\nEND_IF;")
+        for end, name in ((end, capitalised(end.name)) for end in ROW_ENDS)
+    )
     return f"""\
 (* interlocks and alarms *)
 Rules({sensors});
-Busy := FALSE;
-FOR Head := 0 TO {size.heads - 1} DO
-    Busy := Busy OR TieStart[Head];
-END_FOR;
-IF Acknowledge OR ReactionOf(Alarm) = {REACTIONS[Reaction.SUSPEND]} THEN
-    Alarm := 0;
+IF (Acknowledge AND NOT AcknowledgeSeen)
+    OR (ReactionOf(Alarm := Now.Alarm) = {REACTIONS[Reaction.SUSPEND]} AND NOT Rules.Slack) THEN
+    Now.Alarm := 0;
 END_IF;
-Found := 0;
-IF {" OR ".join(guards)} THEN
-    Found := Rules.Blocked{KNOT};
+AcknowledgeSeen := Acknowledge;
+IF {SENSOR_NAMES["emergency_stop"]} THEN
+    {raised(EMERGENCY)}
 END_IF;
-CASE EndCode OF
-{chr(10).join(lines)}
-END_CASE;
-IF Found > 0 THEN
-    IF ReactionOf(Found) > ReactionOf(Alarm) OR Alarm = 0 THEN
-        Alarm := Found;
-    END_IF;
+IF Rules.Contradiction THEN
+    {raised(ControlFault.CONTRADICTION)}
 END_IF;
-"""
-
-
-def _uncertain(size: PlcSize) -> str:
-    """Operations that were in progress at a power failure or a halt, resolved before weaving goes on."""
-    return f"""\
-(* uncertain operations *)
-Waiting := FALSE;
-FOR Head := 0 TO {size.heads - 1} DO
-    AskTie[Head] := TieBusy[Head] AND NOT TieStart[Head] AND StateCurrent = {int(PackState.RESETTING)};
-    IF AskTie[Head] THEN
-        IF TieAnswer[Head] = {IN_CARPET} THEN
-            Tied[Head] := Tied[Head] + 1;
-        END_IF;
-        IF TieAnswer[Head] > {NO_ANSWER} THEN
-            TieBusy[Head] := FALSE;
-            AskTie[Head] := FALSE;
-        END_IF;
-        Waiting := Waiting OR AskTie[Head];
-    END_IF;
-END_FOR;
-AskEnd := EndBusy AND NOT EndStart AND StateCurrent = {int(PackState.RESETTING)};
-IF AskEnd THEN
-    IF EndAnswer = {IN_CARPET} THEN
-        EndsDone := EndsDone + 1;
-    END_IF;
-    IF EndAnswer > {NO_ANSWER} THEN
-        EndBusy := FALSE;
-        AskEnd := FALSE;
-    END_IF;
-    Waiting := Waiting OR AskEnd;
+{_any_order(size.heads)}
+IF Busy AND NOT Rules.Guard{KNOT} THEN
+    {raised(f"Rules.Blocked{KNOT}")}
+END_IF;
+IF Order[{size.heads}] THEN
+{indented(cases("EndCode", guards))}
 END_IF;
 """
 
 
 def _state(size: PlcSize) -> str:
     """The state model: acting states end when nothing is in progress any more; Execute when the carpet or step is."""
-    ending = ", ".join(
-        str(int(one)) for one in (PackState.STOPPING, PackState.HOLDING, PackState.SUSPENDING, PackState.COMPLETING)
+    ended = f"CarpetDone OR (StepDone AND UnitModeCurrent = {int(PackMode.MAINTENANCE)})"
+    completions = {
+        PackState.EXECUTE: f"Complete := UnitModeCurrent <> {int(PackMode.MANUAL)} AND NOT Busy AND ({ended});",
+        **dict.fromkeys(sorted(ENDING), "Complete := NOT Busy;"),
+        **dict.fromkeys(sorted(ASKING), "Complete := NOT Waiting;"),
+    }
+    jogs = (
+        (number, f"JogStart := Rules.PermitJog{capitalised(axis.value)}; (* {axis.value} *)")
+        for number, axis in enumerate(LoomAxis, 1)
     )
     return f"""\
 (* states *)
-Busy := EndStart OR ChangeStart;
-FOR Head := 0 TO {size.heads - 1} DO
-    Busy := Busy OR TieStart[Head];
-END_FOR;
-CASE StateCurrent OF
-    {int(PackState.EXECUTE)}: Complete := CarpetDone OR (StepDone AND UnitModeCurrent = {int(PackMode.MAINTENANCE)});
-    {ending}: Complete := ChangeStart OR NOT Busy;
-    {int(PackState.RESETTING)}: Complete := NOT Waiting;
-ELSE
-    Complete := TRUE;
-END_CASE;
+{_any_order(size.stations)}
+IF StateCurrent = {int(PackState.EXECUTE)} THEN
+    ByAlarm := ReactionOf(Alarm := Now.Alarm) = {REACTIONS[Reaction.SUSPEND]};
+END_IF;
+{cases("StateCurrent", ((int(state), line) for state, line in completions.items()), "Complete := TRUE;")}
 Model(CntrlCmd := CntrlCmd, CmdChangeRequest := CmdChangeRequest, UnitMode := UnitMode,
-    UnitModeChangeRequest := UnitModeChangeRequest, StateComplete := Complete, AlarmReaction := ReactionOf(Alarm),
+    UnitModeChangeRequest := UnitModeChangeRequest, StateComplete := Complete,
+    AlarmReaction := ReactionOf(Alarm := Now.Alarm),
+    Forbidden := Now.Alarm > 0 AND UnitModeCurrent <> {int(PackMode.MANUAL)},
+    Resume := ByAlarm AND Now.Alarm = 0 AND StateCurrent = {int(PackState.SUSPENDED)},
     StateCurrent => StateCurrent, UnitModeCurrent => UnitModeCurrent, Refused => Refused);
 Halt := StateCurrent = {int(PackState.ABORTING)} OR StateCurrent = {int(PackState.ABORTED)};
 IF Halt THEN
-    FOR Head := 0 TO {size.heads - 1} DO
-        TieStart[Head] := FALSE;
-    END_FOR;
-    EndStart := FALSE;
+{indented(loop("Station", size.stations, _withdrawn()))}
+END_IF;
+IF StateCurrent = {int(PackState.COMPLETE)} AND CarpetDone THEN
+    Now.Begun := FALSE;
 END_IF;
 IF StateCurrent <> {int(PackState.EXECUTE)} THEN
     ChangeStart := FALSE;
 END_IF;
 JogStart := FALSE;
 IF UnitModeCurrent = {int(PackMode.MANUAL)} AND StateCurrent = {int(PackState.EXECUTE)} THEN
-    CASE JogAxis OF
-{_jogs()}
-    END_CASE;
-    RETURN;
+{indented(cases("JogAxis", jogs))}
 END_IF;
 """
 
 
-def _jogs() -> str:
-    return "\n".join(
-        f"        {number}: JogStart := Rules.PermitJog{capitalised(axis.value)}; (* {axis.value} *)"
-        for number, axis in enumerate(LoomAxis, 1)
-    )
+def _withdrawn() -> str:
+    return "Settling[Station] := Settling[Station] OR Order[Station];\nOrder[Station] := FALSE;"
 
 
-def _knots(size: PlcSize) -> str:
-    """What begins in state Execute while a phase is in work: a stop, or the next knot of each head."""
+def _weaving(size: PlcSize) -> str:
+    """What begins in state Execute: a stop, the next knot of each head, or an operation after the knots."""
     return f"""\
 (* weaving *)
-RowRequest := Row;
-IF StateCurrent <> {int(PackState.EXECUTE)} OR CarpetDone OR RowData.Number <> Row THEN
-    RETURN;
-END_IF;
-Busy := EndStart;
-FOR Head := 0 TO {size.heads - 1} DO
-    Busy := Busy OR TieStart[Head];
-END_FOR;
-(* to the next phase, when every head has tied its knots *)
-WHILE Phase < {size.phases} DO
-    Waiting := RowData.StopBefore[Phase] AND StopsDone <= Phase;
-    FOR Head := 0 TO {size.heads - 1} DO
-        Waiting := Waiting OR Tied[Head] < RowData.Limits[Head * {size.phases} + Phase];
-    END_FOR;
-    IF Waiting THEN
-        EXIT;
-    END_IF;
-    Phase := Phase + 1;
-END_WHILE;
-IF Phase < {size.phases} THEN
-    IF RowData.StopBefore[Phase] AND StopsDone <= Phase THEN
+IF StateCurrent = {int(PackState.EXECUTE)} AND UnitModeCurrent <> {int(PackMode.MANUAL)} AND RowReady THEN
+    IF Now.Phase >= Work.Phases THEN
+{indented(indented(_row_ends(size)))}
+    ELSIF Work.StopBefore[Now.Phase] AND Now.StopsDone <= Now.Phase THEN
         ChangeStart := TRUE;
-        RETURN;
-    END_IF;
-    FOR Head := 0 TO {size.heads - 1} DO
-        IF NOT TieStart[Head] AND NOT TieBusy[Head] AND Tied[Head] < RowData.Limits[Head * {size.phases} + Phase] THEN
-            IF Rules.Permit{KNOT}[Head] THEN
-                Index := RowData.First[Head] + Tied[Head];
-                TieColumn[Head] := RowData.Columns[Index];
-                TieTube[Head] := RowData.Tubes[Index];
-                TieBusy[Head] := TRUE;
-                TieStart[Head] := TRUE;
-            ELSE
-{_raise(f"Rules.Blocked{KNOT}", 4)}
-            END_IF;
+    ELSE
+        Waiting := FALSE;
+{indented(indented(loop("Head", size.heads, _knot(size))))}
+        IF NOT Waiting THEN
+            Now.Phase := Now.Phase + 1;
         END_IF;
-    END_FOR;
+    END_IF;
+END_IF;
 """
 
 
-def _row_ends() -> str:
-    """What begins behind the last phase: the operations after the knots, when their sensors permit."""
-    permits = "\n".join(
-        f"        {int(one)}: MayBegin := Rules.Permit{name}; Found := Rules.Blocked{name};"
-        for one, name in ((end, capitalised(end.name)) for end in ROW_ENDS)
-    )
-    assert set(OPERATIONS) >= {capitalised(end.name) for end in ROW_ENDS}
+def _knot(size: PlcSize) -> str:
     return f"""\
-ELSIF NOT Busy AND NOT EndBusy THEN
+IF Now.Tied[Head] < Work.Limits[Head * {size.phases} + Now.Phase] THEN
+    Waiting := TRUE;
+    IF NOT Now.Busy[Head] AND NOT Settling[Head] THEN
+        IF Rules.Permit{KNOT}[Head] THEN
+            Index := Work.First[Head] + Now.Tied[Head];
+            Now.Column[Head] := Work.Columns[Index];
+            TieTube[Head] := Work.Tubes[Index];
+            Now.Busy[Head] := TRUE;
+            Order[Head] := TRUE;
+            Accepted[Head] := FALSE;
+        ELSE
+            {raised(f"Rules.Blocked{KNOT}")}
+        END_IF;
+    END_IF;
+END_IF;
+"""
+
+
+def _row_ends(size: PlcSize) -> str:
+    """Before the first operation the knots are counted: the row has as many as the carpet has columns."""
+    loom = size.heads
+    permits = (
+        (int(end), f"MayBegin := Rules.Permit{name};\nFault := Rules.Blocked{name};")
+        for end, name in ((end, capitalised(end.name)) for end in ROW_ENDS)
+    )
+    return f"""\
+IF Now.Knots <> (Now.Row + 1) * INT_TO_DINT(Now.Carpet.Columns) THEN
+    {raised(JournalFault.DAMAGED)}
+ELSIF NOT Now.Busy[{loom}] AND NOT Settling[{loom}] AND Now.EndsDone < {len(ROW_ENDS)} THEN
     MayBegin := FALSE;
-    Found := 0;
-    CASE EndsDone OF
-{permits}
-    END_CASE;
+    Fault := 0;
+{indented(cases("Now.EndsDone", permits))}
     IF MayBegin THEN
-        EndCode := EndsDone;
-        EndBusy := TRUE;
-        EndStart := TRUE;
+        EndCode := Now.EndsDone;
+        Now.Busy[{loom}] := TRUE;
+        Order[{loom}] := TRUE;
+        Accepted[{loom}] := FALSE;
         Waited := 0;
+{indented(indented(watch_begins()))}
     ELSE
         Waited := Waited + 1;
         IF Waited > {PATIENCE} THEN
             Waited := 0;
-{_raise("Found", 3)}
+            {raised("Fault")}
         END_IF;
     END_IF;
 END_IF;

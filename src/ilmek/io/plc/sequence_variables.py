@@ -1,121 +1,189 @@
-"""Variables of the main program, and the structure by which the host gives a row."""
+"""Variables of the loom's block, and the structures by which the host gives carpets and rows.
+
+A station is a head, or behind the last head the loom as a whole, which carries out the operations after the knots.
+"""
 
 from ilmek.io.plc.interlock_logic import sensor_variables
 from ilmek.io.plc.units import PlcArray, PlcStructure, PlcVariable
-from ilmek.loom.control.interlocks import LoomAxis
+from ilmek.loom.control.interlocks import WATCHED, LoomAxis
 from ilmek.loom.control.packml import PackMode, PackState
 from ilmek.loom.operations import ROW_ENDS
 from ilmek.records import value_record
 
+DIGEST_WORDS = 8
+"""Words of 32 bits of a programme's digest."""
+
+ACCEPTED = 1
+"""Status of a drive that has accepted its order; 0: it is ready for one; above: the number of a fault's alarm."""
+
+
+@value_record
+class ScanLimits:
+    """Scans after which an operation may be done at the earliest, and must be done at the latest."""
+
+    least: int
+    most: int
+
 
 @value_record
 class PlcSize:
-    """Sizes for which a program is written: heads, most phases of a row, knots of a row, rows."""
+    """Sizes for which a program is written: heads, most phases and knots of a row; limits of the operations."""
 
     heads: int
     phases: int
     columns: int
-    rows: int
+    knot: ScanLimits
+    row_ends: tuple[ScanLimits, ...]
+
+    @property
+    def stations(self) -> int:
+        """Heads, and the loom behind them: the number of the last station is that of the heads."""
+        return self.heads + 1
 
 
-def row_structure(size: PlcSize) -> PlcStructure:
-    """The structure by which the host gives a row."""
-    return PlcStructure(
-        "LoomRow",
-        (
-            PlcVariable("Number", "DINT", "row, 0 at the bottom edge", "-1"),
-            PlcVariable("Columns", PlcArray(0, size.columns - 1, "INT"), "warp pair of each knot, head by head"),
-            PlcVariable("Tubes", PlcArray(0, size.columns - 1, "USINT"), "tube of each knot"),
-            PlcVariable("First", PlcArray(0, size.heads - 1, "INT"), "index of the first knot of each head"),
-            PlcVariable(
-                "Limits", PlcArray(0, size.heads * size.phases - 1, "INT"), "knots of a head to the end of a phase"
+def structures(size: PlcSize) -> tuple[PlcStructure, ...]:
+    """What the host gives, a carpet and a row, and what outlives a power failure."""
+    return (
+        PlcStructure(
+            "LoomRecipe",
+            (
+                PlcVariable("Programme", PlcArray(DIGEST_WORDS, "DWORD"), "SHA-256 of the programme, first word first"),
+                PlcVariable("Rows", "DINT", "of the carpet"),
+                PlcVariable("Columns", "INT", f"knots of a row, at most {size.columns}"),
+                PlcVariable("Tubes", "INT", "of a head"),
+                PlcVariable("Row", "DINT", "last row that the host gave of this carpet, -1: none", "-1"),
             ),
-            PlcVariable("StopBefore", PlcArray(0, size.phases - 1, "BOOL"), "packages are changed before the phase"),
         ),
-    )
+        PlcStructure(
+            "LoomRow",
+            (
+                PlcVariable("Number", "DINT", "row, 0 at the bottom edge", "-1"),
+                PlcVariable("Phases", "INT", f"phases of the row, at most {size.phases}"),
+                PlcVariable("Columns", PlcArray(size.columns, "INT"), "warp pair of each knot, head by head"),
+                PlcVariable("Tubes", PlcArray(size.columns, "USINT"), "tube of each knot"),
+                PlcVariable("First", PlcArray(size.heads, "INT"), "index of the first knot of each head"),
+                PlcVariable("Limits", PlcArray(size.heads * size.phases, "INT"),
+                            f"knots of head h to the end of phase p, at {size.phases} h + p"),
+                PlcVariable("StopBefore", PlcArray(size.phases, "BOOL"), "packages are changed before the phase"),
+                PlcVariable("Check", "DWORD", "CRC-32 of programme and row"),
+            ),
+        ),
+        PlcStructure(
+            "LoomPosition",
+            (
+                PlcVariable("Begun", "BOOL", "a carpet is in work"),
+                PlcVariable("Carpet", "LoomRecipe", "that carpet"),
+                PlcVariable("Row", "DINT", "row in work"),
+                PlcVariable("Phase", "INT", "phase in work; the number of phases: the operations after the knots"),
+                PlcVariable("StopsDone", "INT", "phases whose stop is over"),
+                PlcVariable("EndsDone", "INT", "operations after the knots that are in the carpet"),
+                PlcVariable("Tied", PlcArray(size.heads, "INT"), "knots of each head in the row"),
+                PlcVariable("Busy", PlcArray(size.stations, "BOOL"), "the operation of a station may be in the carpet"),
+                PlcVariable("Column", PlcArray(size.heads, "INT"), "warp pair of the last order of each head"),
+                PlcVariable("Knots", "DINT", "knots in the carpet, counted"),
+                PlcVariable("Alarm", "INT", "the gravest active alarm"),
+            ),
+        ),
+    )  # fmt: skip
 
 
-def program_inputs(heads: int) -> tuple[PlcVariable, ...]:
-    """Commands, sensors, the row's data, reports and answers."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
+def block_inputs(size: PlcSize) -> tuple[PlcVariable, ...]:
+    """Commands, sensors, the carpet's and the row's data, reports and answers."""
+    per_head, codes = PlcArray(size.heads, "BOOL"), PlcArray(size.heads, "INT")
     return (
         PlcVariable("CntrlCmd", "INT", "number of the command"),
         PlcVariable("CmdChangeRequest", "BOOL", "carry it out at the rising edge"),
         PlcVariable("UnitMode", "INT", "mode to change to"),
         PlcVariable("UnitModeChangeRequest", "BOOL", "change it at the rising edge"),
         PlcVariable("StepKnot", "BOOL", "in maintenance mode: one knot of each head, else one row"),
-        PlcVariable("Acknowledge", "BOOL", "the operator has removed the cause of the alarm"),
+        PlcVariable("Acknowledge", "BOOL", "rising edge: the operator has removed the cause of the alarm"),
+        PlcVariable("GiveUp", "BOOL", "rising edge in Stopped: the carpet in work is given up"),
         PlcVariable("JogAxis", "INT", f"axis to move in manual mode, 1 to {len(LoomAxis)}, 0: none"),
-        *sensor_variables(heads),
+        *sensor_variables(size.heads),
+        PlcVariable("Recipe", "LoomRecipe", "the carpet that is to be woven"),
         PlcVariable("RowData", "LoomRow", "the row that was requested"),
-        PlcVariable("TieDone", per_head, "the knot is tied"),
-        PlcVariable("TieFault", codes, "number of the fault's alarm, 0: none"),
-        PlcVariable("EndDone", "BOOL", "the operation after the knots is done"),
-        PlcVariable("EndFault", "INT", "number of the fault's alarm, 0: none"),
-        PlcVariable("ChangeDone", "BOOL", "the operator has changed the packages"),
-        PlcVariable("TieAnswer", codes, "is the uncertain knot in the carpet: 1 no, 2 yes"),
-        PlcVariable("EndAnswer", "INT", "is the uncertain operation in the carpet: 1 no, 2 yes"),
+        PlcVariable("TieDone", per_head, "the knot is tied, until the order falls"),
+        PlcVariable("TieStatus", codes, "0 ready, 1 the order is accepted, else the number of the fault's alarm"),
+        PlcVariable("EndDone", "BOOL", "the operation after the knots is done, until the order falls"),
+        PlcVariable("EndStatus", "INT", "0 ready, 1 the order is accepted, else the number of the fault's alarm"),
+        PlcVariable("ChangeDone", "BOOL", "rising edge: the operator has changed the packages"),
+        PlcVariable("TieAnswer", codes, "is the uncertain knot in the carpet: 1 no, 2 yes, 0 between answers"),
+        PlcVariable("EndAnswer", "INT", "is the uncertain operation in the carpet: 1 no, 2 yes, 0 between answers"),
     )
 
 
-def program_outputs(heads: int) -> tuple[PlcVariable, ...]:
+def block_outputs(size: PlcSize) -> tuple[PlcVariable, ...]:
     """State, alarm, requests, orders and questions."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
+    per_head, codes = PlcArray(size.heads, "BOOL"), PlcArray(size.heads, "INT")
     return (
         PlcVariable("StateCurrent", "INT", "state", str(int(PackState.STOPPED))),
         PlcVariable("UnitModeCurrent", "INT", "mode", str(int(PackMode.PRODUCTION))),
         PlcVariable("Refused", "BOOL", "the command or mode was refused"),
         PlcVariable("Alarm", "INT", "number of the gravest active alarm, 0: none"),
         PlcVariable("Halt", "BOOL", "every motion is to stop at once"),
-        PlcVariable("RowRequest", "DINT", "row that the host is to give"),
-        PlcVariable("TieStart", per_head, "tie a knot"),
-        PlcVariable("TieColumn", codes, "at this warp pair"),
-        PlcVariable("TieTube", PlcArray(0, heads - 1, "USINT"), "from this tube"),
+        PlcVariable("RowRequest", "DINT", "row that the host is to give, -1: none", "-1"),
+        PlcVariable("TieStart", per_head, "tie a knot, until it is done or has failed"),
+        PlcVariable("TieColumn", codes, "at this warp pair; while asked: the knot in question"),
+        PlcVariable("TieTube", PlcArray(size.heads, "USINT"), "from this tube"),
         PlcVariable("EndStart", "BOOL", "carry out an operation after the knots"),
         PlcVariable("EndCode", "INT", "its number: " + ", ".join(f"{int(end)} {_words(end.name)}" for end in ROW_ENDS)),
         PlcVariable("ChangeStart", "BOOL", "the operator is to change packages"),
         PlcVariable("JogStart", "BOOL", "the axis may move"),
         PlcVariable("AskTie", per_head, "is the knot of the head in the carpet"),
         PlcVariable("AskEnd", "BOOL", "is the operation after the knots in the carpet"),
-        PlcVariable("KnotsDone", "DINT", "knots in the carpet"),
+        PlcVariable("KnotsDone", "DINT", "knots in the carpet, counted"),
         PlcVariable("CarpetDone", "BOOL", "the carpet is woven"),
     )
 
 
-def retained_variables(heads: int) -> tuple[PlcVariable, ...]:
-    """What outlives a power failure."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
-    codes = PlcArray(0, heads - 1, "INT")
+def retained_variables() -> tuple[PlcVariable, ...]:
+    """What outlives a power failure: two records, of which the last one written whole is valid."""
     return (
-        PlcVariable("Row", "DINT", "row in work"),
-        PlcVariable("Phase", "INT", "phase in work; the number of phases: the operations after the knots"),
-        PlcVariable("StopsDone", "INT", "phases whose stop is over"),
-        PlcVariable("EndsDone", "INT", "operations after the knots that are in the carpet"),
-        PlcVariable("Tied", codes, "knots of each head in the row"),
-        PlcVariable("TieBusy", per_head, "a knot is being tied"),
-        PlcVariable("EndBusy", "BOOL", "an operation after the knots is being carried out"),
+        PlcVariable("SavedEven", "LoomPosition"),
+        PlcVariable("SavedOdd", "LoomPosition"),
+        PlcVariable("OddIsLast", "BOOL", "the last whole record is SavedOdd"),
     )
 
 
-def inner_variables(heads: int) -> tuple[PlcVariable, ...]:
-    """Blocks and values within a scan."""
-    per_head = PlcArray(0, heads - 1, "BOOL")
+def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
+    """Blocks and values that a power failure may take."""
+    flags, numbers = PlcArray(size.stations, "BOOL"), PlcArray(size.stations, "INT")
     return (
         PlcVariable("Model", "StateModel"),
         PlcVariable("Rules", "Interlocks"),
-        PlcVariable("Head", "INT"),
-        PlcVariable("Index", "INT"),
-        PlcVariable("Found", "INT"),
-        PlcVariable("Busy", "BOOL"),
-        PlcVariable("Waiting", "BOOL"),
-        PlcVariable("StepDone", "BOOL"),
-        PlcVariable("Complete", "BOOL"),
-        PlcVariable("MayBegin", "BOOL"),
-        PlcVariable("Waited", "INT", "scans for which an operation after the knots has waited"),
-        PlcVariable("Retried", per_head, "the knot was tried again"),
-    )
+        PlcVariable("Now", "LoomPosition", "what is in the carpet"),
+        PlcVariable("Work", "LoomRow", "the row in work"),
+        PlcVariable("RowReady", "BOOL", "that row is checked"),
+        PlcVariable("Awake", "BOOL", "the last record is read"),
+        *(PlcVariable(name, flags, meaning) for name, meaning in (
+            ("Order", "the station is to work"), ("Accepted", "it has accepted the order"),
+            ("Settling", "its signals of the last order have not fallen yet"), ("Done", "its report"),
+            ("Asked", "its operation is asked for"), ("Released", "the answer was 0 since then"))),
+        PlcVariable("Status", numbers, "its report"),
+        PlcVariable("Answer", numbers, "the answer about its operation"),
+        PlcVariable("Elapsed", numbers, "scans since its order began or ended"),
+        PlcVariable("Retried", PlcArray(size.heads, "BOOL"), "the knot was tried again"),
+        PlcVariable("Seen", PlcArray(size.columns, "BOOL"), "the row has a knot on the warp pair"),
+        *(PlcVariable(name, "INT") for name in
+          ("Head", "Station", "Index", "Pass", "Fault", "Least", "Most", "Waited", "Tube", "Before",
+           "PhaseEnd")),
+        *(PlcVariable(name, "DINT") for name in ("Item", "Rest", "HostScans", "Sum")),
+        PlcVariable("Crc", "DWORD"),
+        *(PlcVariable(name, "BOOL") for name in
+          ("Busy", "Waiting", "Asking", "StepDone", "Complete", "MayBegin", "Plausible", "Loading", "ByAlarm",
+           "AcknowledgeSeen", "GiveUpSeen", "ChangeSeen")),
+        *(PlcVariable(watch_name(sensor), "BOOL", "the sensor has not changed in this operation")
+          for sensor in WATCHED.values()),
+    )  # fmt: skip
+
+
+def watch_name(sensor: str) -> str:
+    """Name of the flag that watches a sensor.
+
+    >>> watch_name("beater_back")
+    'WatchBeaterBack'
+    """
+    return f"Watch{''.join(part.capitalize() for part in sensor.split('_'))}"
 
 
 def _words(name: str) -> str:

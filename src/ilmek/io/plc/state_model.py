@@ -2,7 +2,7 @@
 
 from collections import defaultdict
 
-from ilmek.io.plc.units import INDENT, PlcSection, PlcUnit, PlcVariable, indented
+from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable, cases, indented
 from ilmek.loom.control.core import REACTION_COMMANDS
 from ilmek.loom.control.interlocks import Reaction
 from ilmek.loom.control.packml import (
@@ -15,6 +15,7 @@ from ilmek.loom.control.packml import (
     PackState,
     state_name,
 )
+from ilmek.loom.control.watching import GOING_ON
 
 REACTIONS: dict[Reaction, int] = {reaction: number for number, reaction in enumerate(Reaction)}
 """Numbers of the reactions, the gravest the highest."""
@@ -30,87 +31,88 @@ def _inputs(*names: str) -> PlcSection:
 
 
 def _mode_has_state() -> PlcUnit:
-    lines = ["ModeHasState := FALSE;", "CASE Mode OF"]
-    for mode in PackMode:
-        numbers = ", ".join(str(int(state)) for state in sorted(MODE_STATES[mode]))
-        lines += [
-            f"{INDENT}{int(mode)}: (* {mode.name.capitalize()} *)",
-            f"{2 * INDENT}CASE State OF",
-            f"{3 * INDENT}{numbers}: ModeHasState := TRUE;",
-            f"{2 * INDENT}END_CASE;",
-        ]
-    lines.append("END_CASE;")
-    return PlcUnit(
-        "FUNCTION", "ModeHasState", "whether a mode has a state", (_inputs("Mode", "State"),), "\n".join(lines), "BOOL"
-    )
+    modes = [
+        (int(mode), cases("State", ((int(state), "ModeHasState := TRUE;") for state in sorted(MODE_STATES[mode]))))
+        for mode in PackMode
+    ]
+    body = f"ModeHasState := FALSE;\n{cases('Mode', modes)}"
+    return PlcUnit("FUNCTION", "ModeHasState", "whether a mode has a state", (_inputs("Mode", "State"),), body, "BOOL")
 
 
 def _transition() -> PlcUnit:
-    by_state: dict[PackState, list[tuple[PackCommand, PackState]]] = defaultdict(list)
-    for (state, command), target in TRANSITIONS.items():
-        by_state[state].append((command, target))
-    lines = ["Target := 0;", "CASE State OF"]
-    for state in sorted(by_state):
-        lines += [f"{INDENT}{int(state)}: (* {state_name(state)} *)", f"{2 * INDENT}CASE Command OF"]
-        for command, target in sorted(by_state[state]):
-            words = f"{command.name.capitalize()}: {state_name(target)}"
-            lines.append(f"{3 * INDENT}{int(command)}: Target := {int(target)}; (* {words} *)")
-        lines.append(f"{2 * INDENT}END_CASE;")
-    lines += ["END_CASE;", "IF NOT ModeHasState(Mode, Target) THEN", f"{INDENT}Target := 0;", "END_IF;",
-              "CommandedState := Target;"]  # fmt: skip
+    by_state: dict[PackState, list[tuple[int, str]]] = defaultdict(list)
+    for (state, command), target in sorted(TRANSITIONS.items()):
+        words = f"{state_name(state)}, {command.name.capitalize()}: {state_name(target)}"
+        by_state[state].append((int(command), f"Target := {int(target)}; (* {words} *)"))
+    states = [(int(state), cases("Command", targets)) for state, targets in sorted(by_state.items())]
+    body = f"""\
+Target := 0;
+{cases("State", states)}
+IF NOT ModeHasState(Mode := Mode, State := Target) THEN
+    Target := 0;
+END_IF;
+CommandedState := Target;
+"""
     sections = (_inputs("State", "Command", "Mode"), PlcSection("VAR", (PlcVariable("Target", "INT"),)))
     meaning = "the state that a command leads to; 0: the command is refused"
-    return PlcUnit("FUNCTION", "CommandedState", meaning, sections, "\n".join(lines), "INT")
+    return PlcUnit("FUNCTION", "CommandedState", meaning, sections, body, "INT")
 
 
 def _completed() -> PlcUnit:
-    lines = ["CompletedState := State;", "CASE State OF"]
-    for state, target in sorted(COMPLETED.items()):
-        lines.append(f"{INDENT}{int(state)}: CompletedState := {int(target)}; (* {state_name(target)} *)")
-    lines.append("END_CASE;")
+    targets = [
+        (int(state), f"CompletedState := {int(target)}; (* {state_name(target)} *)")
+        for state, target in sorted(COMPLETED.items())
+    ]
+    body = f"CompletedState := State;\n{cases('State', targets)}"
     meaning = "the state that follows when the action of a state is complete"
-    return PlcUnit("FUNCTION", "CompletedState", meaning, (_inputs("State"),), "\n".join(lines), "INT")
+    return PlcUnit("FUNCTION", "CompletedState", meaning, (_inputs("State"),), body, "INT")
 
 
 def _machine() -> PlcUnit:
     """The block that keeps state and mode; an alarm's reaction goes before a command, a command before completion."""
     reactions = [
-        f"{int(REACTIONS[reaction])}: Wanted := {int(command)}; (* {command.name.capitalize()} *)"
+        (REACTIONS[reaction], f"Wanted := {int(command)}; (* {command.name.capitalize()} *)")
         for reaction, command in REACTION_COMMANDS.items()
     ]
-    changes = ", ".join(str(int(state)) for state in sorted(MODE_CHANGES))
+    change = f"""\
+IF UnitMode >= 1 AND UnitMode <= {len(PackMode)} THEN
+    UnitModeCurrent := UnitMode;
+ELSE
+    Refused := TRUE;
+END_IF;"""
+    changes = ((int(state), change) for state in sorted(MODE_CHANGES))
+    onward = " OR ".join(f"CntrlCmd = {int(command)}" for command in sorted(GOING_ON))
     body = f"""\
 Refused := FALSE;
 Wanted := 0;
-CASE AlarmReaction OF
-{indented(chr(10).join(reactions))}
-END_CASE;
 Target := 0;
+{cases("AlarmReaction", reactions)}
 IF Wanted > 0 THEN
-    Target := CommandedState(StateCurrent, Wanted, UnitModeCurrent);
+    Target := CommandedState(State := StateCurrent, Command := Wanted, Mode := UnitModeCurrent);
+    IF AlarmReaction = {REACTIONS[Reaction.SUSPEND]}
+        AND NOT ModeHasState(Mode := UnitModeCurrent, State := {int(PackState.SUSPENDED)}) THEN
+        Target := CommandedState(State := StateCurrent, Command := {int(PackCommand.HOLD)}, Mode := UnitModeCurrent);
+    END_IF;
 END_IF;
 IF Target = 0 AND CmdChangeRequest AND NOT CommandSeen THEN
-    Target := CommandedState(StateCurrent, CntrlCmd, UnitModeCurrent);
+    Refused := Forbidden AND ({onward});
+    IF NOT Refused THEN
+        Target := CommandedState(State := StateCurrent, Command := CntrlCmd, Mode := UnitModeCurrent);
+    END_IF;
     Refused := Target = 0;
 END_IF;
 CommandSeen := CmdChangeRequest;
+IF Target = 0 AND Resume THEN
+    Target := CommandedState(State := StateCurrent, Command := {int(PackCommand.UNSUSPEND)}, Mode := UnitModeCurrent);
+END_IF;
 IF Target = 0 AND StateComplete THEN
-    Target := CompletedState(StateCurrent);
+    Target := CompletedState(State := StateCurrent);
 END_IF;
 IF Target > 0 THEN
     StateCurrent := Target;
 END_IF;
 IF UnitModeChangeRequest AND NOT ModeSeen THEN
-    CASE StateCurrent OF
-        {changes}:
-            IF UnitMode >= 1 AND UnitMode <= {len(PackMode)} THEN
-                UnitModeCurrent := UnitMode;
-            ELSE
-                Refused := TRUE;
-            END_IF;
-    ELSE
-        Refused := TRUE;
-    END_CASE;
+{indented(cases("StateCurrent", changes, "Refused := TRUE;"))}
 END_IF;
 ModeSeen := UnitModeChangeRequest;
 """
@@ -128,6 +130,8 @@ def _machine_sections() -> tuple[PlcSection, ...]:
                 PlcVariable("UnitModeChangeRequest", "BOOL", "change it at the rising edge"),
                 PlcVariable("StateComplete", "BOOL", "the action of the state is complete"),
                 PlcVariable("AlarmReaction", "INT", "gravest reaction of the active alarms, 0: none"),
+                PlcVariable("Forbidden", "BOOL", "an active alarm forbids Start, Unhold and Unsuspend"),
+                PlcVariable("Resume", "BOOL", "what the machine was suspended for has ended"),
             ),
         ),
         PlcSection(

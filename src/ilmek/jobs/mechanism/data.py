@@ -5,7 +5,7 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
-from ilmek.linkage.model import Rotation, Slide
+from ilmek.linkage.model import Slide
 from ilmek.linkage.motion import Status, moving_points
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.records import JsonObject
@@ -119,9 +119,8 @@ def _force_columns(run: MechanismRun) -> dict[str, FloatArray]:
         table[f"{name} Fx [N]"], table[f"{name} Fy [N]"] = force.real, force.imag
         if name in forces.couples:
             table[f"{name} couple [N*m]"] = forces.couples[name]
-    for entry in run.plan.mechanism.inputs:
-        effort = "torque [N*m]" if isinstance(entry, Rotation) else "force [N]"
-        table[f"{entry.name} drive {effort}"] = forces.efforts[entry.name]
+    for name, effort in forces.efforts.items():
+        table[f"{name} drive {'torque [N*m]' if forces.turning(name) else 'force [N]'}"] = effort
     table["shaking Fx [N]"], table["shaking Fy [N]"] = found.shaking.force.real, found.shaking.force.imag
     table["shaking moment [N*m]"] = found.shaking.moment
     table["frame Fx [N]"], table["frame Fy [N]"] = found.frame.force.real, found.frame.force.imag

@@ -101,7 +101,7 @@ def _force_plots(run: MechanismRun, forces: InverseRun, x: Axis) -> Iterator[Fig
         level = (forces.drive_torque_mean if forces.turning else forces.drive_force_mean) or 0.0
         mean = Series(f"mean, {format_quantity(level, unit)}", at[[0, -1]], np.array([level, level]), dashed=True)
         curves = (Series(noun, at, forces.effort), mean)
-        yield Plot("drive", f"Drive {noun} on {forces.driving}", x, Axis(noun, unit), curves)
+        yield Plot("drive", f"Drive {noun} on {forces.driver}", x, Axis(noun, unit), curves)
     mechanism = run.plan.mechanism
     sizes = {one.name: np.abs(forces.forces.reactions[one.name]) for one in (*mechanism.joints, *mechanism.couplings)}
     yield from _groups("forces", "Forces of joints", x, Axis("force", "N"), at, sizes)

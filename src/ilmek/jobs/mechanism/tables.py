@@ -10,7 +10,7 @@ from ilmek.dynamics.machine_strength import MachineStrength
 from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
-from ilmek.linkage.model import Pin, Rotation, Slide
+from ilmek.linkage.model import Pin, Slide
 from ilmek.linkage.motion import moving_points
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
@@ -134,13 +134,14 @@ def _where(run: MechanismRun, values: np.ndarray) -> tuple[float | str]:
 
 
 def _drives_table(run: MechanismRun) -> Table:
-    """Efforts of the inputs where there are several."""
+    """Efforts of the inputs where there are several, or of the actuators."""
     assert run.forces is not None
-    heads = columns("input", "effort from", "effort to", "unit")
+    heads = columns("drive", "effort from", "effort to", "unit")
     efforts = run.forces.forces.efforts
-    units = {entry.name: "N*m" if isinstance(entry, Rotation) else "N" for entry in run.plan.mechanism.inputs}
-    rows = tuple((name, *_ends(effort), units[name]) for name, effort in efforts.items()) if len(efforts) > 1 else ()
-    return Table("drives", "Efforts of the inputs", heads, rows, brief=True)
+    turning = run.forces.forces.turning
+    rows = tuple((name, *_ends(effort), "N*m" if turning(name) else "N") for name, effort in efforts.items())
+    shown = rows if len(rows) > 1 or run.machine.actuators else ()
+    return Table("drives", "Efforts of the drives", heads, shown, brief=True)
 
 
 def _transmission_table(found: Analysis) -> Table:

@@ -24,6 +24,7 @@ class JournalFault(StrEnum):
     OTHER_PROGRAMME = "journal of another programme"
     IN_USE = "journal in use"
     BEHIND = "journal behind the carpet"
+    ROW_DAMAGED = "row of the programme damaged"
 
 
 class ControlFault(StrEnum):
@@ -34,6 +35,7 @@ class ControlFault(StrEnum):
     UNEXPECTED = "unexpected report"
     CLOCK_BACKWARDS = "clock going backwards"
     NO_SENSORS = "no sensors"
+    NO_HOST = "host silent"
 
 
 @value_record
@@ -115,6 +117,8 @@ _JOURNAL = (
               "end the other controller, or choose another folder", Reaction.ABORT),
     AlarmKind(307, JournalFault.BEHIND, 800, "the sensor finds operations in the carpet that the journal does not have",
               "check that journal and carpet belong together; then acknowledge", Reaction.HOLD),
+    AlarmKind(308, JournalFault.ROW_DAMAGED, 900, "a row that the host gave is not a row of the programme",
+              "check the connection to the host and its programme; then unhold: the row is read again", Reaction.HOLD),
 )  # fmt: skip
 _CONTROL = (
     AlarmKind(401, ControlFault.CONTRADICTION, 800, "two sensors cannot be true at once",
@@ -127,6 +131,8 @@ _CONTROL = (
               "check the loom's clock; the order of records does not depend on it", Reaction.NONE),
     AlarmKind(405, ControlFault.NO_SENSORS, 800, "the loom has not reported its sensors",
               "check the connection to the loom; then unhold", Reaction.HOLD),
+    AlarmKind(406, ControlFault.NO_HOST, 800, "the host has not given a row or carpet that was requested",
+              "check the host and the connection to it; then unhold", Reaction.HOLD),
 )  # fmt: skip
 
 ALARMS: Mapping[str, AlarmKind] = MappingProxyType(

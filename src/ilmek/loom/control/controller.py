@@ -200,7 +200,7 @@ class Controller(ControlCore):
             state.retried.add(key)
             state.retries += 1
             return
-        if report.fault is Fault.TIMEOUT and not isinstance(order, Jog):
+        if not isinstance(order, Jog):
             state.doubts[key] = Doubt(order, onward=False)
         state.retried.discard(key)
         head = order.head if isinstance(order, Tie) else None

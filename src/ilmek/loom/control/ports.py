@@ -71,7 +71,7 @@ class Done:
 
 @value_record
 class Failed:
-    """An order was not carried out: nothing of it is in the carpet. Time [ns]."""
+    """An order failed; after a first missed grip nothing of it is in the carpet, else that is asked. Time [ns]."""
 
     order: Order
     fault: Fault

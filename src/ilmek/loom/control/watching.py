@@ -23,7 +23,8 @@ from ilmek.loom.control.state import ControllerState, Draft
 
 _RULES = {rule.name: rule for rule in INTERLOCKS}
 _TIE = frozenset((LoomAxis.HEADS,)) | {LoomAxis.GRIPPERS, LoomAxis.CARRIAGE}
-_GOING_ON = frozenset((PackCommand.START, PackCommand.UNHOLD, PackCommand.UNSUSPEND))
+GOING_ON = frozenset((PackCommand.START, PackCommand.UNHOLD, PackCommand.UNSUSPEND))
+"""Commands that an active alarm forbids."""
 NO_HEAD = 65_535
 """Number of the head in the record of an alarm of the whole loom."""
 
@@ -72,7 +73,7 @@ def refused(state: ControllerState, command: PackCommand) -> Refusal | None:
             return Refusal("Clear while the journal cannot be written", "the journal must be opened again")
         grave = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is Reaction.ABORT and alarm.present]
         return Refusal(f"Clear with {grave[0].kind.name}", grave[0].kind.remedy) if grave else None
-    if command in _GOING_ON and state.mode is not PackMode.MANUAL:
+    if command in GOING_ON and state.mode is not PackMode.MANUAL:
         stopping = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is not Reaction.NONE]
         if stopping:
             one = stopping[0]

@@ -72,7 +72,7 @@ def _of_bracket(frame: LoomFrame, face: float, bracket: Bracket) -> Seam:
     section = welded_to(frame, bracket.depth) if face > bracket.outer else frame.column
     weld = TwoSeams(bracket.depth, section.side)
     force = weld.force(bracket.load, *bracket.moment)
-    return Seam(bracket.title, bracket.name, throat_for(force, min(section.wall, BRACKET)), force)
+    return Seam(bracket.title, bracket.name, throat_for(force, *sorted((section.wall, BRACKET))), force)
 
 
 def _of_posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Seam]:

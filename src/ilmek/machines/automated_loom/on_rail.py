@@ -63,7 +63,7 @@ def guide_parts(loom: LoomDesign) -> Iterator[Occurrence]:
     guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, wide)
     yield Occurrence(under, (placement(-wide / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH),))
     yield Occurrence(guide, (placement(-wide / 2, z=row.height - RAIL_AXIS).after(ON_RAIL),))
-    yield from rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2)
+    yield from rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2, loom.heads)
 
 
 @lru_cache(maxsize=4)

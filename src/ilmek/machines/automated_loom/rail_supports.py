@@ -222,7 +222,8 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
     bottom = floor_top(loom, frame)
     for own in rail_supports(loom, frame):
         ends, title = own.name == "rail-post", "post of the rail's axes"
-        post = member(own.name, title if ends else f"{title} between its ends", own.post, own.height)
+        long = own.height + (own.arm.side / 2 if ends else 0.0)  # all round the end of its arm
+        post = member(own.name, title if ends else f"{title} between its ends", own.post, long)
         aside = own.lever if not ends else frame.beside(brackets_of(loom).face)[0]
         places = (-aside, aside) if ends else [x + aside for x in own.stations]
         yield Occurrence(post, tuple(placement(x, bottom, own.depth).after(UPRIGHT) for x in places))

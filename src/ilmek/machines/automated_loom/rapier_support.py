@@ -13,21 +13,20 @@ from collections.abc import Iterator
 
 from ilmek.elements.columns import STEEL, HollowSquare, ascending, euler
 from ilmek.elements.materials import GRAVITY
+from ilmek.machines.automated_loom.anchors import anchored
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import member, part_id
+from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.weft.carriers import AXIS
 from ilmek.machines.weft.rapier_tree import SIDE, RapierSide
 from ilmek.part import catalogue
-from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
-from ilmek.part.shapes import box
 from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 LEAST = 0.05 * mm
 """Shorter arms are left out [m]."""
@@ -162,9 +161,13 @@ def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
     beam = member("weft-beam", "beam along an edge of the cloth", support.section, long)
     starts = (-beside - side / 2, inner)
     yield Occurrence(beam, tuple(placement(x, y, z - side / 2).after(ALONG_WIDTH) for x in starts))
-    post = member("weft-post", "post of the rapier's axis", support.section, support.height)
+    long = support.height - END_PLATE
+    post = member("weft-post", "post of the rapier's axis", support.section, long)
     low, x = middle.imag + rapier.low - support.height, rapier.run[0] + POST_INSET
-    yield Occurrence(post, (placement(x, low, middle.real).after(UPRIGHT),))
-    title, size = "plate under the post of the rapier's axis", format_quantity(SOLE[1], "mm")
-    sole = Part(part_id("weft-sole"), title, "laser-cut part", size, box(SOLE[0], SOLE[0], SOLE[1]), STEEL)
-    yield Occurrence(sole, (placement(x, low - SOLE[1], middle.real).after(UPRIGHT),))
+    foot = placement(x, low, middle.real).after(UPRIGHT)
+    yield Occurrence(post, (foot,))
+    plate = end_plate("weft-post-plate", "plate of the post for the rapier's axis", support.section)
+    yield Occurrence(plate, (foot.after(placement(z=long)),))
+    title, on_floor, half = "plate under the post of the rapier's axis", foot.after(placement(z=-SOLE[1])), SOLE[0] / 3
+    holes = [complex(across, along) for across in (-half, half) for along in (-half, half)]
+    yield from anchored("weft-sole", title, (SOLE[0], SOLE[0], SOLE[1]), holes, (on_floor,))

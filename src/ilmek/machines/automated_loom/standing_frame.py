@@ -15,12 +15,12 @@ from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.feet import FOOT
-from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id, welded_to
+from ilmek.machines.automated_loom.feet import FOOT, PLATE
+from ilmek.machines.automated_loom.frame import END_PLATE, ROOM, LoomFrame, end_plate, member, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.part.part import WELDED, Bought, Part, bought_part
+from ilmek.part.part import LASER_CUT, WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
@@ -39,6 +39,11 @@ _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 
 
 AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
 """Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
+
+_PACKED, _PAST = 30 * mm, 12 * mm
+"""Spacers that are shorter are plates: the welds at both ends of a tube have no room beside each other; how far such a
+plate stands out past a column, for the weld between [m].
+"""
 
 _LEAST = 0.05 * mm
 """Thinner spacers are left out, and posts that are nearer to each other stand on one beam [m]."""
@@ -146,8 +151,11 @@ def _across(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occu
     front = [(low, depth) for depth in _front_depths(loom, frame)]
     rear, between_columns = _before_the_roll(loom, frame)
     between = 2 * made.face + section.side - base.side  # the feet stand in the middle of the columns' sections
+    closed = 2 * made.face - 2 * END_PLATE
+    plate = end_plate("beam-plate", "plate of an end of the beam across", behind_cams)  # it may lie beside the columns
+    yield _placed(plate, (placement(x, middle.imag, middle.real).after(ALONG_WIDTH) for x in (-made.face, closed / 2)))
     for name, title, chosen, own, long in (
-        ("beam", "beam across", behind_cams, [(middle.imag, middle.real)], 2 * made.face),
+        ("beam", "beam across", behind_cams, [(middle.imag, middle.real)], closed),
         ("floor-beam", "beam across at the floor", base, [(low, rear)], 2 * made.face if between_columns else between),
         ("front-beam", "beam across between the front feet", base, front, between),
     ):
@@ -173,8 +181,11 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     for name, title, long, start in lengths:
         yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
-    foot = frame.foot.part(LEVELLING_FOOT)
-    yield _placed(foot, (placement(x, side.floor, z).after(UPRIGHT) for x in stations for z in ends))
+    for part, y in (
+        (frame.foot.part(LEVELLING_FOOT), side.floor),
+        (frame.foot.plate(part_id("foot-plate"), base.side), side.floor + FOOT - PLATE),
+    ):
+        yield _placed(part, (placement(x, y, z).after(UPRIGHT) for x in stations for z in ends))
 
 
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
@@ -185,7 +196,12 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     gap = made.face - one.outer
     section = welded_to(frame, one.depth)
     if gap > _LEAST:
-        spacer = member(f"{one.name}-spacer", f"spacer of the {one.title}", section, gap)
+        name, title = f"{one.name}-spacer", f"spacer of the {one.title}"
+        if gap < _PACKED:
+            packing = box(section.side, frame.column.side + 2 * _PAST, gap)
+            spacer = Part(part_id(name), title, LASER_CUT, shape=packing, material=STEEL, joins=(part.id,))
+        else:
+            spacer = member(name, title, section, gap)
         height = sum(one.ends) / 2
         yield _placed(
             spacer, (placement(x, height, loom.side.column).after(ALONG_WIDTH) for x in (one.outer, -made.face))

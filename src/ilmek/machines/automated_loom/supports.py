@@ -21,7 +21,7 @@ from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
 from ilmek.machines.beat import BeatDrive
-from ilmek.machines.beat_up.beam import POST, BeatBeam
+from ilmek.machines.beat_up.beam import PAST_RAIL, BeatBeam
 from ilmek.machines.beat_up.carriage import beam_corner
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.hammer.tree import beam_of
@@ -230,7 +230,7 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    aside = loom.task.rail_length / 2 + max(POST - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
+    aside = loom.task.rail_length / 2 + max(PAST_RAIL - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),

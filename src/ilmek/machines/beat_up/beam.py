@@ -27,6 +27,11 @@ BEFORE_PIVOT = 10 * mm
 POST = 80 * mm
 """Room for a post under each end of the beam, beside the cylinders [m]: assumed by this project."""
 
+PAST_RAIL = 130 * mm
+"""From the end of the room of a rail of heads to that of the beam [m]: axes of the rail's retreat, and then a post, lie
+under it; assumed by this project.
+"""
+
 SAFETY = 2.0
 """Of the beam against yielding; assumed by this project."""
 

@@ -8,7 +8,7 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import Beat, BeatDrive, BeatPath, stroke_needed
-from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.beam import PAST_RAIL
 from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import crank_start
@@ -42,7 +42,7 @@ def fit(task: LoomTask) -> BeatUpParams:
         interval=every if every > 0 else None,
         cloth=task.cloth,
         travel=TravelParams(
-            warp_force=needed, bar_distance=_bar_distance(task), beam_length=task.rail_length + 2 * POST
+            warp_force=needed, bar_distance=_bar_distance(task), beam_length=task.rail_length + 2 * PAST_RAIL
         ),
     )
 

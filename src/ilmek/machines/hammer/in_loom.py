@@ -16,7 +16,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines import beat_up
 from ilmek.machines.arrangement.spans import SPARE
 from ilmek.machines.beat import GUIDED, Beat, BeatDrive, BeatPath, stroke_needed
-from ilmek.machines.beat_up.beam import POST
+from ilmek.machines.beat_up.beam import PAST_RAIL
 from ilmek.machines.beat_up.beside_heads import checks_beside_heads, ground_beside_heads, room_under_baulks
 from ilmek.machines.beat_up.crank_path import crank_beat, crank_path, rocker_outline
 from ilmek.machines.beat_up.crank_start import CrankStart
@@ -78,7 +78,7 @@ def _of_carpet(task: LoomTask, kind: str, swing: float | None = None) -> HammerP
         shed_speed=params.cam_speed,
         ground=beat_up.ground_for(stroke + SPARE * params.clearance, swing=swing),
         swing=swing,
-        beam_length=task.rail_length + 2 * POST,
+        beam_length=task.rail_length + 2 * PAST_RAIL,
         stack_mass=0.0 if kind == "comb" else None,
         leaf_reach=_before_reeds(task) if kind != "linkage" or swing else None,
         axes_height=ABOVE_SIGHT if task.weaver is None else None,

@@ -64,7 +64,7 @@ class CylinderBracket:
     def seam(self, column: HollowSquare) -> Seam:
         """Its weld to a column, or to the spacer between."""
         force = TwoSeams(self.height, column.side).force(self.cylinder.reaction, *self.moment)
-        name, throat = self.cylinder.name, throat_for(force, min(column.wall, BRACKET))
+        name, throat = self.cylinder.name, throat_for(force, *sorted((column.wall, BRACKET)))
         return Seam(f"bracket of the {name} cylinder", f"{name}-bracket", throat, force)
 
     @property

@@ -19,11 +19,11 @@ from ilmek.cams.plate import PlateCam
 from ilmek.cams.programme import TURN, CamProgramme, dwell, fall, rise
 from ilmek.cams.sizing import CamLimits, pressure_prime
 from ilmek.elements.duty import LoadCycle, MotorDuty, duty
+from ilmek.elements.locknuts import Locknut, locknut_for
 from ilmek.elements.motors import Motor, Reducer, most_torque, smallest_motor, strongest_motor
 from ilmek.elements.nose_buckling import nose_buckling
 from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
-from ilmek.elements.shafts import STOCK_SIDES
-from ilmek.elements.square_shaft import SquareShaft, SquareShaftTask, square_shaft
+from ilmek.elements.square_shaft import LEAST_BAR, SquareShaft, SquareShaftTask, square_shaft
 from ilmek.machines.bearing_seats import BearingSeat, seat_of
 from ilmek.machines.shedding.params import NO_DWELL, SheddingParams
 from ilmek.machines.shedding.phases import Shed, chosen_shed
@@ -122,6 +122,35 @@ class CamShaft:
         return keyed_end(self.seat.bearing.bore, self.shaft.torque, self.params.strength)
 
     @property
+    def screws_inside(self) -> float:
+        """Diameter within which the screws of the bearings leave room [m]."""
+        screw = self.seat.screws.screw
+        return float(2 * abs(self.seat.corners()[0])) - max(screw.across, screw.washer[0]) - 2 * mm
+
+    @property
+    def nut(self) -> Locknut:
+        """The nut that clamps the cams at each end of the bar."""
+        return locknut_for(self.shaft.bar, self.screws_inside)
+
+    @property
+    def beyond_cams(self) -> float:
+        """From the end of the cams to the inner side of a bearing [m]: ring, washer, nut, room for the screws."""
+        nut, room = self.nut, self.seat.screw_room
+        clamped = RING + nut.washer + nut.width + nut.pitch
+        return max(RING + room, clamped + (room if nut.outer > self.screws_inside else 0.0))
+
+    @property
+    def friction_torque(self) -> float:
+        """Torque that the clamped neighbours of a cam hold on it by friction, both at the bar's side at least [N m]."""
+        return 2 * STACK_FRICTION * self.nut.tightened * self.shaft.bar / 2
+
+    def cam_torque(self) -> float:
+        """Largest torque of the warp on a cam [N m]."""
+        angle = np.linspace(0.0, self.params.rise, _NOSE)
+        motion = self.even.at(angle)
+        return float(np.max(self.shed.force(motion.s) * motion.ds))
+
+    @property
     def reach(self) -> float:
         """Half of the length of the warps' line that the guides, and the gap beside them, take up [m]."""
         return math.sqrt(self.stack.guide_radius**2 - self.base_radius**2) + self.params.shaft_gap
@@ -139,6 +168,9 @@ class CamShaft:
 
 
 _NOSE = 91
+
+RING, STACK_FRICTION = 15 * mm, 0.1
+"""Thickness of the rings at the ends of the cams [m], and friction of oiled sheets; assumed by this project."""
 
 LARGEST_PRIME = 1.0
 """Largest prime radius that is tried for the bore [m]."""
@@ -233,7 +265,7 @@ def least_prime(params: SheddingParams) -> float:
 
 def least_bar(params: SheddingParams) -> float:
     """The smallest bar of stock, or the given one [m]."""
-    return params.shaft_bar or STOCK_SIDES[0]
+    return params.shaft_bar or LEAST_BAR
 
 
 def _for_bore(params: SheddingParams, bar: float) -> float:

@@ -185,6 +185,11 @@ def _bearing_checks(shaft: CamShaft) -> Iterator[Check]:
         "fatigue of the driven journal at its shoulder", shoulder.safety, LEAST_SAFETY, "1", source
     ).with_cure(larger)
     yield at_most("bore of the bearing in the bar", bore, bar, "mm", "journal of the bar").with_cure(stronger)
+    source, thicker = shaft.nut.designation, "set a thicker shaft_bar, or a smaller bearing"
+    yield at_least("nut of the cams over the journal", shaft.nut.core, bore, "mm", source).with_cure(thicker)
+    source = f"{source} at {format_quantity(shaft.nut.torque, 'Nm', 3)}; friction of oiled sheets"
+    torque, held = shaft.cam_torque(), shaft.friction_torque
+    yield at_most("torque of a cam on its clamped sheets", torque, held, "Nm", source).with_cure("set a lower tension")
 
 
 def _key_checks(shaft: CamShaft) -> Iterator[Check]:

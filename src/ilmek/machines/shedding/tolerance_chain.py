@@ -24,6 +24,9 @@ from ilmek.units import mm
 STEP = 0.05 * mm
 """Step of a pile of shim rings of 0.1, 0.15, 0.2 mm and more [m]: DIN 988."""
 
+SHIMS = tuple(thickness * mm for thickness in (0.1, 0.15, 0.2, 0.3, 0.5, 1.0))
+"""Thicknesses of the sheets of which a pile is chosen [m]: DIN 988."""
+
 GAUGE = 0.03 * mm
 """Uncertainty of a cam's place, measured from the end of the stack [m]; assumed by this project."""
 

@@ -17,12 +17,12 @@ from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS, Material
 from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
-from ilmek.machines.shedding.cam_shaft import CamShaft
+from ilmek.machines.shedding.cam_shaft import RING, CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
 from ilmek.machines.shedding.reed import Reed, dent, reed_of
 from ilmek.machines.shedding.stack import POINTS, cam_outline, part_id
 from ilmek.machines.shedding.steady import steadies
-from ilmek.machines.shedding.tolerance_chain import tolerance_chain
+from ilmek.machines.shedding.tolerance_chain import SHIMS, STEP, tolerance_chain
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -30,13 +30,14 @@ from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum
 from ilmek.part.shapes import bar as round_bar
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
-from ilmek.plane.contours import circle, polygon
+from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.report.scene import SceneMotion
+from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, round_size, turn
 
-NUT, _NUT_SHARE = 15 * mm, 1.0
-"""Thickness of the clamping nuts at the ends of the cams [m], and their radius over the side of the bar."""
+_INSIDE = 2 * mm
+"""By how much the square ends inside of the rings, so that the nuts press these [m]."""
 
 _CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
 
@@ -115,7 +116,7 @@ def _turning(design: SheddingDesign, index: int) -> tuple[Occurrence, ...]:
 def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """The square bar, cams by groups, guide cams on both sides of the warps, and spacers."""
     shaft = design.shafts[index]
-    stack, bar = shaft.stack, shaft.shaft.bar
+    stack = shaft.stack
     yield Occurrence(_bar(design, index), (placement(z=-bearing_inner(design, index)),))
     end, title = shaft.driven_end, _numbered(design, index, "key of the cam shaft")
     far = bearing_inner(design, index) + shaft.seat.journal + end.length
@@ -127,9 +128,22 @@ def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         phases = np.where(odd[chosen], turn / 2, 0.0) + lag[chosen]
         yield Occurrence(_cam(design, index, number), _row(x[chosen], stack.thickness, phases))
     yield from _guides_and_spacers(design, index, x)
-    nut = _disc(design, index, ("clamping-nut", "clamping nut of the cams"), _NUT_SHARE * bar, NUT)
-    low, high = _stack_ends(design, index)
-    yield Occurrence(nut, _row(np.array([low - NUT / 2, high + NUT / 2]), NUT))
+    yield from _clamped(design, index)
+
+
+def _clamped(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
+    """Pressure ring, tab washer and nut at both ends of the cams."""
+    nut, (low, high) = design.shafts[index].nut, stack_ends(design, index)
+    ring = _disc(design, index, ("pressure-ring", "pressure ring of the cams"), design.shafts[index].shaft.bar, RING)
+    named = ("tab-washer", "tab washer of the cams"), ("locknut", "locknut of the cams")
+    washer, locknut = (
+        catalogue.locked(part_id(name, index), _numbered(design, index, title), nut, washer=name == "tab-washer")
+        for name, title in named
+    )
+    beyond = 0.0
+    for part, thick in ((ring, RING), (washer, nut.washer), (locknut, nut.width)):
+        yield Occurrence(part, _row(np.array([low - beyond - thick / 2, high + beyond + thick / 2]), thick))
+        beyond += thick
 
 
 def _guides_and_spacers(design: SheddingDesign, index: int, x: FloatArray) -> Iterator[Occurrence]:
@@ -147,13 +161,21 @@ def _guides_and_spacers(design: SheddingDesign, index: int, x: FloatArray) -> It
         shift = (wide - thin) / 2
         places = after[shimmed]
         yield from _discs(design, index, ("thin-guide-cam", "guide cam beside shims"), radius, thin, places - shift)
-        yield from _discs(design, index, ("shims", "shims of the cams"), radius, chain.shims, places + thin / 2)
+        yield from _shims(design, index, radius, chain.shims, places + thin / 2)
         return
     if shares.guides:
         yield from _discs(design, index, ("guide-cam", "guide cam"), radius, wide, _guides(x, shaft))
     beside = x + (shares.thickness + shares.spacer) / 2 + shares.guides / 2 * wide
     yield from _discs(design, index, ("spacer", "spacer of the cams"), rest, shares.spacer, beside[~shimmed])
-    yield from _discs(design, index, ("shims", "shims of the cams"), rest, shares.spacer, beside[shimmed])
+    yield from _shims(design, index, rest, shares.spacer, beside[shimmed])
+
+
+def _shims(design: SheddingDesign, index: int, radius: float, thickness: float, x: FloatArray) -> Iterator[Occurrence]:
+    """Piles of shims at x [m], each chosen when the stack is built."""
+    kit = ", ".join(f"{size / mm:g}" for size in SHIMS if size <= thickness + 1e-9)
+    note = Sentence("sheet.shims", kit=kit, most=in_mm(2 * thickness), step=in_mm(STEP))
+    for pile in _discs(design, index, ("shims", "shims of the cams"), radius, thickness, x):
+        yield replace(pile, part=replace(pile.part, notes=(note,)))
 
 
 def _discs(  # noqa: PLR0917
@@ -164,7 +186,7 @@ def _discs(  # noqa: PLR0917
         yield Occurrence(_disc(design, index, names, radius, thickness), _row(x, thickness))
 
 
-def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
+def stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
     """Both ends of the cams with their guides and spacers along the width [m]."""
     stack, (x, _) = design.shafts[index].stack, _of(design, index)
     guide, spacer = min(stack.shares.guides, 1) * stack.guide_thickness, stack.shares.spacer
@@ -175,41 +197,40 @@ def _stack_ends(design: SheddingDesign, index: int) -> tuple[float, float]:
 
 def bearing_inner(design: SheddingDesign, index: int) -> float:
     """Inner side of a shaft's bearing from the middle of the width [m]: it stands at the shaft's support, or beyond the
-    nut that clamps the cams, with room for its screws.
+    nut that clamps the cams.
     """
     shaft = design.shafts[index]
-    ends = max(abs(end) for end in _stack_ends(design, index))
-    return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + NUT + shaft.seat.screw_room)
+    ends = max(abs(end) for end in stack_ends(design, index))
+    return max((shaft.shaft.length - shaft.seat.bearing.width) / 2, ends + shaft.beyond_cams)
 
 
 def _bar(design: SheddingDesign, index: int) -> Part:
-    """The square bar between its bearings, with a journal at both ends through bearing and bracket, from z = 0.
+    """The square bar in the cams, with a thread, a neck and a journal at both ends through bearing and bracket.
 
-    Beside the bearings its corners are cut, so that the screws of these come past them.
-    The driven one reaches into its reducer, where a key holds it.
+    The inner side of a bearing is at z = 0. The driven end reaches into its reducer, where a key holds it.
     """
     shaft = design.shafts[index]
-    bar, long = shaft.shaft.bar, 2 * bearing_inner(design, index)
-    beyond, end, room = shaft.seat.journal, shaft.driven_end, shaft.seat.screw_room
-    journal = round_bar(shaft.seat.bearing.bore, beyond)
+    bar, nut, beyond, end = shaft.shaft.bar, shaft.nut, shaft.seat.journal, shaft.driven_end
+    inner, (low, high), over = bearing_inner(design, index), stack_ends(design, index), RING - _INSIDE
+    begin, last, long = inner - high - over, inner - low + over, 2 * inner
+    threaded = RING - over + nut.washer + nut.width + nut.pitch
+    thread = Prism(Profile(keyed_bore(nut.thread / 2, nut.tab, nut.groove - nut.thread / 2)), threaded)
+    slim = max(min(math.floor((nut.thread - 1.2268 * nut.pitch) / mm) * mm, shaft.screws_inside), mm)
+    necks = ((z, length) for z, length in ((0.0, begin - threaded), (last + threaded, long - last - threaded)))
     shape = Sum(
         (
-            Placed(Prism(Profile(_square(bar)), long - 2 * room), (placement(z=room),)),
-            Placed(Prism(Profile(cut_square(shaft)), room), (placement(), placement(z=long - room))),
-            Placed(journal, (placement(z=long), placement(z=-beyond))),
+            Placed(Prism(Profile(_square(bar)), last - begin), (placement(z=begin),)),
+            Placed(thread, (placement(z=begin - threaded), placement(z=last))),
+            *(Placed(round_bar(slim, length), (placement(z=z),)) for z, length in necks if length > _LEAST_NECK),
+            Placed(round_bar(shaft.seat.bearing.bore, beyond), (placement(z=long), placement(z=-beyond))),
             Placed(catalogue.keyed_journal(end), (placement(z=-beyond - end.length),)),
         )
     )
     return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {in_mm(bar)}")
 
 
-def cut_square(shaft: CamShaft) -> Contour:
-    """The square of the bar, its corners cut where they would be in the way of the bearings' screws."""
-    half, seat = shaft.shaft.bar / 2, shaft.seat
-    edge = abs(seat.corners()[0]) - max(seat.screws.screw.across, seat.screws.screw.washer[0]) / 2 - mm
-    side = min(max(math.sqrt(2) * edge - half, mm), half)  # half of what remains of a side
-    ends = np.array([half + 1j * side, side + 1j * half]) if side < half else np.array([half + 1j * half])
-    return polygon(np.concatenate([ends * 1j**k for k in range(4)]))
+_LEAST_NECK = 1e-6
+"""Length below which there is no neck [m]."""
 
 
 def _guides(x: FloatArray, shaft: CamShaft) -> FloatArray:

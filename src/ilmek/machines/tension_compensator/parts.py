@@ -29,7 +29,7 @@ from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm, round_size
+from ilmek.units import format_quantity, in_mm, mm, round_size, turn
 
 BRONZE = MATERIALS["tin bronze"]
 
@@ -358,17 +358,28 @@ def _spring_seat(at: BarSupports) -> float:
     return max((at_rest - wound.free_length + sprung.preload / sprung.rate) / 2, 0.75 * pin)
 
 
+_SPIGOT = 0.4
+"""Length of the spigot in a spring over its diameter; assumed by this project."""
+
+
 def _eye_wide(sprung: SprungLever) -> float:
     return max(sprung.pitch - 2 * PLAY, PLAY)
 
 
 def _eye(at: BarSupports) -> Sum:
-    """A block on a pin along z, from behind it to the end of its spring at x, with the bore of the pin."""
+    """A block on a pin along z, from behind it to the end of its spring at x, with the bore of the pin; its spigot
+    holds the spring's inside.
+    """
     pin, wide, far = at.members.pin, _eye_wide(at.sprung), _spring_seat(at)
     high = 0.5j * max(wide, 2 * pin)
     corners = np.array([-pin - high, far - high, far + high, -pin + high])
     block = Prism(Profile(polygon(corners), (circle(0j, pin / 2),)), wide)
-    return Sum((Placed(block, (placement(z=-wide / 2),)),))
+    members = [Placed(block, (placement(z=-wide / 2),))]
+    wound = at.sprung.spring
+    if wound is not None:
+        spigot = wound.diameter - wound.wire_diameter - 2 * PLAY
+        members.append(Placed(bar(spigot, _SPIGOT * spigot), (placement(far, about=(0.0, 1.0, 0.0), angle=turn / 4),)))
+    return Sum(tuple(members))
 
 
 def _spring(at: BarSupports) -> Part:

@@ -12,6 +12,7 @@ from ilmek.cams.programme import CamProgramme, CamSegment, dwell
 from ilmek.machines.weaver.forces import HeadForces, load_on
 from ilmek.machines.weaver.motions import HANDLER, SLEY
 from ilmek.machines.weaver.tool_parts import ToolBodies
+from ilmek.machines.weaver.widths import roller_width
 from ilmek.timing.track import Track
 from ilmek.units import turn
 
@@ -40,6 +41,7 @@ def _cam_for(head: HeadForces, track: Track, mass: float) -> LoadedPlateCam:
         pressure_angle=params.pressure_angle_limit,
         shaft=params.shaft,
         roller_radius=params.roller_radius,
+        roller_width=roller_width(params),
         thickness=params.cam_thickness,
         load=load_on(head, track.name, ratio),
     )

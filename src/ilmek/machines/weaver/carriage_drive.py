@@ -155,7 +155,7 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     )
     yield Occurrence(axle, aside)
     about_pulley = _belt(
-        BELT_LOOP, "heads' belt about a pulley", Prism(Profile(loop()), drive.width), drive.width, LOOP
+        BELT_LOOP, "heads' belt about a pulley", Prism(Profile(loop()), drive.width), drive.width, LOOP, _ONE_PIECE
     )
     yield Occurrence(about_pulley, (_upright(about, drive.low),))
 
@@ -182,8 +182,8 @@ def drive_mass(weaver: Weaver, drive: CarriageDrive) -> float:
     return math.fsum(len(drive_part.positions) * drive_part.part.mass for drive_part in drive_parts(weaver, drive))
 
 
-def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float) -> Iterator[Occurrence]:
-    """The belt on its straight line along the rail, and its clamps, which stand at a height [m].
+def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float, heads: int) -> Iterator[Occurrence]:
+    """The belt of some heads on its straight line along the rail, and its clamps, which stand at a height [m].
 
     In the axes of the rail, 0 in its middle: y from its axis, z from its back to the front. A screw on one of the
     clamps sets the tension. Beside a pulley the belt is drawn straight, too.
@@ -191,7 +191,8 @@ def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float) -> Iterator[Occu
     long, depth = weaver.belt_length, PULLEY_AT + ROLLER - RAIL_AXIS
     straight = box(drive.width, BELT.height, long)
     line = placement(-long / 2, drive.low + drive.width / 2, depth + BELT.height / 2).after(ALONG_WIDTH)
-    belt = _belt(HEADS_BELT, "belt of the heads", straight, drive.width, long)
+    whole = f"one length of {format_quantity(long + heads * LOOP, 'm', 4)} with the belt about {heads} pulleys"
+    belt = _belt(HEADS_BELT, "belt of the heads", straight, drive.width, long, whole)
     yield Occurrence(belt, (line,))
     under, starts = drive.low + drive.width, (-long / 2, long / 2 - CLAMP)
     for name, title, foot, at in (
@@ -244,10 +245,13 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
     ).with_cure("set fewer heads, or a lower weaver.carriage_acceleration", HEADS_BELT, BELT_CLAMP)
 
 
-def _belt(name: str, title: str, shape: Shape, wide: float, long: float) -> Part:
+_ONE_PIECE = "of one piece with the belt of the heads, not cut"
+
+
+def _belt(name: str, title: str, shape: Shape, wide: float, long: float, data: str) -> Part:  # noqa: PLR0917
     """Belt of a length [m]."""
     row = f"{BELT.belt.name}, {in_mm(wide)} wide"
-    bought = Bought(row, BELT.belt.mass * wide * long, length=long)
+    bought = Bought(row, BELT.belt.mass * wide * long, length=long, data=data)
     return Part(name, title, "belt", shape=shape, purchase=bought)
 
 

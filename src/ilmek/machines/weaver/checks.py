@@ -10,7 +10,7 @@ from ilmek.machines.weaver.bracket_strength import bracket_checks
 from ilmek.machines.weaver.cam_belt import PROFILE
 from ilmek.machines.weaver.design import Weaver, head_relations
 from ilmek.machines.weaver.drive_parts import CAM_BELT as CAM_BELT_PART
-from ilmek.machines.weaver.followers import FORK_STRESS, follower_id, fork_stress
+from ilmek.machines.weaver.followers import FOLLOWER_STEEL, FORK_STRESS, follower_id, fork_stress
 from ilmek.machines.weaver.grippers import YARN_TOLERANCE
 from ilmek.machines.weaver.hub_keys import key_checks
 from ilmek.machines.weaver.knife import KNIFE, knife_checks
@@ -170,7 +170,7 @@ def cam_checks(weaver: Weaver) -> Iterator[Check]:
 def _fork_check(weaver: Weaver) -> Check:
     """The most loaded fork of a follower bears its roller's force."""
     worst = max(weaver.cams, key=lambda cam: cam.contact_max)
-    source = f"{STEEL.name}, fatigue limit over 2; assumed by this project"
+    source = f"{FOLLOWER_STEEL.name}, fatigue limit over 2; assumed by this project"
     return at_most(
         f"stress of the follower, {worst.name}", fork_stress(weaver, worst), FORK_STRESS, "MPa", source
     ).with_cure("set a larger weaver.cam_gap, or lighter tools", follower_id(worst.name))

@@ -14,7 +14,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.cams.loaded_plate_cam import ROLLER, STEEL, LoadedPlateCam
+from ilmek.cams.loaded_plate_cam import ROLLER, LoadedPlateCam
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.pin_joints import side_play
 from ilmek.machines.weaver.case import ALUMINIUM, WEB
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import GUIDE, HALF_GUIDE, LAP, PLAY
@@ -24,7 +26,7 @@ from ilmek.machines.weaver.motions import HANDLER
 from ilmek.machines.weaver.stations import cheek, follower_half, station
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.turning import follower_top, rack, rack_at, rack_top
-from ilmek.machines.weaver.widths import stack_width
+from ilmek.machines.weaver.widths import fork_beside, roller_width, stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
 from ilmek.part.profile import Profile
@@ -38,16 +40,16 @@ FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam
 LEVER_PIN = part_id("lever-pin")
 """Ids of the parts."""
 
-PIN_SHARE, CHEEK_SHARE = 0.34, 0.4
-"""Pin over roller; a fork's cheek over the gap of the cams; assumed by this project, the fork's stress is checked."""
+PIN_SHARE = 0.34
+"""Pin over roller; assumed by this project, the fork's stress is checked."""
 
-LEAST_CHEEK = 0.1 * mm
-"""Of a fork whose cams have no gap beside them [m]."""
+FOLLOWER_STEEL, PIN_STEEL = MATERIALS["heat-treatable steel"], MATERIALS["induction-hardened steel"]
+"""Of followers: their cheeks are too thin for a hardened surface. The pins in them are hardened."""
 
 RAIL = 5 * mm
 """Height of a rail [m]; assumed by this project."""
 
-FORK_STRESS = (STEEL.fatigue or 0.0) / 2
+FORK_STRESS = (FOLLOWER_STEEL.fatigue or 0.0) / 2
 """Allowed stress of a fork [Pa]: the fatigue limit over a safety of 2, assumed by this project."""
 
 
@@ -84,13 +86,16 @@ def fork_stress(weaver: Weaver, cam: LoadedPlateCam) -> float:
 def _sizes(weaver: Weaver) -> tuple[float, float]:
     """Thickness of a fork's cheek, diameter of its pin [m]."""
     params = weaver.params
-    return max(CHEEK_SHARE * params.cam_gap, LEAST_CHEEK), 2 * PIN_SHARE * params.roller_radius
+    wide = params.cam_thickness + 2 * fork_beside(params)
+    free = wide - roller_width(params) - side_play(roller_width(params))
+    return free / 2, 2 * PIN_SHARE * params.roller_radius
 
 
 def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
     roller, bolt = _roller(weaver)
-    fork, _ = _sizes(weaver)
-    parts = Occurrence(_fork(weaver, cam)), Occurrence(roller, turning=True), Occurrence(bolt, (placement(z=-fork),))
+    aside = (weaver.params.cam_thickness - roller_width(weaver.params)) / 2
+    across = Occurrence(roller, (placement(z=aside),), turning=True)
+    parts = Occurrence(_fork(weaver, cam)), across, Occurrence(bolt, (placement(z=-fork_beside(weaver.params)),))
     if cam.name not in weaver.shape.levers:
         return parts
     return *parts, Occurrence(lever_pin(weaver), (placement(-_pin_height(weaver, cam)),))
@@ -100,18 +105,18 @@ def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
 def lever_pin(weaver: Weaver) -> Part:
     """The pin of a follower or a drawbar in the slot of its lever, across both cheeks."""
     title = "pin of a lever of the head"
-    return Part(LEVER_PIN, title, "pin or bush", round_size(PIN), bar(PIN, weaver.params.cam_thickness), STEEL)
+    return Part(LEVER_PIN, title, "pin or bush", round_size(PIN), bar(PIN, weaver.params.cam_thickness), PIN_STEEL)
 
 
 @lru_cache(maxsize=8)
 def _roller(weaver: Weaver) -> tuple[Part, Part]:
     """Roller and pin, alike for all cams."""
-    radius, thick = weaver.params.roller_radius, weaver.params.cam_thickness
-    fork, pin = _sizes(weaver)
-    ring = tube(2 * radius, radius - pin / 2, thick)
+    params, (_, pin) = weaver.params, _sizes(weaver)
+    radius, long = params.roller_radius, params.cam_thickness + 2 * fork_beside(params)
+    ring = tube(2 * radius, radius - pin / 2, roller_width(params))
     return (
         Part(CAM_ROLLER, "roller of a cam", "pin or bush", round_size(2 * radius), ring, ROLLER),
-        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", round_size(pin), bar(pin, thick + 2 * fork), STEEL),
+        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", round_size(pin), bar(pin, long), PIN_STEEL),
     )
 
 
@@ -158,10 +163,15 @@ def _fork(weaver: Weaver, cam: LoadedPlateCam) -> Part:
     half, near = follower_half(weaver), radius + PLAY
     upper, ends = _upper(weaver, cam, half)
     body = Placed(Prism(Profile(_bar(near, upper, half, weaver, cam)), thick))
-    plate = Profile(_box(complex(-near - LAP, -half), complex(pin, half)), (circle(0j, pin / 2),))
-    sides = Placed(Prism(plate, fork), (placement(z=-fork), placement(z=thick)))
+    beside = fork_beside(weaver.params)
+    cheeks = Prism(Profile(_box(complex(-near, -half), complex(pin, half)), (circle(0j, pin / 2),)), fork)
+    laps = Prism(Profile(_box(complex(-near - LAP, -half), complex(-near, half))), beside)
+    sides = (
+        Placed(cheeks, (placement(z=-beside), placement(z=thick + beside - fork))),
+        Placed(laps, (placement(z=-beside), placement(z=thick))),
+    )
     title, size = f"follower of the {cam.name}", in_mm(upper)
-    return Part(follower_id(cam.name), title, "machined link", size, Sum((body, sides, *ends)), STEEL)
+    return Part(follower_id(cam.name), title, "machined link", size, Sum((body, *sides, *ends)), FOLLOWER_STEEL)
 
 
 def _upper(weaver: Weaver, cam: LoadedPlateCam, half: float) -> tuple[float, tuple[Placed, ...]]:

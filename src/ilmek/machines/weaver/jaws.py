@@ -19,6 +19,7 @@ from itertools import pairwise
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.elements.pin_joints import side_play
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.jaw_hinge import JawHinge
 from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP
@@ -205,7 +206,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     title = f"roller's arm of the {name} jaws"
     roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
-    yield Occurrence(_ROLLER_PART, (placement(-arm, 0.0, -side - FACE / 2),), turning=True)
+    yield Occurrence(_ROLLER_PART, (placement(-arm, 0.0, -side - (FACE - side_play(FACE)) / 2),), turning=True)
     head = placement(
         -arm, 0.0, -side + towards * (FACE / 2 + HEAD), about=(0.0, 1.0, 0.0), angle=(1 + towards) * turn / 4
     )
@@ -223,7 +224,7 @@ _ROLLER_PART = Part(
     "roller of the jaws",
     "pin or bush",
     in_mm(ROLLER),
-    tube(ROLLER, (ROLLER - PIN) / 2, FACE),
+    tube(ROLLER, (ROLLER - PIN) / 2, FACE - side_play(FACE)),
     STEEL,
 )
 _PIN_PART = Part(

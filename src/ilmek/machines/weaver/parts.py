@@ -5,6 +5,7 @@ plate to side plate: gap and cam in turn, in the order of the stations, and a ga
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -28,6 +29,7 @@ from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
+from ilmek.sentences import Sentence
 from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
 
 BEARING_LIFE = 1e8
@@ -35,6 +37,9 @@ BEARING_LIFE = 1e8
 
 SAMPLES = 720
 """Angles of the turn at which the force on the bearings is summed."""
+
+RETENTION = "both inner rings are bonded on the shaft, the right outer ring in its side plate; the left one slides"
+"""What holds the cam shaft along its axis: one bearing, in both directions."""
 
 LEAST_SPACER = 0.01 * mm
 """Length below which no ring between the cams is made [m]; assumed by this project."""
@@ -92,10 +97,11 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         outline = polygon(rectangle(deep, high).points + middle)
         size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {in_mm(plate)}"
         section = Profile(outline, (*hole, eye))
-        part = Part(SIDE_PLATE, "side plate of the head", "machined link", size, Prism(section, plate), ALUMINIUM)
+        title, notes = "side plate of the head", (Sentence("sheet.bearing-bonded"),)
+        part = Part(SIDE_PLATE, title, "machined link", size, Prism(section, plate), ALUMINIUM, notes=notes)
         yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:
-        part = catalogue.bearing(BEARING, "bearing of the head's cam shaft", row)
+        part = replace(catalogue.bearing(BEARING, "bearing of the head's cam shaft", row), fixing=RETENTION)
         face = wide / 2 - plate - _into_gap(weaver)
         yield Occurrence(part, (placement(z=-face - row.width), placement(z=face)))
 
@@ -115,7 +121,8 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
     middle = Placed(grooved(params.shaft, 2 * half), (placement(z=-half),))
     title, size = "cam shaft of the head", round_size(params.shaft)
-    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL))
+    notes = (Sentence("sheet.rings-bonded"),)
+    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL, notes=notes))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))

@@ -4,20 +4,17 @@ From the weaver's left to right: gap and cam in turn, and a gap. The order keeps
 beside the opener at the left, the pile handler turns at the right, the grippers' levers are next to the middle.
 """
 
+from ilmek.elements.pin_joints import side_play
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import CASE
 from ilmek.machines.weaver.motions import CENTRE_GRASP, CENTRE_MOTION, HANDLER, OPENER, SIDE_GRASP, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.widths import stack_width
-from ilmek.units import mm
 
 ORDER = ((SLEY,), (SIDE_GRASP,), (SIDE_MOTION, OPENER), (CENTRE_MOTION,), (CENTRE_GRASP,), (HANDLER,))
 """Tracks whose cams may be in each station."""
 
 HALF_SHARE = 0.75
 """Half the depth of a follower over its roller's radius; assumed by this project."""
-
-FREE = 0.05 * mm
-"""Room between a lever and each of its cheeks [m]; assumed by this project."""
 
 
 def station(weaver: Weaver, track: str) -> float:
@@ -38,7 +35,8 @@ def lever_thickness(weaver: Weaver) -> float:
 
 def cheek(weaver: Weaver) -> float:
     """Thickness of each of the two cheeks beside a lever [m]."""
-    return max(weaver.params.cam_thickness / 4 - FREE, weaver.params.cam_thickness / 8)
+    quarter, free = weaver.params.cam_thickness / 4, side_play(lever_thickness(weaver)) / 2
+    return max(quarter - free, quarter / 2)
 
 
 def follower_half(weaver: Weaver) -> float:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ilmek.elements.involute import Gear, outline
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.weaver.cyclogram import DRAW_TURN, PRESENT_TURN, TUBE_TURN
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HANDLER_ARM, LOWER_PLATE
@@ -37,6 +38,9 @@ HANDLER_SHAFT, PINION, RACK, FREEWHEEL = (
     part_id("freewheel"),
 )
 """Ids of bodies and parts."""
+
+SHAFT_STEEL = MATERIALS["bearing steel"]
+"""Of the shaft, on which the rollers of the freewheel run."""
 
 BEFORE = 2.5 * mm
 """From the handler's arm to the opener's points [m]; assumed by this project, as all sizes here."""
@@ -136,7 +140,9 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     begin, end = points - BEFORE - HANDLER_ARM[1], wheel_at(weaver) + FACE
     arm = weaver.tool_bodies.handler_arm
     shape, seats = bar(SHAFT, end - begin), {"journal": Seat(placement(z=end - begin - FACE), SHAFT)}
-    shaft = Part(HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", in_mm(SHAFT), shape, STEEL, seats=seats)
+    shaft = Part(
+        HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", in_mm(SHAFT), shape, SHAFT_STEEL, seats=seats
+    )
     parts = (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),)))
     positions = (placement(at.real, at.imag, 0.0, about=about, angle=home(weaver)),)
     yield RigidBody(HANDLER_BODY, parts, parent, Joint(JointKind.PIN, about), positions)
@@ -149,7 +155,7 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         "freewheel of the pile handler",
         "bearing",
         shape=tube(outer, (outer - SHAFT) / 2, wide),
-        purchase=Bought("HF0406", 0.001, housing="N7"),
+        purchase=Bought("HF0406", 0.001, housing="N7", hardness=58),
         seats={"bore": Seat(placement(), SHAFT)},
         envelope=True,
     )

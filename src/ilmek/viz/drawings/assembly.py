@@ -25,6 +25,7 @@ from ilmek.part.exploded import Block, exploded
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement
 from ilmek.part.shapes import Sum
+from ilmek.part.specification import WELDMENT
 from ilmek.part.tree import Tree
 from ilmek.part.visible_lines import PlacedShape, extents
 from ilmek.records import record
@@ -102,6 +103,7 @@ class _Titles:
     mass: float
     issue: Issue
     pages: int
+    general: str
 
     def sheet(self, paper: str, scale: float, drawn: Sequence[SheetPicture], page: int) -> DrawingSheet:
         """A sheet with its frame and title block."""
@@ -111,7 +113,7 @@ class _Titles:
         facts = TitleFacts(
             own.drawing, title, Sentence("sheet.assembly-drawing"), Sentence("sheet.see-list"),
             format_quantity(self.mass, "kg", 3), "—",
-            str(own.count), "—", "", "—", (), status_of(issue), issue.owner, issue.date, issue.revision,
+            str(own.count), "—", "", self.general, (), status_of(issue), issue.owner, issue.date, issue.revision,
         )  # fmt: skip
         whole = merged([frame(paper), title_block(facts, paper, scale, page, self.pages), *drawn])
         width, height = PAPERS[paper]
@@ -130,12 +132,13 @@ def assembly_sheets(tree: Tree, assembly: AssemblyUnit, issue: Issue) -> Iterato
         return
     blocks = exploded(tree, assembly, pieces)
     welded, apart = welded_pieces(tree, assembly, pieces), len(blocks) > 1
-    titles = _Titles(assembly, assembly_mass(tree, assembly), issue, 1 + apart + bool(welded))
+    general = WELDMENT if welded else "—"
+    titles = _Titles(assembly, assembly_mass(tree, assembly), issue, 1 + apart + bool(welded), general)
     yield _views_sheet(titles, items, [(piece, 0.0) for piece in pieces])
     if apart:
         yield _exploded_sheet(titles, items, blocks)
     if welded:
-        paper, tables = positions(items, welded)
+        paper, tables = positions(tree, items, welded)
         yield AssemblySheet(titles.sheet(paper, 1.0, tables, titles.pages), ())
 
 

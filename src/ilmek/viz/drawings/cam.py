@@ -6,13 +6,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.cams.profile_tolerance import FLANK
 from ilmek.part.part import CUTTER, PITCH, ZERO, CamMaking
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import along
 from ilmek.report import Contour
 from ilmek.report.sheet import LineKind, arrowhead
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity
+from ilmek.units import format_quantity, um
 from ilmek.viz.drawings.drawn_part import DrawnPart
 from ilmek.viz.drawings.features import SAME
 from ilmek.viz.drawings.paper import table
@@ -74,7 +75,9 @@ def mark_cam(view: DrawnView, part: DrawnPart) -> None:
     points = along(curve, 1e-6)
     foot = complex(points[int(np.argmin(np.abs(np.angle(points * np.exp(-1j * _CALLED)))))])
     radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment))
-    words = Sentence("sheet.radii-called", tolerance=radius, increment=step)
+    hard = part.stated is not None and part.stated.hardening is not None
+    finish = Sentence("sheet.ground-hard" if hard else "sheet.ground")
+    words = Sentence("sheet.radii-called", tolerance=radius, increment=step, rough=f"{FLANK / um:g}", finish=finish)
     view.leader(words, foot * view.scale, 0.0, kind=None)
 
 

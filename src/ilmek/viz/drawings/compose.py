@@ -3,15 +3,18 @@
 First-angle projection (ISO 5456-2): the view from the left stands right of the front view, that from above below it.
 """
 
+import math
 from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from typing import cast
 
 from ilmek.part.shapes import Prism, Shape, Turned, shape_box
+from ilmek.part.tolerances import FeatureKind, FitDuty
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.sentences import Sentence
+from ilmek.units import mm
 from ilmek.viz.drawings.cam import cam_notes, is_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
@@ -240,6 +243,10 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
 def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
     lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
+    ends = [one.nominal for one in part.features if one.kind is FeatureKind.JOURNAL and one.duty in _CHAMFERED]
+    if ends:
+        size = next(size for most, size in _CHAMFERS if min(ends) <= most)
+        lines.append(Sentence("sheet.chamfers", size=millimetres(size)))
     if part.file:
         lines.append(Sentence("sheet.contour", file=part.file))
     if not lines:
@@ -249,6 +256,11 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
         for number, line in enumerate(lines, 1)
     ]
     return table((Sentence("sheet.notes"),), [(row,) for row in rows])
+
+
+_CHAMFERED = {FitDuty.BEARING, FitDuty.KEYED}
+_CHAMFERS = ((10 * mm, 0.5 * mm), (30 * mm, 1 * mm), (80 * mm, 1.5 * mm), (math.inf, 2 * mm))
+"""Largest journal, and chamfer of its end, over which a bearing or hub comes [m]; assumed by this project."""
 
 
 def status_of(issue: Issue) -> Sentence:

@@ -143,7 +143,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     return DrawnPart(
         part.id if part else f"{machine}/{name}", name, plate.title, _designation(part) or plate.material,
         _density(part), part.process if part else FLAT[1], size, plate.number, shape, volume,
-        (*plate.notes, *_row(part, plate.tree)),
+        (*(part.notes if part is not None and part.cam is not None else plate.notes), *_row(part, plate.tree)),
         plate.paths, plate.marks, _features(plate.features), f"{name}.dxf", not isinstance(plate.outline, Contour),
         _stated(part), part.cam if part else None, _welds(part, plate.tree), bent=bent, kinds=_kinds(part, plate.tree),
     )  # fmt: skip

@@ -84,10 +84,15 @@ class Fits:
             if feature.tolerance:
                 ends = feature.nominal + feature.lower, feature.nominal + feature.upper
                 least, greatest = map(millimetres, ends) if feature.lower or feature.upper else ("", "")
-                sign = _SIGNS.get(feature.kind, "")
-                size = f"{sign}{millimetres(feature.nominal)} {feature.tolerance}"
-                kind = Sentence(f"sheet.kind-{feature.kind.name.lower().replace('_', '-')}")
-                yield kind, size, least, greatest, Sentence(f"sheet.duty-{feature.duty.name.lower()}")
+                kind, size, duty = named_feature(feature)
+                yield kind, size, least, greatest, duty
+
+
+def named_feature(feature: ToleratedFeature) -> tuple[str, str, str]:
+    """What a feature is, its size with its class [mm], and what it does."""
+    size = f"{_SIGNS.get(feature.kind, '')}{millimetres(feature.nominal)} {feature.tolerance}".rstrip()
+    kind = Sentence(f"sheet.kind-{feature.kind.name.lower().replace('_', '-')}")
+    return kind, size, Sentence(f"sheet.duty-{feature.duty.name.lower()}")
 
 
 def span_of(feature: ToleratedFeature) -> Span:
@@ -103,4 +108,4 @@ def _frame(limit: GeometricTolerance) -> ControlFrame:
 
 HEADER = tuple(map(Sentence, ("sheet.feature", "sheet.dimension", "sheet.least", "sheet.greatest", "sheet.duty")))
 _SIGNS = {FeatureKind.BORE: "⌀", FeatureKind.JOURNAL: "⌀", FeatureKind.THREAD: "M", FeatureKind.SQUARE: "□"}
-_SIGNS[FeatureKind.SQUARE_BORE] = "□"
+_SIGNS |= {FeatureKind.SQUARE_BORE: "□", FeatureKind.OUTER_THREAD: "M"}

@@ -79,6 +79,8 @@ def thread_words(size: float, words: str, deep: float = 0.0) -> str:
     >>> thread_words(12e-3, " 6H"), thread_words(64e-3, " 6H", 0.02)
     ('M12 - 6H / ⌀10.2', 'M64 - 6H × 20')
     """
+    if "×" in words:  # a fine thread, whose class has its pitch
+        return f"M{millimetres(size)}{words}"
     core, name = core_of(size), f"M{millimetres(size)} -{words}"
     name = f"{name} × {millimetres(deep)}" if deep else name
     if core is None:

@@ -147,8 +147,11 @@ def turned_view(
 
 
 def _seat_ends(view: DrawnView, cut: Shortening, fits: Fits, *, levels: Sequence[float]) -> None:
-    """Thin lines where a seat ends on a diameter that goes on."""
+    """Thin lines where a seat ends on a diameter that goes on, and along the core of an outer thread."""
     for feature in fits.features:
+        if feature.kind is FeatureKind.OUTER_THREAD:
+            for core in (feature.nominal / 2 - 0.8 / view.scale) * np.array([-1j, 1j]):
+                view.line(LineKind.DIMENSION, cut.drawn(np.array(span_of(feature))) + core, body=False)
         if feature.kind is FeatureKind.JOURNAL:
             for end in (z for z in span_of(feature) if all(abs(z - level) > SAME for level in levels)):
                 half = feature.nominal / 2 * 1j
@@ -256,7 +259,7 @@ def _diameters(  # noqa: PLR0917
             inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
             kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
             own = (min(start.real, end.real), max(start.real, end.real))
-            threads = fits.along(2 * radius, FeatureKind.THREAD) if inner else {}
+            threads = fits.along(2 * radius, FeatureKind.THREAD if inner else FeatureKind.OUTER_THREAD)
             there = {
                 note: [span for span in spans if own[0] - SAME < sum(span) / 2 < own[1] + SAME]
                 for note, spans in (threads or fits.along(2 * radius, kind)).items()

@@ -1,4 +1,4 @@
-"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet, throat, length, all round.
+"""Symbols of welds, ISO 2553, system A: arrow, reference line with its dashed one, fillet or bevel, size, length.
 
 Behind the tail stands what the part is welded to; a table has the position of each seam.
 """
@@ -10,11 +10,10 @@ import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.part.part_lists import cut_length
-from ilmek.part.welds import Weld
+from ilmek.part.welds import PITCH, STITCH, Weld
 from ilmek.plane.contours import circle
 from ilmek.report.sheet import LineKind, SheetLine
 from ilmek.sentences import Sentence
-from ilmek.units import format_number, mm
 from ilmek.viz.drawings.feature_note import LETTER
 from ilmek.viz.drawings.joined import PIECES, span_words
 from ilmek.viz.drawings.paper import table
@@ -33,36 +32,33 @@ _SPACE = "\N{EM SPACE}"
 
 def weld_symbols(view: DrawnView, welds: Sequence[Weld], foot: Foot) -> None:
     """The symbols of welds in a view, those of one spot and kind with one arrow."""
-    spots: dict[tuple[complex, str, str, bool], list[str]] = {}
+    spots: dict[tuple[complex, str, str, bool, bool], list[str]] = {}
     for weld in welds:
         at = foot(weld)
-        spot = complex(round(at.real, 1), round(at.imag, 1)), _throat(weld), seam_lengths(weld), weld.all_round
+        spot = complex(round(at.real, 1), round(at.imag, 1)), weld.mark, seam_lengths(weld), weld.all_round, weld.bevel
         spots.setdefault(spot, []).append(weld.other.rpartition("/")[2])
-    for (at, throat, length, all_round), others in sorted(spots.items(), key=lambda spot: -spot[0][0].real):
-        _symbol(view, at, (throat, length), ", ".join(sorted({*others})), all_round=all_round)
-
-
-def _throat(weld: Weld) -> str:
-    return f"a{format_number(weld.throat / mm)}"
+    for (at, mark, length, all_round, bevel), others in sorted(spots.items(), key=lambda spot: -spot[0][0].real):
+        _symbol(view, at, (mark, length), ", ".join(sorted({*others})), all_round=all_round, bevel=bevel)
 
 
 def seam_lengths(weld: Weld) -> str:
-    """Lengths of the seams of a weld [mm], to 0.1 mm; equal ones once: `2×54.6`."""
+    """Lengths of the seams of a weld [mm], to 0.1 mm; equal ones once: `2×54.6`; of stitches with the gap between."""
     counts = Counter(millimetres(round(length, 4)) for length in weld.lengths)
-    return " + ".join(f"{number}×{length}" if number > 1 else length for length, number in counts.items())
+    words = " + ".join(f"{number}×{length}" if number > 1 else length for length, number in counts.items())
+    return f"{words} ({millimetres(PITCH - STITCH)})" if weld.stitched else words
 
 
-def _symbol(view: DrawnView, at: complex, sizes: tuple[str, str], others: str, *, all_round: bool) -> None:
+def _symbol(view: DrawnView, at: complex, sizes: tuple[str, str], others: str, *, all_round: bool, bevel: bool) -> None:
     size, length = sizes
     lead = f"{size}{_SPACE * 3}{length}"
     words = f"{lead}{_SPACE * 2}{others}" if others else lead
     elbow = view.leader(words, at, 0.0, kind=None, sector=(at + _UPWARDS[0], at + _UPWARDS[1]), lead=lead)
     width = text_width(lead, LETTER / CAPITAL) + 1.5
     end, fillet = elbow + width, elbow + 2.0 + text_width(size, LETTER / CAPITAL) + 1.5
-    leg = np.array([0j, LETTER * 1j, complex(LETTER, 0.0)])
-    lines = [SheetLine(LineKind.WELD, fillet + leg, closed=True)]
+    leg = np.array([LETTER * 1j, 0j, complex(LETTER, LETTER)] if bevel else [0j, LETTER * 1j, complex(LETTER, 0.0)])
+    lines = [SheetLine(LineKind.WELD, fillet + leg, closed=not bevel)]
     if not all_round:
-        lines.append(SheetLine(LineKind.WELD, fillet + leg.conj(), closed=True))
+        lines.append(SheetLine(LineKind.WELD, fillet + leg.conj(), closed=not bevel))
     else:
         ring = circle(elbow, 1.2)
         lines.append(SheetLine(LineKind.WELD, ring.points, ring.bulges, closed=True))
@@ -79,12 +75,14 @@ def weld_table(welds: Sequence[Weld], low: Float[np.ndarray, " 3"], pieces: int)
         ends = [span_words(*axis) for axis in np.round(weld.box - low, 4).T.tolist()]
         seam = Sentence("sheet.weld-all-round" if weld.all_round else "sheet.weld-edges")
         other = weld.other.rpartition("/")[2] or "—"
-        rows.append((other, _throat(weld), seam, seam_lengths(weld), *ends, f"{min(weld.pieces, pieces)}/{pieces}"))
+        hot = f"{weld.preheat:.0f}"
+        mark = Sentence("sheet.preheated", weld=weld.mark, temperature=hot) if weld.preheat else weld.mark
+        rows.append((other, mark, seam, seam_lengths(weld), *ends, f"{min(weld.pieces, pieces)}/{pieces}"))
     return table(WELD_HEADER, rows, Sentence("sheet.welds"))
 
 
 WELD_HEADER = (
-    Sentence("sheet.weld-to"), "a", Sentence("sheet.seam"), Sentence("sheet.length"), "X", "Y", "Z",
+    Sentence("sheet.weld-to"), "a, s", Sentence("sheet.seam"), Sentence("sheet.length"), "X", "Y", "Z",
     Sentence("sheet.pieces"),
 )  # fmt: skip
 

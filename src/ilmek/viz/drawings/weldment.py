@@ -3,21 +3,27 @@
 X runs to the right and Y upwards in the front view of its first sheet, Z towards the eye.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from ilmek.arrays import Float
 from ilmek.part.assemblies import AssembledPiece, AssemblyItem, AssemblyUnit
 from ilmek.part.colliders import collider
+from ilmek.part.tolerances import FeatureKind
+from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
 from ilmek.part.welds import welds_of
 from ilmek.sentences import Sentence
+from ilmek.viz.drawings.fits import named_feature
 from ilmek.viz.drawings.joined import span_words
 from ilmek.viz.drawings.paper import BLOCK_HEIGHT, EDGE, LEFT, PAPERS, table
-from ilmek.viz.drawings.picture import SheetPicture
+from ilmek.viz.drawings.picture import SheetPicture, millimetres
 
 HEADER = (Sentence("sheet.list-number"), Sentence("sheet.list-part"), "X", "Y", "Z")
+SEATS = (
+    *HEADER[:2], *map(Sentence, ("sheet.feature", "sheet.dimension", "sheet.form", "sheet.duty")),
+)  # fmt: skip
 
 _PAD, _ROW = 6.0, 5.0
 """Distance from the frame and of two tables, height of a row [mm]."""
@@ -46,14 +52,17 @@ def welded_pieces(
 
 
 def positions(
-    items: Sequence[AssemblyItem], welded: Sequence[tuple[AssembledPiece, Ends]]
+    tree: Tree, items: Sequence[AssemblyItem], welded: Sequence[tuple[AssembledPiece, Ends]]
 ) -> tuple[str, list[SheetPicture]]:
-    """The first paper on which the tables of the positions have room, and the tables beside each other on it."""
+    """The first paper on which the tables have room, and these beside each other on it: the positions, and the seats
+    that are machined when all is welded.
+    """
     rows = [
         (items[piece.item].name, piece.part.title, *(span_words(*axis) for axis in np.round(ends, 4).T.tolist()))
         for piece, ends in sorted(welded, key=lambda own: (own[0].item, *own[1].ravel().tolist()))
     ]
-    paper, tables = next((name, made) for name in PAPERS if (made := _beside(rows, name)) is not None)
+    seats = list(dict.fromkeys(_machined(tree, items, welded)))
+    paper, tables = next((name, made) for name in PAPERS if (made := _beside(rows, seats, name)) is not None)
     height = PAPERS[paper][1]
     wide = [each.box[2] - each.box[0] + _PAD for each in tables]
     starts = LEFT + _PAD + np.concatenate([[0.0], np.cumsum(wide)])
@@ -64,11 +73,27 @@ def positions(
     ]
 
 
-def _beside(rows: Sequence[tuple[str, ...]], paper: str) -> list[SheetPicture] | None:
-    """The rows in tables as high as a paper; None: it is not wide enough for them."""
+def _machined(
+    tree: Tree, items: Sequence[AssemblyItem], welded: Sequence[tuple[AssembledPiece, Ends]]
+) -> Iterator[tuple[str, ...]]:
+    """The seats of welded pieces, but their threads: what, size, form or position [mm], what for."""
+    tolerances = tolerances_of(tree)
+    for piece, _ in welded:
+        for feature in tolerances.get(piece.part.id, ()) if piece.part.machined else ():
+            if feature.kind is not FeatureKind.THREAD:
+                kind, size, duty = named_feature(feature)
+                form = ", ".join(millimetres(limit.value) for limit in feature.geometric)
+                yield items[piece.item].name, piece.part.title, kind, size, form, duty
+
+
+def _beside(rows: Sequence[tuple[str, ...]], seats: Sequence[tuple[str, ...]], paper: str) -> list[SheetPicture] | None:
+    """The rows of both tables in tables as high as a paper; None: it is not wide enough for them."""
     width, height = PAPERS[paper]
     room = int((height - 2 * EDGE - BLOCK_HEIGHT - 2 * _PAD - 6.0) / _ROW) - 1
-    title = Sentence("sheet.positions")
-    tables = [table(HEADER, rows[k : k + room], "" if k else title) for k in range(0, len(rows), room)]
+    tables = [
+        table(header, own[k : k + room], "" if k else Sentence(title))
+        for header, own, title in ((HEADER, rows, "sheet.positions"), (SEATS, seats, "sheet.after-welding"))
+        for k in range(0, len(own), room)
+    ]
     wide = sum(each.box[2] - each.box[0] + _PAD for each in tables)
     return tables if LEFT + EDGE + _PAD + wide <= width else None

@@ -257,7 +257,7 @@ export function removeAll(data: MechanismData, names: { bodies?: string[]; joint
   for (const name of lost) {
     delete data.inputs?.[name];
     delete data.branches?.[name];
-    for (const key of ["friction", "pins", "motions", "couplings"]) dropKey(data, key, name);
+    for (const key of ["friction", "pins", "motions", "couplings", "actuators"]) dropKey(data, key, name);
   }
   for (const [joint, body] of Object.entries(data.inputs ?? {})) if (gone.has(body)) delete data.inputs?.[joint];
   for (const body of gone) for (const key of ["pose", "motions"]) dropKey(data, key, body);

@@ -13,7 +13,7 @@ export function renameBody(data: MechanismData, from: string, to: string): boole
 }
 
 /** Tables whose keys are joints. */
-const BY_JOINT = ["joints", "inputs", "branches", "friction", "pins", "motions"] as const;
+const BY_JOINT = ["joints", "inputs", "branches", "friction", "pins", "motions", "actuators"] as const;
 
 /** Renames a joint, and its point in each of its bodies; false where the name is taken or none. */
 export function renameJoint(data: MechanismData, from: string, to: string): boolean {

@@ -8,6 +8,7 @@ import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import BRAKE, CHANNELS, FIELD_INPUTS, YARN_SENSOR
+from ilmek.elements.tubes import find_tube
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.creel import (
@@ -31,11 +32,11 @@ from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, PLAY, WALL
+from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, WALL
 from ilmek.part.part import WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Prism, bar, box, tube
+from ilmek.part.shapes import Prism, box, tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
@@ -44,6 +45,9 @@ CREEL, YARN_DUCT = part_id("creel"), part_id("yarn-duct")
 """Ids of the bodies that stand beside the loom."""
 
 _SECTION = HollowSquare(POST, 3 * mm)
+
+_PEG = find_tube("30x3")
+"""Tube of a peg: loose in the core of its package, and narrower than its rail by the legs of its weld."""
 
 _UPRIGHTS = 1.5
 """Greatest distance of two uprights [m]; assumed by this project."""
@@ -63,7 +67,7 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     """Frame, pegs with their packages, brakes with their sensors."""
     yield from _stand(loom, creel)
     long = creel.size
-    peg = Part(PEG, "peg of a package", WELDED, "", bar(CORE - PLAY, long), STEEL)
+    peg = Part(PEG, "peg of a package", WELDED, "", tube(_PEG.outer, _PEG.wall, long), STEEL)
     winding = tube(creel.size, (creel.size - CORE) / 2, long)
     full = format_quantity(loom.params.package_mass, "kg", 3)
     package = bought_part(

@@ -4,6 +4,7 @@ Posts stand in the lines of the fence, at most `BAY` apart; panels fill the bays
 control too, which is a part of the fence. The doors are the bays of the front; they are closed while the loom weaves.
 """
 
+import cmath
 import math
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
@@ -12,6 +13,7 @@ import numpy as np
 
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
+from ilmek.machines.automated_loom.anchors import anchored
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
     DEVICE_PLATE,
@@ -40,16 +42,23 @@ from ilmek.machines.automated_loom.equipment.guards import (
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
-from ilmek.part.part import Bought, Part
+from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box
+from ilmek.part.shapes import Placed, Sum, bar, box, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
-from ilmek.plane.contours import polygon
 from ilmek.units import format_quantity, mm
 
-_HINGE = (5 * mm, 60 * mm, 20 * mm)
-"""Width, height and depth of a hinge [m]: the gap of a door, and what is seen of it."""
+_HINGE, _GAP = (14 * mm, 80 * mm), 5 * mm
+"""Diameter and height of the barrel of a hinge, in the gap of a door at its post; gap at its latch [m]."""
+
+_FRAME = HollowSquare(20 * mm, 2 * mm)
+"""Section of the frame of a door: EN 10219-2."""
+
+_CLAMP = (5 * mm, 30 * mm)
+"""Width and height of the clamps of a panel [m]: the width is the gap of the panel between its posts."""
+
+_PLATE, _FAR = (140 * mm, POST, 8 * mm), 45 * mm
+"""Sides and thickness of the plate under a post, and its second anchor from the middle, where the first is [m]."""
 
 _BEFORE_LATCH = 15 * mm
 """From the edge of a door to its actuator [m]: the interlock sees it 15 mm away, and open doors not."""
@@ -105,8 +114,28 @@ class _Lines:
         fence = self._fence
         corners = {(x, z) for x in (self.left, self.right) for z in self.side}
         corners |= {(x, self.forward) for x in self.front} | {(x, self.back) for line in self._rear for x in line}
-        part = member("guard-post", "post of the guards", _SECTION, fence.height)
-        yield Occurrence(part, tuple(placement(x, fence.floor, z).after(UPRIGHT) for x, z in sorted(corners)))
+        part = member("guard-post", "post of the guards", _SECTION, fence.height - _PLATE[2])
+        feet = [placement(x, fence.floor, z) for x, z in sorted(corners)]
+        up = placement(y=_PLATE[2]).after(UPRIGHT)
+        yield Occurrence(part, tuple(foot.after(up) for foot in feet))
+        plates = (foot.after(self._towards_room(foot)).after(UPRIGHT) for foot in feet)
+        aside = placement((_PLATE[0] - POST) / 2)
+        places = (plate.after(aside) for plate in plates)
+        yield from anchored("guard-plate", "plate of a post of the guards", _PLATE, (0j, _FAR + 0j), places)
+
+    def _towards_room(self, foot: Placement) -> Placement:
+        """The turn of the plate of a post in which it has room on the floor: inwards, along the fence, or outwards."""
+        middle = complex(self.left + self.right, self.back + self.forward) / 2
+        inwards = middle - complex(foot.origin[0], foot.origin[2])
+        ways = sorted((1, 1j, -1, -1j), key=lambda way: -(inwards * np.conj(way)).real)
+        turns = [placement(about=(0.0, 1.0, 0.0), angle=-cmath.phase(way)) for way in ways]
+        low, high = np.array([POST / 2, 0.0, -POST / 2]), np.array([_PLATE[0] - POST / 2, 3 * _PLATE[2], POST / 2])
+
+        def free(turned: Placement) -> bool:
+            corners = foot.after(turned).points(np.array([low, high]))
+            return self._near.free(corners.min(0), corners.max(0))
+
+        return next(filter(free, turns), turns[-1])
 
     def lintel(self) -> Occurrence:
         """Above each door, from post to post."""
@@ -151,50 +180,69 @@ def _add(places: dict[tuple[float, float], list[Placement]], spacing: float, tal
         places.setdefault((round(wide, 9), round(tall, 9)), []).append(own)
 
 
-def mesh_panel(name: str, title: str, wide: float, tall: float) -> Part:
-    """A panel of welded wire: x across, 0 in its middle, y up from its lower edge, z through it from 0.
+def mesh_panel(name: str, title: str, between: float, tall: float) -> Part:
+    """A panel of welded wire with its clamps between posts: x across, 0 in its middle, y up, z through it from 0."""
+    wide = between - 2 * _CLAMP[0]
+    ends = (placement(side * (between - _CLAMP[0]) / 2, y * tall) for side in (-1, 1) for y in (0.15, 0.85))
+    shape = Sum((*_mesh(wide, tall), Placed(box(*_CLAMP, 2 * WIRE), tuple(ends))))
+    fixing = "its clamps, each with a screw M8, on the posts"
+    return _panel(name, title, (wide, tall), shape, "with 4 clamps and screws", fixing)
 
-    Upright wires before level ones, those at the edges among them, at most `MESH` apart.
-    """
+
+def _door(wide: float, tall: float) -> Part:
+    """A door of mesh in its frame, in the axes of a panel."""
+    side, inner = _FRAME.side, wide - 2 * _FRAME.side
+    upright, level = (square_tube(side, _FRAME.wall, long) for long in (tall, inner))
+    ups = (placement(x, 0.0, side / 2).after(UPRIGHT) for x in ((side - wide) / 2, (wide - side) / 2))
+    levels = (placement(-inner / 2, y, side / 2).after(ALONG_WIDTH) for y in (side / 2, tall - side / 2))
+    mesh = (
+        Placed(own.shape, tuple(placement(y=side).after(at) for at in own.positions))
+        for own in _mesh(inner, tall - 2 * side)
+    )
+    shape = Sum((Placed(upright, tuple(ups)), Placed(level, tuple(levels)), *mesh))
+    frame = f"welded in a frame of tube {_FRAME.name}, its hinges welded on"
+    return _panel(DOOR, "door of the guards", (wide, tall), shape, frame, "halves of its hinges, welded to its post")
+
+
+def _panel(  # noqa: PLR0917
+    name: str, title: str, sides: tuple[float, float], shape: Sum, how: str, fixing: str
+) -> Part:
+    wide, tall = (format_quantity(side, "mm", 4) for side in sides)
+    bought = Bought(f"welded mesh {WIRE / mm:g} mm, {how}", shape.volume * STEEL.density)
+    size = f"{wide} x {tall}, mesh {format_quantity(MESH, 'mm')}"
+    return Part(name, title, "guard mesh", size, shape, purchase=bought, fixing=fixing)
+
+
+def _mesh(wide: float, tall: float) -> tuple[Placed, Placed]:
+    """Upright wires before level ones, those at the edges among them, at most `MESH` apart."""
     upright, level = (math.ceil((size - WIRE) / MESH - 1e-9) for size in (wide, tall))
     columns = np.linspace(-(wide - WIRE) / 2, (wide - WIRE) / 2, upright + 1).tolist()
     rows = np.linspace(WIRE / 2, tall - WIRE / 2, level + 1).tolist()
-    shape = Sum(
-        (
-            Placed(box(WIRE, tall, WIRE), tuple(placement(x, tall / 2) for x in columns)),
-            Placed(box(wide, WIRE, WIRE), tuple(placement(0.0, y, WIRE) for y in rows)),
-        )
+    return (
+        Placed(box(WIRE, tall, WIRE), tuple(placement(x, tall / 2) for x in columns)),
+        Placed(box(wide, WIRE, WIRE), tuple(placement(0.0, y, WIRE) for y in rows)),
     )
-    size = f"{format_quantity(wide, 'mm', 4)} x {format_quantity(tall, 'mm', 4)}, mesh {format_quantity(MESH, 'mm')}"
-    bought = Bought(f"welded mesh {WIRE / mm:g} mm, with clamps and screws", shape.volume * STEEL.density)
-    fixing = "clamps of the mesh, each with a screw M8, on post and hinge"
-    return Part(name, title, "guard mesh", size, shape, purchase=bought, fixing=fixing)
 
 
 def _doors(fence: Fence, front: tuple[float, ...]) -> RigidBody:
     """The doors, hinged at their left posts, each with the actuator of its interlock at its right edge."""
-    gap, tall, _ = _HINGE
-    wide, high = front[1] - front[0] - POST - 2 * gap, fence.height - BOTTOM - POST - gap
-    leaf = mesh_panel(DOOR, "door of the guards", wide, high)
-    hinge = _made("guard-hinge", "hinge of a door", *_HINGE)
+    barrel, tall = _HINGE
+    wide, high = front[1] - front[0] - POST - barrel - _GAP, fence.height - BOTTOM - POST - _GAP
+    leaf, row = _door(wide, high), f"weld-on hinge, barrel {barrel / mm:.0f} x {tall / mm:.0f} mm, with its pin"
+    rod = bar(barrel, tall)
+    hinge = bought_part(
+        part_id("guard-hinge"), "hinge of a door", "hinge", rod, Bought(row, rod.volume * STEEL.density),
+        fixing="its halves welded to the post and to the frame of the door",
+    )  # fmt: skip
     actuator = device(signals.ACTUATOR, "actuator of an interlock", ACTUATOR)
     height = fence.floor + _STOP_HEIGHT
-    hinges = (placement(-(wide + gap) / 2, y * high - tall / 2, -_HINGE[2] / 2 + WIRE) for y in (0.15, 0.85))
+    upright = placement(-(wide + barrel) / 2, -tall / 2, _FRAME.side / 2).after(UPRIGHT)
+    hinges = (placement(y=y * high).after(upright) for y in (0.15, 0.85))
     inwards = wide / 2 - ACTUATOR.size[0] / 2 - _BEFORE_LATCH, height - fence.floor - BOTTOM, -ACTUATOR.size[1] / 2
-    middles = ((first + then) / 2 for first, then in pairwise(front))
+    middles = ((first + then + barrel - _GAP) / 2 for first, then in pairwise(front))
     parts = (Occurrence(leaf), Occurrence(hinge, tuple(hinges)), Occurrence(actuator, (placed(*inwards, UPWARDS),)))
     positions = tuple(placement(x, fence.floor + BOTTOM, fence.front + POST / 2 - WIRE) for x in middles)
     return RigidBody(GUARDS[1], parts, positions=positions)
-
-
-def _made(name: str, title: str, wide: float, tall: float, deep: float) -> Part:
-    """A small piece of steel, its lower edge on y = 0."""
-    return Part(part_id(name), title, "pin or bush", shape=Prism(_standing(wide, tall), deep), material=STEEL)
-
-
-def _standing(wide: float, tall: float) -> Profile:
-    corners = np.array([-wide / 2, wide / 2, wide / 2 + 1j * tall, -wide / 2 + 1j * tall])
-    return Profile(polygon(corners))
 
 
 def _grid(fence: Fence) -> Occurrence:

@@ -73,9 +73,9 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "BeaterBack": (CONTROLLER, BEAT_ANGLE),
     "ShedClosed": (CONTROLLER, SHED_ANGLE),
     "TieDone": (CONTROLLER,),
-    "TieFault": (CONTROLLER, YARN_INPUTS, YARN_STOP),
+    "TieStatus": (CONTROLLER, YARN_INPUTS, YARN_STOP),
     "EndDone": (CONTROLLER,),
-    "EndFault": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
+    "EndStatus": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
     "Halt": (RELAY,),
     "TieStart": (CONTROLLER, *_KNOT),
     "TieColumn": (CONTROLLER, CARRIAGE_MOTOR),
@@ -96,12 +96,12 @@ OF_WEAVERS = ("HandsOnButtons", "GridFree")
 OF_HEADS = ("HeadsClear", "DoorClosed")
 """Signals that only a loom with heads has, beside those of each head."""
 
-PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieFault", "TieStart", "TieColumn", "TieTube"))
+PER_HEAD = frozenset(("GrippersOpen", "TieDone", "TieStatus", "TieStart", "TieColumn", "TieTube"))
 """Signals of which each head has its own."""
 
 
 OF_A_BEAT = frozenset(
-    ("EmergencyStop", "BeaterBack", "EndDone", "EndFault", "Halt", "EndStart", "EndCode", "JogStart", *OF_WEAVERS)
+    ("EmergencyStop", "BeaterBack", "EndDone", "EndStatus", "Halt", "EndStart", "EndCode", "JogStart", *OF_WEAVERS)
 )
 """Signals of a loom of which the beat alone is driven."""
 

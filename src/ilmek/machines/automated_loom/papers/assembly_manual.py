@@ -5,7 +5,7 @@ from dataclasses import replace
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
-from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual
+from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual, weld_check
 from ilmek.part.bolting import bolted
 from ilmek.part.insertion import insertions
 from ilmek.part.projection import View
@@ -25,4 +25,5 @@ def assembly_manual(loom: LoomDesign) -> tuple[Paper, tuple[Check, ...]]:
         tree_manual(tree, steps, View.SIDE, whole),
         PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)),
     )
-    return replace(manual, sections=(*manual.sections, then)), (assembly_check(steps), fastening_check(whole))
+    checks = assembly_check(steps), fastening_check(whole), weld_check(whole)
+    return replace(manual, sections=(*manual.sections, then)), checks

@@ -18,6 +18,8 @@ from ilmek.machines.automated_loom.equipment.stopping import stopping_time
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.values import known, value_of
 from ilmek.machines.automated_loom.papers.wiring import SIGNS, bought_of, brakes, numbers_of, plan_of
+from ilmek.machines.shedding.tolerance_chain import GAUGE, STEP
+from ilmek.machines.shedding.tree import stack_ends
 from ilmek.machines.weaver.cam_belt import PROFILE, SMALL
 from ilmek.machines.weaver.carriage_belt import BELT, CLAMP
 from ilmek.machines.weaver.carriage_drive import HEADS_BELT
@@ -31,7 +33,7 @@ from ilmek.records import record
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
 from ilmek.timing.cyclogram import Cyclogram
-from ilmek.units import format_quantity, in_mm
+from ilmek.units import format_quantity, in_mm, mm
 
 Setting = tuple[str, str, str, str, str]
 """What is measured, the value expected, its tolerance, the instrument, and where the value is from."""
@@ -101,6 +103,7 @@ def _warp(loom: LoomDesign, report: Report) -> Rows:
     yield _set("tension", format_quantity(tension, "N"), "tension-meter", 0.1, "%", "tension")
     yield _set("pull", format_quantity(tension * warps, "N"), "strain-reading", 0.05, "%", f"{warps} × tension")
     yield _set("strain", strain, "strain-reading", 0.05, "%", "tension")
+    yield from _cam_stacks(loom)
     opening = value_of(report, "shedding.shed_opening")
     yield _set("shed", in_mm(opening), "rule", 1, "mm", "shedding.shed_opening")
     room = f"≥ {in_mm(loom.shedding.params.shuttle_height)}"
@@ -109,6 +112,20 @@ def _warp(loom: LoomDesign, report: Report) -> Rows:
     if lifted is not None:
         most = f"≤ {format_quantity(lifted, 'N')}"
         yield _set("lifted", most, "tension-meter", 0.1, "%", "warp_tension.tension_lifted")
+
+
+def _cam_stacks(loom: LoomDesign) -> Rows:
+    """Of each shaft: where the cams stand along it, how long they are together, how they are clamped."""
+    design, number = loom.shedding, loom.shedding.chain.interval
+    for index, shaft in enumerate(design.shafts):
+        low, high = stack_ends(design, index)
+        more = Sentence("setting.stack-more", length=in_mm(number * shaft.stack.shares.pitch))
+        piles, words = Sentence("setting.stack-piles", number=str(number)), {"shaft": str(index + 1)}
+        within = STEP / 2 + GAUGE
+        yield _set("stack", more, "depth", within / mm, "mm", piles, **words)
+        yield _set("stack-length", in_mm(high - low), "depth", within / mm, "mm", piles, **words)
+        torque = format_quantity(shaft.nut.torque, "Nm", 3)
+        yield _set("locknut", torque, "torque", 0.1, "%", shaft.nut.designation, **words)
 
 
 def _tools(loom: LoomDesign, report: Report) -> Rows:
@@ -136,11 +153,11 @@ def _tools(loom: LoomDesign, report: Report) -> Rows:
 
 
 def _set(  # noqa: PLR0917 - the columns of a row
-    key: str, expected: str, instrument: str, error: float, unit: str, source: str
+    key: str, expected: str, instrument: str, error: float, unit: str, source: str, **words: str
 ) -> Setting:
     """A setting by the keys of its sentence and of its instrument's, with its tolerance ± in a unit; "%": a share."""
     tolerance = f"± {error:.0%}" if unit == "%" else f"± {error:g} {unit}"
-    return Sentence(f"setting.{key}"), expected, tolerance, Sentence(f"instrument.{instrument}"), source
+    return Sentence(f"setting.{key}", **words), expected, tolerance, Sentence(f"instrument.{instrument}"), source
 
 
 @record
