@@ -63,12 +63,12 @@ def test_every_part_is_weighed(name: str) -> None:
 
 
 def test_a_part_without_a_row_weighs_as_its_class() -> None:
-    reducer = next(part for part in parts("warp-tension") if part.process == "reducer")
-    assert reducer.purchase is not None
-    assert np.isnan(reducer.purchase.mass)
-    assert reducer.mass == pytest.approx(0.7 + 2.5e-3 * reducer.purchase.power)
-    assert reducer.moments is not None
-    assert reducer.moments.zeroth == pytest.approx(reducer.mass)
+    axis = next(part for part in parts("weft") if part.process == "linear axis")
+    assert axis.purchase is not None
+    assert np.isnan(axis.purchase.mass)
+    assert axis.mass == pytest.approx(1.5 + 5.0 * axis.purchase.length)
+    assert axis.moments is not None
+    assert axis.moments.zeroth == pytest.approx(axis.mass)
 
 
 def among(size: float, series: tuple[float, ...]) -> bool:

@@ -21,6 +21,8 @@ from ilmek.elements.bearings import (
 )
 from ilmek.elements.tubes import TUBES, find_tube
 from ilmek.errors import ParameterError
+from ilmek.machines.bearing_seats import seat_of
+from ilmek.part.catalogue import FLANGE
 from ilmek.units import kN, mm, rpm
 
 
@@ -137,3 +139,21 @@ def test_tube_not_in_stock_names_the_nearest() -> None:
     with pytest.raises(ParameterError, match="write it like 140x5"):
         find_tube("round")
     assert find_tube("140 mm × 5 mm") is TUBES["140x5"]
+
+
+FLANGED = {204: (64, "M10"), 205: (70, "M10"), 206: (83, "M10"), 207: (92, "M12"), 208: (102, "M14"), 209: (105, "M14"),
+           210: (111, "M14"), 211: (130, "M16"), 212: (143, "M16")}  # fmt: skip
+"""Distance of the bolt holes of square flanged units [mm] and their bolts: tables of makers of insert bearings."""
+
+
+@pytest.mark.parametrize(("size", "row"), FLANGED.items())
+def test_flanged_bearings_stand_on_the_bolts_of_their_tables(size: int, row: tuple[float, str]) -> None:
+    seat = seat_of(find_bearing(f"UC {size}"), 1000.0)
+    bearing, screw = seat.bearing, seat.screws.screw
+    assert (round(1e3 * 2 * float(seat.corners()[0].real), 6), screw.name) == row
+    washer, thickness = screw.washer
+    assert bearing.pitch + washer <= bearing.flange + 1e-9  # it lies on the flange
+    assert bearing.pitch / math.sqrt(2) - washer / 2 > bearing.outer / 2  # and clear of the bearing
+    assert 1.5e-3 <= bearing.hole - screw.diameter <= 3e-3
+    assert washer > bearing.hole + 4e-3
+    assert seat.screw_length - thickness - FLANGE >= screw.diameter  # of thread in the bracket

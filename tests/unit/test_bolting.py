@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
@@ -18,10 +19,10 @@ from ilmek.part import catalogue
 from ilmek.part.bolting import bolted
 from ilmek.part.fastenings import Means, fastenings
 from ilmek.part.features import drillings
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import Bought, HolePattern, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.poses import chains, poses
-from ilmek.part.shapes import Drilling, Prism, Shape, box, square_tube
+from ilmek.part.shapes import Drilling, Placed, Prism, Shape, Sum, box, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.report.scene import Solid
 from ilmek.units import mm, um
@@ -108,18 +109,53 @@ def test_a_planted_screw_without_holes_is_seen() -> None:
     assert len(list(faults(Tree((RigidBody("test/body", (*bare.occurrences, screw)),))))) == 1
 
 
+def test_heads_are_sunk_no_deeper_than_they_are_high_where_screws_are_long_enough() -> None:
+    tree = bolted(loom_tree(MACHINE.designed(MACHINE.params())))
+    rows = {round(row.sink, 6): row for row in SOCKET_SCREWS.values()}
+    made = (part.shape for part, _ in tree.occurrences() if part.material is not None)
+    holes = [hole for shape in made if shape is not None for hole in drillings(shape)]
+    mouths = [(rows.get(round(hole.steps[0][0], 6)), hole.steps[0][1]) for hole in holes]
+    over = {row.name for row, deep in mouths if row is not None and deep > row.head + 1.001 * mm}
+    assert len([row for row, _ in mouths if row is not None]) > 100
+    assert over <= {"M2", "M2.5"}  # no longer than ten of their diameters, in parts that are thicker
+
+
+@pytest.mark.parametrize("settings", SETTINGS)
+def test_bought_parts_of_a_loom_have_screws_in_all_holes_of_their_catalogue(settings: dict[str, str]) -> None:
+    tree = bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))
+    assert not list(unlike_catalogue(tree))
+    motors = {part.id for part, _ in tree.occurrences() if part.purchase and part.purchase.drives}
+    assert motors <= {name for part, _ in tree.occurrences() if part.purchase for name in part.joins}
+
+
+@pytest.mark.parametrize("machine", LONE)
+def test_bought_parts_of_a_machine_have_screws_in_all_holes_of_their_catalogue(machine: str) -> None:
+    component = MACHINES[machine]
+    assert component.tree is not None
+    assert not list(unlike_catalogue(bolted(component.tree(component.designed(component.params())))))
+
+
+def test_a_planted_screw_beside_the_holes_of_a_catalogue_is_seen() -> None:
+    row = next(own for own in MOTORS if own.face == 42.3 * mm)
+    motor = catalogue.motor("test/motor", "motor", row, 1.0, 1.0)
+    tree = bolted(Tree((RigidBody("test/body", (Occurrence(motor), plate("top", 0.012))),)))
+    body = tree.bodies[0]
+    (screw,) = (own for own in body.occurrences if own.part.joins)
+    assert screw.part.joins == ("test/top", "test/motor")
+    assert not list(unlike_catalogue(tree))
+    moved = replace(screw, positions=(screw.positions[0].after(placement(x=0.2 * mm)), *screw.positions[1:]))
+    for changed in (moved, replace(screw, positions=screw.positions[:3])):
+        others = tuple(own for own in body.occurrences if own is not screw)
+        assert list(unlike_catalogue(Tree((replace(body, occurrences=(*others, changed)),))))
+
+
 def faults(tree: Tree) -> Iterator[str]:
     """Screws of which a ring about the shank is not in its hole, or one at its thread's tip is not in the material.
 
     Of each part of screws the first is tried, at four points round: through the part under the head there is a hole
     wider than the screw, in material; the other part has material about the thread, of a diameter's length at least.
     """
-    stands: dict[str, list[Placement]] = {}
-    for chain in chains(tree):
-        here = poses(chain, "", np.zeros(1))
-        for occurrence in chain[-1].body.occurrences:
-            lies = Placement(here.origin[0], here.rotation[0])
-            stands.setdefault(occurrence.part.id, []).extend(lies.after(own) for own in occurrence.positions)
+    stands = standing(tree)
     parts = {part.id: part for part, _ in tree.occurrences()}
     for screw in (part for part in parts.values() if part.joins and part.purchase):
         row = screw_of(screw.purchase.row) if screw.purchase else None
@@ -192,3 +228,69 @@ def test_a_counterbored_hole_takes_away_what_it_is_made_of() -> None:
     shape = Prism(box(0.05, 0.04, 0.02).section, 0.02, (hole,))
     taken = math.pi / 4 * (0.011**2 * 0.006 + 0.0066**2 * 0.014)
     assert shape.volume == pytest.approx(0.05 * 0.04 * 0.02 - taken, rel=1e-12)
+
+
+def unlike_catalogue(tree: Tree) -> Iterator[str]:
+    """Pieces of bought parts of which a face has screws that are not those of its catalogue, by their mesh."""
+    stands = standing(tree)
+    screws = [part for part, _ in tree.occurrences() if part.joins and part.purchase]
+    axes = {part.id: [(lies.origin, lies.rotation[:, 2]) for lies in stands[part.id]] for part in screws}
+    for part, _ in tree.occurrences():
+        if part.purchase is None or not part.purchase.holes:
+            continue
+        assert part.shape is not None
+        members = part.shape.members if isinstance(part.shape, Sum) else (Placed(part.shape),)
+        (body,) = {max(members, key=lambda own: own.shape.volume)}  # without its shaft
+        points = body.positions[0].points(body.shape.mesh().points)
+        low, high = points.min(0), points.max(0)
+        own = [axis for screw in screws if part.id in screw.joins for axis in axes[screw.id]]
+        for lies in stands[part.id]:
+            back, faces = lies.inverse, dict[tuple[int, int], list[FloatArray]]()
+            for origin, ahead in own:
+                at, along = back.points(origin[None])[0], back.rotation @ ahead
+                axis = int(np.abs(along).argmax())
+                if abs(along[axis]) > 1 - 1e-9 and inside_box(at, low, high, axis):
+                    up = 1 if at[axis] > (low + high)[axis] / 2 else -1
+                    faces.setdefault((axis, up), []).append(np.delete(at - (low + high) / 2, axis))
+            for (axis, up), found in faces.items():
+                rows = [row for row in part.purchase.holes if (up if axis == 2 else 0) in row.faces]
+                if rows or not part.purchase.drilled:
+                    size = np.delete(high - low, axis)
+                    if not any(same_points(np.array(found), expected(row, size)) for row in rows):
+                        yield f"{part.id}: {np.round(np.array(found) / mm, 2).tolist()}"
+
+
+def expected(row: HolePattern, size: FloatArray) -> Float[np.ndarray, "n 2"]:
+    """The holes of a row on a face, by the catalogue's words, the longer distance along the longer side."""
+    if row.in_rows:
+        number = int(size.max() // row.along)
+        line = (np.arange(number) - (number - 1) / 2) * row.along
+        points = np.stack([np.zeros(number), line], axis=1)
+        return points if size[1] > size[0] else points[:, ::-1]
+    pairs = [(-apart / 2, apart / 2) if apart else (0.0,) for apart in (row.across, row.along)]
+    points = np.array(list(product(*pairs)))
+    swapped = (size[0] - size[1]) * (row.across - row.along) < 0
+    return points[:, ::-1] if swapped else points
+
+
+def same_points(one: FloatArray, other: FloatArray) -> bool:
+    """Whether two sets of points are one, in any order, those that stand twice once."""
+    gaps = np.linalg.norm(one[:, None] - other, axis=2)
+    return bool((gaps.min(0) < um).all() and (gaps.min(1) < um).all())
+
+
+def inside_box(at: FloatArray, low: FloatArray, high: FloatArray, axis: int) -> bool:
+    """Whether a line along an axis through a point is in a box, and the point near to it."""
+    across = np.delete(np.stack([low - at, at - high]), axis, axis=1)
+    return bool((across < 0).all() and low[axis] - 25 * mm < at[axis] < high[axis] + 25 * mm)
+
+
+def standing(tree: Tree) -> dict[str, list[Placement]]:
+    """By part where its pieces stand."""
+    stands: dict[str, list[Placement]] = {}
+    for chain in chains(tree):
+        here = poses(chain, "", np.zeros(1))
+        for occurrence in chain[-1].body.occurrences:
+            lies = Placement(here.origin[0], here.rotation[0])
+            stands.setdefault(occurrence.part.id, []).extend(lies.after(own) for own in occurrence.positions)
+    return stands

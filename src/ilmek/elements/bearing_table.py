@@ -22,6 +22,7 @@ class RollingBearing:
     dynamic, static              load ratings C and C0 [N]
     mass    with the housing [kg]       speed  limit with grease [rad/s]
     flange  side of the square housing of a UCF [m]; 0 without a housing
+    pitch, hole, bolt  of the housing's four holes: distance of neighbours, diameter [m], thread of their screws
     """
 
     name: str
@@ -34,6 +35,9 @@ class RollingBearing:
     mass: float
     speed: float
     flange: float = 0.0
+    pitch: float = 0.0
+    hole: float = 0.0
+    bolt: str = ""
 
     @property
     def standard(self) -> str:
@@ -106,15 +110,15 @@ NU216 80 140 26 139 167 1.50 3800
 """
 
 _INSERT = """
-204 20 47 31.0 12.8 6.65 0.17 8500 0.60 86
-205 25 52 34.1 14.0 7.85 0.20 7000 0.80 95
-206 30 62 38.1 19.5 11.3 0.32 6300 1.10 108
-207 35 72 42.9 25.7 15.4 0.48 5300 1.50 117
-208 40 80 49.2 29.1 17.8 0.62 4800 1.90 130
-209 45 85 49.2 32.5 20.4 0.69 4300 2.20 137
-210 50 90 51.6 35.1 23.3 0.80 4000 2.50 143
-211 55 100 55.6 43.4 29.4 1.10 3600 3.30 162
-212 60 110 65.1 52.4 36.2 1.50 3400 4.20 175
+204 20 47 31.0 12.8 6.65 0.17 8500 0.60 86 64 12 M10
+205 25 52 34.1 14.0 7.85 0.20 7000 0.80 95 70 12 M10
+206 30 62 38.1 19.5 11.3 0.32 6300 1.10 108 83 12 M10
+207 35 72 42.9 25.7 15.4 0.48 5300 1.50 117 92 14 M12
+208 40 80 49.2 29.1 17.8 0.62 4800 1.90 130 102 16 M14
+209 45 85 49.2 32.5 20.4 0.69 4300 2.20 137 105 16 M14
+210 50 90 51.6 35.1 23.3 0.80 4000 2.50 143 111 16 M14
+211 55 100 55.6 43.4 29.4 1.10 3600 3.30 162 130 19 M16
+212 60 110 65.1 52.4 36.2 1.50 3400 4.20 175 143 19 M16
 """
 
 
@@ -132,9 +136,12 @@ def _insert(prefix: str) -> list[RollingBearing]:
     """Insert bearings without a housing (UC), or in a square flanged housing (UCF)."""
     bearings = []
     for name, *rest in (line.split() for line in _INSERT.split("\n") if line):
-        *numbers, flanged, side = (float(one) for one in rest)
-        one = _bearing(f"{prefix} {name}", INSERT, numbers)
-        bearings.append(replace(one, mass=flanged, flange=side * mm) if prefix == "UCF" else one)
+        *columns, bolt = rest
+        *numbers, flanged, side, pitch, hole = (float(column) for column in columns)
+        bearing = _bearing(f"{prefix} {name}", INSERT, numbers)
+        if prefix == "UCF":
+            bearing = replace(bearing, mass=flanged, flange=side * mm, pitch=pitch * mm, hole=hole * mm, bolt=bolt)
+        bearings.append(bearing)
     return bearings
 
 

@@ -18,9 +18,6 @@ class ClassMass(NamedTuple):
 
 
 CLASS_MASSES: Mapping[str, ClassMass] = {
-    "reducer": ClassMass(
-        0.7, 0.0, 2.5e-3, "gearheads of flanges from 40 to 120 mm: 0.9 kg for 100 W, 4.5 kg for 1.5 kW"
-    ),
     "servo": ClassMass(0.3, 0.0, 2.5e-3, "brushless servo motors: 0.55 kg of 100 W, 2.5 kg of 750 W, 4 kg of 1.5 kW"),
     "linear axis": ClassMass(1.5, 5.0, 0.0, "belt and screw axes of 50 to 60 mm: 4 to 6 kg/m and a carriage"),
     "belt": ClassMass(0.0, 0.05, 0.0, "toothed belts of polyurethane, 10 to 20 mm wide: 0.03 to 0.1 kg/m"),
@@ -38,8 +35,8 @@ CLASS_MASSES: Mapping[str, ClassMass] = {
 def class_mass(kind: str, length: float = 0.0, power: float = 0.0) -> float:
     """Mass of one part of a kind, of a length [m] and a power [W]: [kg]; nan for a kind without a row.
 
-    >>> round(class_mass("reducer", power=400.0), 3), class_mass("carpet")
-    (1.7, nan)
+    >>> round(class_mass("servo", power=400.0), 3), class_mass("carpet")
+    (1.3, nan)
     """
     row = CLASS_MASSES.get(kind)
     return math.nan if row is None else row.each + row.per_m * length + row.per_W * power

@@ -5,8 +5,18 @@ make differs by some millimetres. `response` is the longest time from the event 
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from ilmek.units import g, mm
+
+
+class MountingHoles(NamedTuple):
+    """Holes for screws about the middle of a face, in one or two rows: distances [m], thread, whether of its ends."""
+
+    across: float
+    along: float
+    thread: str
+    end: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +30,7 @@ class FieldDevice:
               table C.1; of a button with positive opening that of makers
     power     that it draws at 24 V [W]
     fixing    by what it holds itself, as its maker delivers it; "": screws of the machine hold it
+    holes     for these screws; (): where its seat is      drilled  other faces have threads where what they carry is
     tabled    its B10d is that of ISO 13849-1, table C.1; else an assumed class of makers' values
     """
 
@@ -34,10 +45,16 @@ class FieldDevice:
     power: float = 0.0
     tabled: bool = False
     fixing: str = ""
+    holes: tuple[MountingHoles, ...] = ()
+    drilled: bool = False
 
 
 def _size(width: float, height: float, length: float) -> tuple[float, float, float]:
     return width * mm, height * mm, length * mm
+
+
+def _holes(across: float, along: float, thread: str, *, end: bool = True) -> tuple[MountingHoles, ...]:
+    return (MountingHoles(across * mm, along * mm, thread, end),)
 
 
 _CLASS = "class of catalogue parts; makers differ by some millimetres"
@@ -54,14 +71,24 @@ ROWS = (
         fixing="its set screw clamps it in a slot of the axis",
     ),
     FieldDevice("inductive sensor M8, 1.5 mm, PNP", "sensor", _size(8, 8, 45), 0.03, "IEC 60947-5-2", 1e-3, power=0.3),
-    FieldDevice("strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3),
-    FieldDevice("photoelectric yarn sensor, PNP", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3, power=0.7),
-    FieldDevice("disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS),
     FieldDevice(
-        "laser light barrier, receiver or sender", "light barrier", _size(15, 50, 40), 60 * g, _CLASS, 10e-3, power=1.0
+        "strain transducer, 500 um/m, 2 mV/V", "load cell", _size(36, 16, 94), 120 * g, _CLASS, 5e-3,
+        holes=_holes(22, 78, "M4", end=False),
     ),
     FieldDevice(
-        "RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9, power=1.2
+        "photoelectric yarn sensor, PNP", "yarn sensor", _size(12, 20, 30), 20 * g, _CLASS, 10e-3, power=0.7,
+        holes=(*_holes(0, 12, "M3"), *_holes(0, 16, "M3", end=False)),
+    ),
+    FieldDevice(
+        "disc brake of a yarn", "yarn brake", _size(40, 40, 40), 80 * g, _CLASS, holes=_holes(26, 0, "M3"), drilled=True
+    ),
+    FieldDevice(
+        "laser light barrier, receiver or sender", "light barrier", _size(15, 50, 40), 60 * g, _CLASS, 10e-3, power=1.0,
+        holes=_holes(0, 36, "M4"),
+    ),
+    FieldDevice(
+        "RFID interlock, coded high, PL e", "interlock", _size(25, 18, 88), 110 * g, _LOCK, 0.1, 5e-9, power=1.2,
+        holes=_holes(0, 78, "M4", end=False),
     ),
     FieldDevice(
         "actuator of an interlock", "actuator", _size(25, 18, 40), 30 * g, _LOCK,
@@ -69,9 +96,11 @@ ROWS = (
     ),
     FieldDevice(
         "emergency stop, mushroom 40 mm, in a box", "emergency stop", _size(72, 72, 95), 0.25, _STOP,
-        b10d=1e5, tabled=True,
+        b10d=1e5, tabled=True, holes=_holes(54, 54, "M4"),
     ),
-    FieldDevice("button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS, b10d=2e6),
+    FieldDevice(
+        "button in a box", "button", _size(72, 72, 60), 180 * g, _CLASS, b10d=2e6, holes=_holes(54, 54, "M4")
+    ),
     FieldDevice(
         "safety relay, 2 channels, PL e", "safety relay", _size(22.5, 100, 115), 250 * g, _SAFE, 0.02, 3e-9, power=3.0
     ),
@@ -89,7 +118,8 @@ ROWS = (
     FieldDevice("input module, 16 inputs, PNP", "input module", _size(22.5, 100, 75), 0.15, _CLASS, 1e-3, power=3.0),
     FieldDevice("output module, 16 outputs, 2 A", "output module", _size(22.5, 100, 75), 0.15, _CLASS, 1e-3, power=3.0),
     FieldDevice(
-        "input module, 16 inputs, PNP, IP67", "input module", _size(60, 220, 35), 0.45, _CLASS, 1e-3, power=4.0
+        "input module, 16 inputs, PNP, IP67", "input module", _size(60, 220, 35), 0.45, _CLASS, 1e-3, power=4.0,
+        holes=_holes(0, 208, "M3"),
     ),
     FieldDevice(
         "enabling switch, 3 positions, 2 channels, with cable", "enabling device", _size(60, 200, 60), 0.4,

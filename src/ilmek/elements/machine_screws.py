@@ -8,7 +8,7 @@ preload, what a group of them holds, and the holes and threads for them.
 
 A screw that is tightened by a torque M is twisted too, so that its preload F is lower than F_p; mu_t is the friction of
 thread and head, 0.12 oiled, d_s the diameter of A_s, D_k the mean one of the head's ring, 0.92 of its width, on a hole
-of 1.1 d.           [ISO 4762 heads; ISO 273 medium holes; DIN 974-1 counterbores, series 1]
+of 1.1 d.           [ISO 4762 heads; ISO 273 medium holes; DIN 974-1 counterbores, series 1; ISO 7089 washers]
 
 A screw that is preloaded presses the joined faces; their friction mu, 0.2 of faces as rolled [table 3.7, class D],
 holds the force across it, n screws with the pulls F_t along them, gamma 1.25.
@@ -42,6 +42,7 @@ class MachineScrew:
     """A screw: diameter of its thread [m], stress area [m²], width across flats or diameter and height of its head [m].
 
     hole, sink  diameters of the hole for it and of the counterbore for its head [m]; 0: it is not sunk
+    washer  diameter and thickness of the washer under its head [m]; 0: none, it is sunk
     """
 
     name: str
@@ -51,6 +52,7 @@ class MachineScrew:
     head: float
     hole: float = 0.0
     sink: float = 0.0
+    washer: tuple[float, float] = (0.0, 0.0)
 
     @property
     def preload(self) -> float:
@@ -126,27 +128,29 @@ class MachineScrew:
         return self.diameter * (_IN_SOFT if material in _SOFT else 1.0)
 
     def designation(self, length: float) -> str:
-        """As ordered.
+        """As ordered, with its washer.
 
         >>> SCREWS["M12"].designation(0.04)
-        'ISO 4017 - M12 x 40 - 8.8'
+        'ISO 4017 - M12 x 40 - 8.8 with washer ISO 7089 - 12 - 200 HV'
         """
-        return f"{_SUNK if self.sink else _HEXAGON} - {self.name} x {length / mm:g} - 8.8"
+        washer = f" with washer ISO 7089 - {self.diameter / mm:g} - 200 HV" if self.washer[1] else ""
+        return f"{_SUNK if self.sink else _HEXAGON} - {self.name} x {length / mm:g} - 8.8{washer}"
 
 
 SCREWS = {
-    name: MachineScrew(name, diameter * mm, area * mm**2, across * mm, head * mm)
-    for name, diameter, area, across, head in (
-        ("M6", 6, 20.1, 10, 4.0),
-        ("M8", 8, 36.6, 13, 5.3),
-        ("M10", 10, 58.0, 16, 6.4),
-        ("M12", 12, 84.3, 18, 7.5),
-        ("M16", 16, 157.0, 24, 10.0),
-        ("M20", 20, 245.0, 30, 12.5),
-        ("M24", 24, 353.0, 36, 15.0),
+    name: MachineScrew(name, diameter * mm, area * mm**2, across * mm, head * mm, washer=(washer * mm, thickness * mm))
+    for name, diameter, area, across, head, washer, thickness in (
+        ("M6", 6, 20.1, 10, 4.0, 12, 1.6),
+        ("M8", 8, 36.6, 13, 5.3, 16, 1.6),
+        ("M10", 10, 58.0, 16, 6.4, 20, 2.0),
+        ("M12", 12, 84.3, 18, 7.5, 24, 2.5),
+        ("M14", 14, 115.0, 21, 8.8, 28, 2.5),
+        ("M16", 16, 157.0, 24, 10.0, 30, 3.0),
+        ("M20", 20, 245.0, 30, 12.5, 37, 3.0),
+        ("M24", 24, 353.0, 36, 15.0, 44, 4.0),
     )
 }
-"""By thread, ascending: stress areas of ISO 898-1, table 4, heads of ISO 4017."""
+"""By thread, ascending: stress areas of ISO 898-1, table 4, heads of ISO 4017, washers of ISO 7089."""
 
 
 SOCKET_SCREWS = {
@@ -175,7 +179,7 @@ CORES = {
     diameter * mm: (core * mm, pitch * mm)
     for diameter, core, pitch in (
         (2, 1.6, 0.4), (2.5, 2.05, 0.45), (3, 2.5, 0.5), (4, 3.3, 0.7), (5, 4.2, 0.8), (6, 5.0, 1.0), (8, 6.8, 1.25),
-        (10, 8.5, 1.5), (12, 10.2, 1.75), (16, 14.0, 2.0), (20, 17.5, 2.5), (24, 21.0, 3.0),
+        (10, 8.5, 1.5), (12, 10.2, 1.75), (14, 12.0, 2.0), (16, 14.0, 2.0), (20, 17.5, 2.5), (24, 21.0, 3.0),
     )
 }  # fmt: skip
 """Diameters of drills for coarse threads, and pitches [m], by the diameter of the thread [ISO 2306, ISO 261]."""
@@ -224,17 +228,18 @@ class FourScrews:
     """Four screws of a square plate that bears a force across their axes, at a lever over the plate's face.
 
     side  of the plate [m]      force  across [N]      lever  of the force over the face [m]
-    least  diameter for which the plate is drilled [m]
+    pitch, given  of neighbouring screws [m], and their size, of a plate that is bought; 0, None: by the force
     """
 
     side: float
     force: float
     lever: float
-    least: float = 0.0
+    pitch: float = 0.0
+    given: MachineScrew | None = None
 
     def distance(self, screw: MachineScrew) -> float:
-        """Of neighbouring screws [m]: each stands 1.2 of its diameter off the edges."""
-        return self.side - 2 * EDGE * screw.diameter
+        """Of neighbouring screws [m]: each stands 1.2 of its diameter off the edges, if the plate is not bought."""
+        return self.pitch or self.side - 2 * EDGE * screw.diameter
 
     def pull(self, screw: MachineScrew) -> float:
         """Sum of the pulls along the two screws that the lever strains [N]."""
@@ -246,8 +251,8 @@ class FourScrews:
 
     @property
     def screw(self) -> MachineScrew:
-        """The smallest that holds the force, from that for which the plate is drilled; the largest where none does."""
-        offered = [screw for screw in SCREWS.values() if self.least <= screw.diameter < 0.2 * self.side] or [
-            SCREWS["M6"]
-        ]
+        """That for which the plate is drilled; else the smallest that holds the force, the largest where none does."""
+        if self.given is not None:
+            return self.given
+        offered = [screw for screw in SCREWS.values() if screw.diameter < 0.2 * self.side] or [SCREWS["M6"]]
         return next((one for one in offered if self.holds(one) >= self.force), offered[-1])

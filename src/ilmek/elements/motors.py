@@ -99,20 +99,23 @@ _FLANGES = (
 """Largest power [W] of servos with a flange of a side [m]; above: 220 mm. Usual sizes, makers differ."""
 
 FLANGE_HOLES = {
-    25 * mm: (28 / math.sqrt(2) * mm, "M2.5"),
-    40 * mm: (46 / math.sqrt(2) * mm, "M4"),
-    42.3 * mm: (31.0 * mm, "M3"),
-    57.2 * mm: (47.14 * mm, "M4"),
-    60 * mm: (70 / math.sqrt(2) * mm, "M5"),
-    80 * mm: (90 / math.sqrt(2) * mm, "M6"),
-    86.4 * mm: (69.6 * mm, "M6"),
-    107.9 * mm: (88.9 * mm, "M8"),
-    130 * mm: (145 / math.sqrt(2) * mm, "M8"),
-    180 * mm: (200 / math.sqrt(2) * mm, "M12"),
-    220 * mm: (235 / math.sqrt(2) * mm, "M12"),
+    side * mm: (pitch * mm, thread, tapped)
+    for side, pitch, thread, tapped in (
+        (25, 28 / math.sqrt(2), "M2.5", False),
+        (40, 46 / math.sqrt(2), "M4", False),
+        (42.3, 31.0, "M3", True),
+        (57.2, 47.14, "M4", False),
+        (60, 70 / math.sqrt(2), "M5", False),
+        (80, 90 / math.sqrt(2), "M6", False),
+        (86.4, 69.6, "M6", False),
+        (107.9, 88.9, "M8", False),
+        (130, 145 / math.sqrt(2), "M8", False),
+        (180, 200 / math.sqrt(2), "M12", False),
+        (220, 235 / math.sqrt(2), "M12", False),
+    )
 }
-"""By the side of a flange: distance of neighbouring holes of its four [m], and their screws [NEMA ICS 16; usual pitch
-circles of servos].
+"""By the side of a flange: distance of neighbouring holes of its four [m], their screws, and whether they are threads
+[NEMA ICS 16; usual pitch circles of servos].
 """
 
 _SHAFTS = tuple(

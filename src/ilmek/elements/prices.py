@@ -118,6 +118,7 @@ _BOUGHT: Mapping[str, PriceRates] = {
     "micro stepper": PriceRates(each=12.0, per_W=4.0),
     "solenoid": PriceRates(each=20.0, per_W=2.0),
     "reducer": PriceRates(each=180.0, per_W=0.2),
+    "motor adapter": PriceRates(each=40.0, per_kg=25.0),
     "clutch and brake": PriceRates(each=350.0, per_kg=10.0),
     "control": PriceRates(each=3000.0),
     "axis of the control": PriceRates(each=120.0),

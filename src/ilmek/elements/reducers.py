@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.units import mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +60,43 @@ PLANETARY = tuple(
     for ratio in ratios
 )
 """Stock planetary reducers of one and of two stages, with usual efficiencies."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReducerFlange:
+    """The side of a reducer's output up to a torque [N m]: face [m], circle of its four screws [m], these by name,
+    mass of the reducer [kg].
+    """
+
+    torque: float
+    face: float
+    circle: float
+    thread: str
+    mass: float
+
+
+REDUCER_FLANGES = tuple(
+    ReducerFlange(torque, face * mm, circle * mm, thread, mass)
+    for torque, face, circle, thread, mass in (
+        (20.0, 40, 34, "M4", 0.45),
+        (50.0, 60, 52, "M5", 1.1),
+        (130.0, 80, 70, "M6", 2.6),
+        (290.0, 115, 100, "M10", 8.0),
+        (900.0, 160, 145, "M12", 22.0),
+        (2000.0, 200, 180, "M12", 45.0),
+    )
+)
+"""Classes of coaxial reducers of two and three stages, from the smallest; makers differ, in masses by a third."""
+
+
+def flange_for(torque: float, face: float = 0.0) -> ReducerFlange:
+    """The smallest class for a torque [N m] with a face of at least a size [m]; the largest where none is.
+
+    >>> flange_for(100.0).face, flange_for(100.0, 0.1).thread
+    (0.08, 'M10')
+    """
+    enough = (row for row in REDUCER_FLANGES if row.torque >= torque and row.face >= face - 1e-9)
+    return next(enough, REDUCER_FLANGES[-1])
 
 
 RATIOS = (1.0, *(reducer.ratio for reducer in PLANETARY))

@@ -2,7 +2,8 @@
 
 A shaft reaches through bearing and bracket, and ends there, where its reducer is flanged on. An insert
 bearing comes in its flanged housing (UCF), any other sits in a square plate as wide as itself. Four screws hold it on
-the bracket, which has their threads; they bear the shaft's force by friction [`elements.machine_screws`].
+the bracket, which has their threads, each with a washer; they bear the shaft's force by friction
+[`elements.machine_screws`].
 
 Axes of a seat: z along the shaft to the outside, 0 at the side of the bearing that is turned to the inside.
 """
@@ -15,7 +16,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.columns import STEEL
-from ilmek.elements.machine_screws import FourScrews
+from ilmek.elements.machine_screws import SCREWS, FourScrews
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -33,8 +34,8 @@ BRACKET = 20 * mm
 CLEAR = 2 * mm
 """Bore of a bracket over the shaft that reaches through it, on each side [m]; assumed by this project."""
 
-_THREADS = (25 * mm, 10 * mm), (50 * mm, 12 * mm), (math.inf, 16 * mm)
-"""Greatest bores of bearings, and threads for the holes of their housings, 12, 14 to 16 and 19 mm [ISO 3228]."""
+_HOLE = 1.1
+"""Hole in the square plate of a bearing over the screw's diameter [ISO 273, medium]."""
 
 _PLAY = 3 * mm
 """Room of a screw that comes out beyond its length [m]; assumed by this project."""
@@ -82,7 +83,8 @@ class BearingSeat:
     @property
     def screw_length(self) -> float:
         """Length of its screws [m]."""
-        return self.screws.screw.length_for(self._thick + BRACKET)
+        screw = self.screws.screw
+        return screw.length_for(screw.washer[1] + self._thick + BRACKET)
 
     @property
     def screw_room(self) -> float:
@@ -97,8 +99,9 @@ class BearingSeat:
     @property
     def screws(self) -> FourScrews:
         """What the screws bear: the force in the middle of the bearing's width."""
-        least = next(diameter for bore, diameter in _THREADS if self.bearing.bore <= bore)
-        return FourScrews(self.side, self.force, self.bearing.width / 2, least)
+        return FourScrews(
+            self.side, self.force, self.bearing.width / 2, self.bearing.pitch, SCREWS.get(self.bearing.bolt)
+        )
 
     def corners(self) -> ComplexArray:
         """Axes of the screws about that of the shaft [m]."""
@@ -117,7 +120,8 @@ class BearingSeat:
         ids  of bearing and housing      title  of the bearing
         """
         row, chosen = self.bearing, self.screws.screw
-        holes = tuple(circle(complex(corner), chosen.diameter / 2) for corner in self.corners())
+        hole = row.hole or _HOLE * chosen.diameter
+        holes = tuple(circle(complex(corner), hole / 2) for corner in self.corners())
         own = catalogue.bearing(ids[0], title, row, holes)
         flipped = placement(z=row.width, about=(1.0, 0.0, 0.0), angle=math.pi)
         screw = catalogue.screw(f"{ids[0]}-screw", f"screw of the {title}", chosen, self.screw_length)

@@ -21,7 +21,7 @@ BOLTED = frozenset(
     {
         "stepper", "servo", "reducer", "linear guide", "guide carriage", "linear axis", "sensor", "load cell",
         "light barrier", "yarn sensor", "yarn brake", "interlock", "actuator", "emergency stop", "button", "control",
-        "tool", "duct", "input module",
+        "tool", "duct", "input module", "motor adapter",
     }
 )  # fmt: skip
 """Kinds of bought parts that are held by screws."""
@@ -137,7 +137,7 @@ def face_contacts(group: Sequence[StandingPiece]) -> list[tuple[FaceSide, FaceSi
     face_contacts = [
         (one, two) for own in pairs.values() for _, one, two in sorted(own, key=lambda contact: -contact[0])[:2]
     ]
-    return sorted(face_contacts, key=lambda both: all(pattern_of(side.part) is None for side in both))
+    return sorted(face_contacts, key=lambda both: not any(patterns_of(side.part) for side in both))
 
 
 def _face_box(face: SeatFace, frame: Placement) -> Float[np.ndarray, "2 3"]:
@@ -159,6 +159,17 @@ def _may(one: StandingPiece, two: StandingPiece) -> bool:
     )
 
 
-def pattern_of(part: Part) -> HolePattern | None:
-    """The holes that a bought part has for its screws; None: its maker drills it where its seat is, or it is made."""
-    return part.purchase.holes if part.purchase is not None else None
+def pattern_of(side: FaceSide) -> HolePattern | None:
+    """The holes that a catalogue states of a face; None: it states none."""
+    return next((row for row in patterns_of(side.part) if side.face.up in row.faces), None)
+
+
+def patterns_of(part: Part) -> tuple[HolePattern, ...]:
+    """The holes of a bought part that its catalogue states."""
+    return part.purchase.holes if part.purchase is not None else ()
+
+
+def is_given(side: FaceSide) -> bool:
+    """Whether screws stand only in the holes that a catalogue states: none in a face without."""
+    bought = side.part.purchase
+    return bought is not None and bool(bought.holes) and (pattern_of(side) is not None or not bought.drilled)

@@ -17,7 +17,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.seat_faces import SeatFace, prism_of
 from ilmek.part.shapes import Drilling, Placed, Prism, Shape, Sum, Turned
 from ilmek.plane.contours import circle, polygon
-from ilmek.units import mm
+from ilmek.units import mm, um
 
 _WALL = 1 * mm
 """Material between holes at least [m]; assumed by this project."""
@@ -38,16 +38,21 @@ class DrilledPart:
         self.axes.extend(axis for hole in drillings(self.part.shape) for axis in _axes(hole))
 
     def has_room(self, hole: Drilling) -> bool:
-        """Whether a hole keeps off all others."""
-        if not self.axes:
+        """Whether a hole keeps off all others, or is one of them: of the same part on others like it."""
+        if not self.axes or self._has(hole):
             return True
         others = np.array(self.axes)
         return all(bool((_apart(own, others) >= own[6] + others[:, 6] + _WALL).all()) for own in _axes(hole))
 
     def drill(self, face: SeatFace, hole: Drilling) -> None:
-        """One more hole."""
+        """One more hole, if it is none of them."""
+        if self._has(hole):
+            return
         self.holes.append((face, hole))
         self.axes.extend(_axes(hole))
+
+    def _has(self, hole: Drilling) -> bool:
+        return any(_is_same(hole, other) for _, other in self.holes)
 
     @property
     def finished(self) -> Part:
@@ -62,6 +67,13 @@ class DrilledPart:
             each = (_member(shape, number, members.get(number)) for number in range(len(shape.members)))
             return replace(self.part, shape=Sum(tuple(each)))
         return replace(self.part, shape=_with_holes(shape, -1, members[-1]))
+
+
+def _is_same(one: Drilling, other: Drilling) -> bool:
+    """Whether two holes are one: mouths, axes and steps."""
+    axes = (np.append(own.position.origin, own.position.rotation[:, 2]) for own in (one, other))
+    first, second = (np.append(axis, np.ravel(own.steps)) for axis, own in zip(axes, (one, other), strict=True))
+    return len(first) == len(second) and bool(np.abs(first - second).max() < um)
 
 
 def _member(shape: Sum, number: int, holes: list[Drilling] | None) -> Placed:

@@ -80,11 +80,11 @@ def pattern_points(pattern: HolePattern, face: SeatFace) -> ComplexArray:
         number = max(1, math.floor(long / pattern.along))
         row = (np.arange(number) - (number - 1) / 2) * pattern.along
         return np.asarray(middle + row * (1.0 if size.real >= size.imag else 1j))
-    half = np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]) / 2
     across, along = pattern.across, pattern.along
     if (size.real - size.imag) * (across - along) < 0:
         across, along = along, across
-    return np.asarray(middle + half.real * across + 1j * half.imag * along)
+    x, y = (np.array([-apart, apart]) / 2 if apart else np.zeros(1) for apart in (across, along))
+    return np.asarray(middle + (x + 1j * y[:, None]).ravel())
 
 
 def row_points(points: ComplexArray, diameter: float) -> ComplexArray:

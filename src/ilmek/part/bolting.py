@@ -1,9 +1,10 @@
 """Screws of the fixed joints of a tree: where parts that stand to each other touch with plane faces, screws hold them.
 
 One part has holes with counterbores for the heads, the other the threads; nothing stands out of either. Screws stand
-1.5 of their diameter off the edges of both faces and 40 of it apart at most; bought parts have theirs where their
-catalogue has them. Of all sizes it is the largest that the part under the heads allows, half of its thickness, and for
-which the other part is thick enough for the thread; in a part that ends in an axle one, by DIN 332-2.
+1.5 of their diameter off the edges of both faces and 40 of it apart at most. Bought parts whose catalogue states their
+holes have screws in all of these, or none. Of all sizes it is the largest that the part under the heads allows, half of
+its thickness, and for which the other part is thick enough for the thread; in a part that ends in an axle one, by
+DIN 332-2.
 
 Parts of a frame that are welded [`welds`] have none, nor have what turns, hangs or is stacked on its shaft.
 """
@@ -18,7 +19,15 @@ import numpy as np
 from ilmek.arrays import ComplexArray, Float
 from ilmek.elements.machine_screws import SOCKET_LENGTHS, SOCKET_SCREWS, MachineScrew
 from ilmek.part import catalogue
-from ilmek.part.bolt_contacts import FaceSide, StandingPiece, face_contacts, pattern_of, standing_groups
+from ilmek.part.bolt_contacts import (
+    FaceSide,
+    StandingPiece,
+    face_contacts,
+    is_given,
+    pattern_of,
+    patterns_of,
+    standing_groups,
+)
 from ilmek.part.bolt_holes import DrilledPart
 from ilmek.part.bolt_spots import clear, free_points, mapped, pattern_points, row_points
 from ilmek.part.part import WELDED, Part
@@ -31,7 +40,7 @@ from ilmek.units import mm, um
 _CLAMPED = (2.0, 1.0)
 """Thickness of the flange of a bought part over the diameter of its screws, most and least; assumed by this project."""
 
-_LONGEST = 6.0
+_LONGEST = 10.0
 """Length of a screw under its head that is not in the thread over its diameter, at most: the head is sunk deeper."""
 
 _PLAY = 0.1 * mm
@@ -94,6 +103,10 @@ class _Screwed:
         return (head, Drilling(mouth, steps, through=True)), (thread, tapped)
 
 
+_Key = tuple[str, str, str, float]
+"""Parts that screws hold, the one under their heads first, size and length of these."""
+
+
 @lru_cache(maxsize=16)
 def bolted(tree: Tree) -> Tree:
     """The tree with the screws of its fixed joints, and the holes for them in its parts; one that has them as it is."""
@@ -101,8 +114,8 @@ def bolted(tree: Tree) -> Tree:
         return tree
     worked: dict[str, DrilledPart] = {}
     known: dict[tuple[object, ...], _Screwed | None] = {}
-    placed: dict[tuple[str, str, float], dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))
-    joined: dict[tuple[str, str, float], tuple[MachineScrew, tuple[Part, Part]]] = {}
+    placed: dict[_Key, dict[str, list[Placement]]] = defaultdict(lambda: defaultdict(list))
+    joined: dict[_Key, tuple[MachineScrew, tuple[Part, Part]]] = {}
     for group in standing_groups(tree):
         for one, other in face_contacts(group):
             lies = one.frame.inverse.after(other.frame)
@@ -113,7 +126,7 @@ def bolted(tree: Tree) -> Tree:
             if made is None:
                 continue
             head, thread = (one, other) if made.head.part is one.part else (other, one)
-            ids = head.part.id, thread.part.id, round(made.length, 6)
+            ids = head.part.id, thread.part.id, made.screw.name, round(made.length, 6)
             joined[ids] = made.screw, (head.part, thread.part)
             host = min((head.piece, thread.piece), key=lambda own: len(own.body.positions))
             to_body = host.own.after(host.lies.inverse).after(head.frame)
@@ -130,8 +143,8 @@ def _rounded(lies: Placement) -> tuple[float, ...]:
 def _with(
     tree: Tree,
     worked: Mapping[str, DrilledPart],
-    placed: Mapping[tuple[str, str, float], Mapping[str, list[Placement]]],
-    joined: Mapping[tuple[str, str, float], tuple[MachineScrew, tuple[Part, Part]]],
+    placed: Mapping[_Key, Mapping[str, list[Placement]]],
+    joined: Mapping[_Key, tuple[MachineScrew, tuple[Part, Part]]],
 ) -> Tree:
     """The tree with drilled parts, and screws in its bodies."""
     parts = {name: own.finished for name, own in worked.items()}
@@ -143,7 +156,7 @@ def _with(
         stem = f"{both[0].id.rpartition('/')[0]}/{first}-{second}-screw"
         names[stem] += 1
         name = stem if names[stem] == 1 else f"{stem}-{names[stem]}"
-        own = replace(catalogue.screw(name, f"screw of the {both[0].title}", screw, ids[2]), joins=ids[:2])
+        own = replace(catalogue.screw(name, f"screw of the {both[0].title}", screw, ids[3]), joins=ids[:2])
         for body, positions in bodies.items():
             screws[body].append(Occurrence(own, tuple(positions)))
     return tree.replaced(
@@ -191,7 +204,7 @@ def _options(
     mouths = head.frame.points(np.array([[point.real, point.imag, -deep] for point in made.points]))
     free = not any(_covers(own, mouths) for own in group if own is not head.piece)
     several = len(made.points) > 1 or thread.face.turned
-    flange = thread.part.purchase is not None and pattern_of(head.part) is not None  # of two bought parts, the motor's
+    flange = thread.part.purchase is not None and bool(patterns_of(head.part))  # of two bought parts, the motor's
     yield (several, flange, free, head.part.purchase is None, -deep), made
 
 
@@ -209,11 +222,14 @@ def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:
 def _offered(head: FaceSide, thread: FaceSide) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
     """Screws that a joint may have with the points where they may stand, or all stand, the best first."""
     across = thread.frame.inverse.after(head.frame)
-    for side in (head, thread):
-        pattern = pattern_of(side.part)
-        if pattern is not None:
+    holed = [side for side in (head, thread) if is_given(side)]
+    for side in holed:
+        pattern = pattern_of(side)
+        if pattern is not None and pattern.tapped == (side is thread):
             points = pattern_points(pattern, side.face)
             yield SOCKET_SCREWS[pattern.thread], points if side is head else mapped(across.inverse, points), True
+    if holed:
+        return
     if thread.face.turned:
         diameter = 2 * thread.face.high.real / mm
         largest = SOCKET_SCREWS[next(name for most, name in _CENTRES if diameter <= most + 1e-9)]
@@ -242,7 +258,8 @@ def _of_size(
         return None
     if fixed:
         inside = clear(head.face, points, _sink(head.part, screw) / 2)
-        points = points[inside & clear(thread.face, mapped(across, points), _LEAST_EDGE * screw.diameter)]
+        if not (inside & clear(thread.face, mapped(across, points), _LEAST_EDGE * screw.diameter)).all():
+            return None
     made: _Screwed | None = None
     for target in points if fixed else row_points(points, screw.diameter):
         nearest = points[np.argsort(np.abs(points - target), kind="stable")][: 1 if fixed else _TRIED]
@@ -255,7 +272,7 @@ def _of_size(
                 if all(abs(point - own) >= _BETWEEN * screw.diameter for own in chosen):
                     made = replace(tried, points=(*chosen, point))
                     break
-    return made
+    return None if fixed and made is not None and len(made.points) < len(points) else made
 
 
 def _sink(part: Part, screw: MachineScrew) -> float:
@@ -286,7 +303,8 @@ def _at_point(
 def _lengths(
     screw: MachineScrew, deep: float, least: float, most: float, *, made_part: bool
 ) -> tuple[float, float] | None:
-    """Lengths of a screw before the thread and in it [m]: the shortest with enough thread, its head sunk.
+    """Lengths of a screw before the thread and in it [m]: of those that are sold with enough thread the one whose head
+    is sunk least in a made part; in the flange of a bought one, the shortest.
 
     deep  of the part under the head      least, most  of the thread
     """
@@ -299,8 +317,9 @@ def _lengths(
         longest, shortest = (min(share * screw.diameter, deep - screw.head) for share in _CLAMPED)
     if shortest <= 0:
         return None
-    for length in SOCKET_LENGTHS:
-        engaged = min(max(length - longest, least), most)
-        if shortest - um <= length - engaged <= longest + um:
-            return length - engaged, engaged
-    return None
+    engaged = {length: min(max(length - longest, least), most) for length in SOCKET_LENGTHS}
+    fitting = {length: length - own for length, own in engaged.items() if shortest - um <= length - own <= longest + um}
+    if not fitting:
+        return None
+    length = max(fitting, key=lambda own: (round(fitting[own], 6) if made_part else 0.0, -own))
+    return fitting[length], engaged[length]

@@ -1,6 +1,7 @@
 """Bought parts from the rows of catalogues, each with the room that it takes: motors, reducers, bearings, guides."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from ilmek.elements.machine_screws import MachineScrew
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
-from ilmek.elements.reducers import Reducer
+from ilmek.elements.reducers import Reducer, flange_for
 from ilmek.elements.springs import CompressionSpring
 from ilmek.part.part import CLAMP, SET_SCREW, Bought, HolePattern, Part, Seat, bought_part
 from ilmek.part.placement import Placement, placement
@@ -36,6 +37,11 @@ REDUCER_LENGTH = 1.2
 
 HOLLOW, WALL = 0.5 * mm, 10 * mm
 """Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
+
+ADAPTER, _ADAPTER_FILLED = 0.3, 0.5
+"""Length of a motor's adapter, with its coupling, over its face, and share of its room that is aluminium; assumed by
+this project.
+"""
 
 BEFORE_KEY = 5 * mm
 """From the face that a reducer sits on to the key in its hollow shaft [m]; assumed by this project."""
@@ -86,6 +92,26 @@ def motor(  # noqa: PLR0917
     return bought_part(name, title, kind, behind, bought)
 
 
+def adapted(
+    name: str, title: str, drive: Part, side: float, flanges: tuple[Placement, ...]
+) -> tuple[tuple[Occurrence, ...], tuple[Placement, ...]]:
+    """The adapters with couplings between axes of a side [m] and motors or reducers with a larger flange; and where the
+    flanges of these are then, that were at the ends of the axes, z into them. None before a smaller flange.
+    """
+    face, bought = face_of(drive), drive.purchase
+    assert bought is not None
+    if face <= side:
+        return (), flanges
+    (holes,) = (row for row in bought.holes if 1 in row.faces)
+    own, long = replace(holes, tapped=True, faces=(-1,)), ADAPTER * face
+    data = f"flange {in_mm(face)}, {_holes_text(own)}, for {bought.row}"
+    room = box(face, face, long)
+    mass = _ADAPTER_FILLED * room.volume * MATERIALS["aluminium alloy"].density
+    row = Bought("motor adapter with coupling", mass, data=data, holes=(own,), drilled=True)
+    behind = tuple(own.after(placement(z=-long)) for own in flanges)
+    return (Occurrence(bought_part(name, title, "motor adapter", room, row), behind),), behind
+
+
 def holding_brake(name: str, title: str, motor: Part, torque: float) -> Part:
     """The brake behind a motor, in its axes, that holds a torque at its shaft [N m]."""
     assert motor.shape is not None
@@ -117,28 +143,47 @@ def reducer(  # noqa: PLR0917
     """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
 
     end  of the shaft that its hollow shaft takes: the room of both is open
-    output  diameter of its own shaft, and the shape of that
+    output  of an angle reducer: diameter of its own shaft, and the shape of that across its input
     """
-    face = row.face if row else SPECIAL_FACE
-    room: Shape = box(face, face, REDUCER_LENGTH * face)
-    shaft = "" if output is None else f"output shaft {in_mm(output[0])}"
+    given = row.torque * by.ratio * by.efficiency if row else 0.0
+    motor_face = row.face if row else SPECIAL_FACE
+    shaft, long, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", REDUCER_LENGTH * motor_face, 0.0
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
-        hollow = abs(corner) + HOLLOW
-        face = max(face, 2 * hollow + 2 * WALL)
-        room = Prism(
-            Profile(rectangle(face, face), (circle(0j, hollow),)), max(REDUCER_LENGTH * face, BEFORE_KEY + end.length)
-        )
+        hollow, long = abs(corner) + HOLLOW, max(long, BEFORE_KEY + end.length)
         shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
-    given = row.torque * by.ratio * by.efficiency if row else math.nan
+    flange = flange_for(given, 2 * (hollow + WALL) if hollow else 0.0)
+    face, across = max(motor_face, flange.face), output is not None
+    long = REDUCER_LENGTH * face if across else long
+    pitch, (motor_holes,) = flange.circle / math.sqrt(2), flange_holes(row)
+    holes = HolePattern(pitch, pitch, flange.thread, tapped=True, faces=(0,) if across else (1,))
+    square = Profile(rectangle(face, face), (circle(0j, hollow),) if hollow else ())
+    room: Shape = Prism(square, long)
     motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
-    data = ", ".join(filter(None, (shaft, *motors)))
-    bought = Bought(f"{by.kind} {by.ratio:g}:1", power=row.power if row else 0.0, data=data, holes=flange_holes(row))
+    data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}, {_holes_text(holes)}", *motors))
+    kind = f"right-angle {by.kind}" if across else by.kind
+    power = row.power if row else 0.0
+    both = holes, replace(motor_holes, tapped=True, faces=(-1,))
+    bought = Bought(f"{kind} {by.ratio:g}:1", flange.mass, power=power, data=data, holes=both)
     return bought_part(name, title, "reducer", Sum((Placed(room), Placed(output[1]))) if output else room, bought)
 
 
+def reducer_face(by: Reducer, row: Motor) -> float:
+    """Width of the reducer of a motor, if it has a shaft of its own [m]."""
+    return max(row.face, flange_for(row.torque * by.ratio * by.efficiency).face)
+
+
+def _holes_text(holes: HolePattern) -> str:
+    """Number, thread and circle of the holes of a flange."""
+    circle_of_holes = in_mm(round(abs(complex(holes.across, holes.along)), 4))
+    return (
+        f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on a circle of {circle_of_holes}"
+    )
+
+
 def _flange_of(row: Motor) -> str:
-    return f"flange {in_mm(row.face)}, shaft {in_mm(row.shaft)}"
+    (holes,) = flange_holes(row)
+    return f"flange {in_mm(row.face)}, {_holes_text(holes)}, shaft {in_mm(row.shaft)}"
 
 
 def toothed_pulley(  # noqa: PLR0917
@@ -209,10 +254,10 @@ def set_screw(hub: float) -> float:
     return next(thread for most, thread in _SET_SCREWS if hub <= most + 1e-9)
 
 
-def flange_holes(row: Motor | None) -> HolePattern | None:
+def flange_holes(row: Motor | None) -> tuple[HolePattern, ...]:
     """The holes of the flange of a motor, or of one that is in no table."""
-    pattern = FLANGE_HOLES.get(row.face if row else SPECIAL_FACE)
-    return None if pattern is None else HolePattern(pattern[0], pattern[0], pattern[1])
+    pitch, thread, tapped = FLANGE_HOLES[row.face if row else SPECIAL_FACE]
+    return (HolePattern(pitch, pitch, thread, tapped=tapped, faces=(-1, 1) if tapped else (1,)),)
 
 
 def keyed_journal(end: KeyedEnd) -> Prism:
@@ -265,10 +310,12 @@ def _flange(row: RollingBearing, holes: tuple[Contour, ...]) -> Placed:
 
 
 def screw(name: str, title: str, row: MachineScrew, length: float) -> Part:
-    """A hexagon head screw along z: its head below z = 0, its thread above; the mass is that of both in steel."""
-    shape = stepped((row.across, row.head), (row.diameter, length))
+    """A screw along z, of steel: its head below z = 0, with its washer, its thread above."""
+    washer, thickness = row.washer
+    steps = (row.across, row.head), (washer, thickness), (row.diameter, length - thickness)
+    shape = stepped(*(step for step in steps if min(step) > 0))
     bought = Bought(row.designation(length), shape.volume * STEEL.density)
-    placed = Sum((Placed(shape, (placement(z=-row.head),)),))
+    placed = Sum((Placed(shape, (placement(z=-row.head - thickness),)),))
     return bought_part(name, title, "fastener", placed, bought)
 
 
@@ -285,8 +332,8 @@ def spring_part(name: str, title: str, row: CompressionSpring, length: float) ->
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
     """The rail of a linear guide along z, its base on y = 0, upwards."""
     section = polygon(rectangle(row.rail, row.rail_height).points + 0.5j * row.rail_height)
-    holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True)
-    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=holes)
+    holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True, faces=(0,))
+    bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=(holes,))
     return Part(
         name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
     )
@@ -298,5 +345,6 @@ def guide_block(name: str, title: str, row: LinearGuide) -> Part:
     corners = [-half, -inner, -inner, inner, inner, half, half, -half]
     heights = [low, low, row.rail_height, row.rail_height, low, low, row.height, row.height]
     section = Profile(polygon(np.array(corners) + 1j * np.array(heights)))
-    bought = Bought(f"carriage {row.name}", row.block_mass, holes=HolePattern(*row.holes, row.block_screw))
+    holes = HolePattern(*row.holes, row.block_screw, tapped=True, faces=(0,))
+    bought = Bought(f"carriage {row.name}", row.block_mass, holes=(holes,))
     return Part(name, title, "guide carriage", shape=Prism(section, row.block_length), purchase=bought)

@@ -32,12 +32,21 @@ class HolePattern:
 
     across, along  distances of neighbouring holes [m]; 0: one row, at the middle      thread  by name
     in_rows  the row along the face is repeated over its length, of a rail; else there are two
+    tapped    they are threads; else holes for screws with their heads in the part
+    faces     that have them, by z of their normals in the part's axes: its ends, -1 and 1, its sides, 0
     """
 
     across: float
     along: float
     thread: str
     in_rows: bool = False
+    tapped: bool = False
+    faces: tuple[int, ...] = (-1, 1)
+
+    @property
+    def number(self) -> int:
+        """Of the holes about the middle of a face."""
+        return math.prod(2 if apart else 1 for apart in (self.across, self.along))
 
 
 @record
@@ -48,7 +57,7 @@ class Bought:
     data    what a buyer must know besides: flange, shaft, torque; default: the part's size
     length  of one [m], power  of one [W]: where the price depends on them
     drives  how many of them drive an axis of the control together; 0: it is no motor
-    holes   for its screws; None: its maker drills it where its seat is
+    holes   for its screws      drilled  faces without holes have them where its seat is, by its maker, or slots
     housing  tolerance class of the bore in which its outer ring sits
     hardness  least one of the shaft on which its rollers run [HRC]; 0: they run on a ring of its own
     """
@@ -59,7 +68,8 @@ class Bought:
     power: float = 0.0
     drives: int = 0
     data: str = ""
-    holes: HolePattern | None = None
+    holes: tuple[HolePattern, ...] = ()
+    drilled: bool = False
     housing: str = "H7"
     hardness: int = 0
 

@@ -53,6 +53,11 @@ class SeatFace:
     depth: float
     turned: bool = False
 
+    @property
+    def up(self) -> int:
+        """Of its normal the z in the shape's axes: -1 and 1 of its ends, 0 of its sides."""
+        return round(float(self.position.rotation[2, 2]))
+
     def room(self, points: ComplexArray, most: float) -> FloatArray:
         """Distance of points of the face from its edges [m], at most so far; below 0 outside."""
         room = np.full(len(points), most)

@@ -17,6 +17,12 @@ plate of an eye bolt on a column = kolondaki mapa levha+sı | lifting eyes = kal
 plate of an eye bolt on a foot = ayaktaki mapa levha+sı | plate of an arm for its axis = kolun eksen levha+sı
 analog inputs = analog girişler | mains = şebeke | protective conductors = koruma iletkenler+i
 outlet of the air in the door = kapıdaki hava çıkış+ı
+plate of a device on a post = dikmedeki aygıt levha+sı | plate of an interlock on a post = dikmedeki kilit levha+sı
+console of a motor at an edge = kenar motoru konsol+u | adapter = adaptör
+adapter of a vertical axis = düşey eksen adaptör+ü
+anchor of the plate of a post of the guards = korkuluk dikmesi levhasının dübel+i
+anchor of the plate under the post of the rapier's axis = kancalı eksen dikmesi alt levhasının dübel+i
+plate of the post for the rapier's axis = kancalı eksen dikmesinin levha+sı
 half of the guide of the followers = izleyici kızağı yarı+sı
 actuator = karşılık | angle reducer = açılı redüktör | arm = kol | arm 1 = 1. kol | arm 2 = 2. kol | axes = eksenler
 attachment bar = bağlama çubuğ+u | axis = eksen | axle = dingil | back = geri | back rest = arka köprü | bar = çubuk

@@ -36,7 +36,7 @@ from ilmek.units import in_mm
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
-RETREAT_MOTOR, RETREAT_BRAKE = part_id("retreat-motor"), part_id("retreat-brake")
+RETREAT_MOTOR, RETREAT_BRAKE, RETREAT_ADAPTER = (part_id(f"retreat-{name}") for name in ("motor", "brake", "adapter"))
 
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
@@ -109,9 +109,11 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     outwards = (placement(wider / 2), placement(-wider / 2))
     ends = zip(stations[: len(held[0].stations)], outwards, strict=True)
-    flanges = tuple(end.after(aside).after(flange) for end, aside in ends)
+    title, at_ends = "adapter of the rail's retreat", tuple(end.after(aside).after(flange) for end, aside in ends)
+    adapters, flanges = catalogue.adapted(RETREAT_ADAPTER, title, motor, RAIL_AXIS, at_ends)
     parts = (
         Occurrence(axis, tuple(station.after(upper) for station in stations)),
+        *adapters,
         *(Occurrence(part, flanges) for part in (motor, brake)),
     )
     return RigidBody(part_id("retreat"), parts)
@@ -120,9 +122,10 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
 def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, drive: tuple[Part, Part], low: float) -> float:
     """Lower end of the axes of the retreat [m], at least `low`: motors and brakes there lie before the posts beside."""
     face = catalogue.face_of(drive[0])
+    adapter = catalogue.ADAPTER * face if face > RAIL_AXIS else 0.0
     rear_end = min(float(shape_box(part.shape)[0][2]) for part in drive if part.shape is not None)
     aside, beat = -face / 2 * RETREAT.imag, supports(loom, frame).post.side / 2
-    front = aside - rear_end * RETREAT.real
+    front = aside + (adapter - rear_end) * RETREAT.real
     posts = [(post_depth(loom, frame) - held.axis.real, beat)]
     if face - RAIL_AXIS > held.reach - ROOM:
         posts.append((held.depth - held.axis.real, held.post.side / 2))

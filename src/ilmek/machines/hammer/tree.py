@@ -219,7 +219,12 @@ def _on_axes(hammer: Hammer) -> Tree:
     upright = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     deep = _before_axes(hammer) - before
     front, end = before + deep + AXIS_SIDE / 2, low + params.stroke + BLOCK_HEIGHT
-    top = end + (depth_of(geared[0]) if geared else 0.0)
+    flipped = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
+    ends = tuple(placement(front, end, float(z)).after(flipped) for z in stations)
+    adapters, upside = catalogue.adapted(
+        "hammer/adapter", "adapter of a vertical axis", (*geared, motor)[0], AXIS_SIDE, ends
+    )
+    upside = tuple(own.after(placement(z=-sum(map(depth_of, geared)))) for own in upside)
     block = bought_part(
         "hammer/carriage",
         "carriage of a vertical axis",
@@ -229,17 +234,15 @@ def _on_axes(hammer: Hammer) -> Tree:
     )
     middle = (low + params.depth) / 2
     blocks = tuple(placement(before + deep / 2, middle, float(z) - AXIS_SIDE / 2) for z in stations)
-    flipped = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
 
     def standing(height: float) -> tuple[Placement, ...]:
         return tuple(placement(front, height, float(z)).after(upright) for z in stations)
 
-    upside = tuple(placement(front, top, float(z)).after(flipped) for z in stations)
     parts = (
         *_beam_before_axes(hammer),
         Occurrence(axis, standing(low)),
-        *(Occurrence(part, standing(end)) for part in geared),
-        *(Occurrence(part, upside) for part in (motor, brake)),
+        *adapters,
+        *(Occurrence(part, upside) for part in (*geared, motor, brake)),
     )
     axes = RigidBody("hammer/axes", parts)
     comb = (*_comb(hammer), Occurrence(block, blocks))

@@ -264,7 +264,10 @@ def _axis(
     chosen = smallest_motor(torque, turning, "servo")
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
     upright = placement(across, begin + long / 2, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
-    yield Occurrence(motor, (upright,))
+    name, adapter = f"{NAME}/centre-adapter", "adapter of the centre gripper's axis"
+    adapters, flanges = catalogue.adapted(name, adapter, motor, AXIS, (upright,))
+    yield from adapters
+    yield Occurrence(motor, flanges)
     title, size = "hanger of the centre gripper's axis", f"{format_quantity(HANGER, 'mm')} thick"
     hanger = Part(
         f"{NAME}/centre-hanger", title, "machined link", size, box(AXIS, HANGER, under + AXIS - level), ALUMINIUM

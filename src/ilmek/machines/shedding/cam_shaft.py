@@ -124,7 +124,8 @@ class CamShaft:
     @property
     def screws_inside(self) -> float:
         """Diameter within which the screws of the bearings leave room [m]."""
-        return float(2 * abs(self.seat.corners()[0])) - self.seat.screws.screw.across - 2 * mm
+        screw = self.seat.screws.screw
+        return float(2 * abs(self.seat.corners()[0])) - max(screw.across, screw.washer[0]) - 2 * mm
 
     @property
     def nut(self) -> Locknut:

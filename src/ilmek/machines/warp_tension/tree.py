@@ -26,6 +26,9 @@ from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, round_size, turn
 
+TURNED = turn / 24
+"""Angle of a reducer to its bearing's housing: its screws keep off those of the housing and off the shaft's slot."""
+
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
 
@@ -150,9 +153,10 @@ def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple
 def _on_bracket(params: WarpTensionParams, drive: tuple[Part, ...], far: float) -> tuple[Occurrence, ...]:
     """Reducer and motor, or reducer, shaft, wheel and handle one after the other, beyond the bracket's outer face [m].
 
-    Reducer and motor meet in their flanges, the reducer towards the cylinder.
+    Reducer and motor meet in their flanges, the reducer towards the cylinder, both turned about its axis.
     """
-    flange = placement(z=far + catalogue.length_of(drive[0]), about=(1.0, 0.0, 0.0), angle=math.pi)
+    turned = placement(about=(0.0, 0.0, 1.0), angle=TURNED)
+    flange = turned.after(placement(z=far + catalogue.length_of(drive[0]), about=(1.0, 0.0, 0.0), angle=math.pi))
     if not params.by_hand:
         return tuple(Occurrence(part, (flange,)) for part in drive)
     geared, shaft, wheel, handle = drive

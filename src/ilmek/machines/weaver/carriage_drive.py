@@ -46,7 +46,7 @@ SERVICE = 1.4
 PULLEY_AT = 16.5 * mm
 """Axis of the pulley before the end of the bracket [m]: its motor stands between magazine and rail."""
 
-PLATE, PLAY = 3 * mm, 2 * mm
+PLATE, PLAY = 5 * mm, 2 * mm
 """Thickness of the motor's plate, and room under and over the belt [m]; assumed by this project, as all sizes here."""
 
 AXLE, HUB_WALL, UNDER_MOTOR = 8 * mm, 4.5 * mm, 0.5 * mm
@@ -127,7 +127,8 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     flange = about.after(placement(y=drive.high + PLATE, about=(1.0, 0.0, 0.0), angle=turn / 2))
     yield Occurrence(motor, (flange.after(UPRIGHT),))
     half, tall = ASIDE + AXLE, drive.high - RAIL_AXIS / 2
-    outline = rectangle(BEHIND + BLOCK[1] / 2 + ROLLER, 2 * half).points + (ROLLER - BEHIND - BLOCK[1] / 2) / 2
+    behind, before = BEHIND + BLOCK[1] / 2, max(ROLLER, catalogue.face_of(motor) / 2)
+    outline = rectangle(behind + before, 2 * half).points + (before - behind) / 2
     window = circle(0j, BELT.belt.tip_radius(TEETH) + catalogue.RIM_HEIGHT + UNDER_MOTOR)  # the pulley comes through it
     plate = Prism(Profile(polygon(outline), (window,)), PLATE)
     yield _made(part_id("drive-plate"), "plate of a carriage's motor", plate, _upright(about, drive.high))

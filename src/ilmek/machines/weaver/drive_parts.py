@@ -46,9 +46,9 @@ BEFORE_BELT = PLAY + catalogue.RIM + catalogue.BESIDE
 
 
 def _face(weaver: Weaver) -> float:
-    """Side of the flanges of motor and reducer [m]."""
+    """Side of the larger of motor and reducer [m]."""
     servo = weaver.drive.servo
-    return servo.motor.face if servo else catalogue.SPECIAL_FACE
+    return catalogue.reducer_face(servo.reducer, servo.motor) if servo else catalogue.SPECIAL_FACE
 
 
 def reducer_at(weaver: Weaver) -> complex:

@@ -25,10 +25,12 @@ from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import CLAMP, Rapier
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part, bought_part
+from ilmek.part.part import LASER_CUT, Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, Placement, placement
-from ilmek.part.shapes import box
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, box, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
+from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.units import format_quantity, in_mm, mm
 
@@ -50,7 +52,15 @@ PITCH = 50 * mm
 """Distance of the devices of an edge along the width [m]."""
 
 PLATE, BEFORE_WAY = 6 * mm, 3 * mm
-"""Thickness of an edge's plate, and its distance from the path of rapier and carriage [m]; assumed by this project."""
+"""Thickness of an edge's plate and of the consoles on it, and its distance from the path of rapier and carriage [m];
+assumed by this project.
+"""
+
+BOSS = 24 * mm
+"""Bore of a console about the boss of its motor, of 22 mm [NEMA ICS 16], and the hub on its shaft [m]."""
+
+EDGE_PLATE = part_id("edge-plate")
+"""Id of the plate at an edge."""
 
 
 @record
@@ -124,12 +134,16 @@ class RapierSide:
         belt = bought_part(AXIS, f"axis of the {carrier}", "linear axis", room, bought, size=size)
         yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
         row, low = axis.drive.motor if axis.drive else None, self.low
+        drive = [catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)]
         if axis.drive is not None and axis.drive.reducer.ratio != 1:
-            geared = catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer, row)
-            low -= catalogue.length_of(geared)
-            yield Occurrence(geared, (_upright(left, low),))
-        driving = catalogue.motor(MOTOR, f"motor of the {carrier}", row, axis.torque, axis.turning)
-        yield Occurrence(driving, (_upright(left, low),))
+            drive.append(catalogue.reducer(part_id("reducer"), f"reducer of the {carrier}", axis.drive.reducer, row))
+        end: tuple[Placement, ...] = (_upright(left + SIDE / 2, low),)  # its pulley's axis
+        adapters, end = catalogue.adapted(part_id("adapter"), f"adapter of the {carrier}", drive[-1], SIDE, end)
+        yield from adapters
+        for geared in drive[1:]:
+            end = (end[0].after(placement(z=-catalogue.length_of(geared))),)
+            yield Occurrence(geared, end)
+        yield Occurrence(drive[0], end)
 
     def _devices(self) -> Iterator[RigidBody]:
         """Cutters, tuck-in needles and selector before the plates, each moved by a motor below it."""
@@ -149,7 +163,7 @@ class RapierSide:
         yield device("fingers of the selector", (*selector, "two fingers"), SELECTOR, shear, (1, 3))
 
     def _standing(self) -> Iterator[Occurrence]:
-        """The axes of the needles, and the motors of all devices."""
+        """The axes of the needles, and the motors of all devices, each under its console."""
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
         motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
@@ -159,7 +173,13 @@ class RapierSide:
         slide = bought_part(name, title, "linear axis", room, bought, size="along the edge")
         yield Occurrence(slide, self._beside((-1, 2), (1, 2), high=SIDE / 2 - long))
         stations = ((-1, 0), (-1, 1), (1, 0), (1, 1), (1, 3))
-        yield Occurrence(motor, self._beside(*stations, depth=row.face if row else catalogue.SPECIAL_FACE))
+        face, under = catalogue.face_of(motor), -SIDE / 2 - PLATE
+        console = Prism(Profile(rectangle(face, face), (circle(0j, BOSS / 2),)), PLATE)
+        steel = MATERIALS["structural steel"]
+        name, title = part_id("edge-console"), "console of a motor at an edge"
+        carrier = Part(name, title, LASER_CUT, in_mm(PLATE), console, steel, joins=(EDGE_PLATE,))
+        yield Occurrence(carrier, self._beside(*stations, high=under, depth=face))
+        yield Occurrence(motor, self._beside(*stations, high=under, depth=face))
 
     def _beside(self, *stations: Station, high: float = -SIDE / 2, depth: float = SIDE) -> tuple[Placement, ...]:
         """Before the plates at an edge, -1 left, 1 right, as the device of a number from the cloth on."""
@@ -174,7 +194,7 @@ class RapierSide:
         size = format_quantity(PLATE, "mm")
         shape = box(wide, high - low, PLATE)
         steel = MATERIALS["structural steel"]
-        part = Part(part_id("edge-plate"), title, "laser-cut part", size, shape, steel, machined=True)
+        part = Part(EDGE_PLATE, title, LASER_CUT, size, shape, steel, machined=True)
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 

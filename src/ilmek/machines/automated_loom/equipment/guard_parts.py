@@ -17,11 +17,13 @@ from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTER
 from ilmek.machines.automated_loom.anchors import anchored
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
+    DEVICE_PLATE,
     TO_THE_BACK,
     TO_THE_LEFT,
     TO_THE_RIGHT,
     UPWARDS,
     device,
+    device_plate,
     placed,
 )
 from ilmek.machines.automated_loom.equipment.guards import (
@@ -269,26 +271,33 @@ def _grid(fence: Fence) -> Occurrence:
 
 
 def _latches(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
-    """Interlocks at the latches of the doors."""
-    wide, thick, _ = INTERLOCK.size
+    """Interlocks at the latches of the doors, each on its plate."""
+    wide, thick, tall = INTERLOCK.size
     latch = device(signals.INTERLOCK, "interlock of a door", INTERLOCK)
-    height, inner = fence.floor + _STOP_HEIGHT, fence.front - thick / 2
+    height, inner = fence.floor + _STOP_HEIGHT, fence.front - DEVICE_PLATE
     # Beside the last post's middle, to which the panel of the side reaches.
     beside = wide / 2 + 2 * WIRE
-    yield Occurrence(latch, tuple(placed(x - beside, height, inner, UPWARDS) for x in front[1:]))
+    plate = device_plate(part_id("latch-plate"), "plate of an interlock on a post", INTERLOCK)
+    yield Occurrence(plate, tuple(placement(x - beside, height + tall / 2, inner) for x in front[1:]))
+    yield Occurrence(latch, tuple(placed(x - beside, height, inner - thick / 2, UPWARDS) for x in front[1:]))
 
 
 def _on_posts(fence: Fence, front: tuple[float, ...]) -> Iterator[Occurrence]:
-    """Emergency stops at front and rear, the reset at the last post of the front."""
+    """Emergency stops at front and rear, the reset at the last post of the front, each on its plate."""
     height = fence.floor + _STOP_HEIGHT
     stop, outer = device(signals.STOP, "emergency stop", STOP), fence.front + POST
     # Beside the creel's rails, which may reach past the corner.
     left, right = fence.left - POST + STOP.size[0] / 2, fence.right + POST - STOP.size[0] / 2
     back = placed(left, height, fence.rear - POST, TO_THE_BACK)
     before = (placement(min(max(x, left), right), height, outer) for x in _stations(front))
-    yield Occurrence(stop, (*before, back))
+    on_posts = (*before, back)
+    under_reset = placement(right, fence.floor + _RESET_HEIGHT, outer)
+    plate = device_plate(part_id("device-plate"), "plate of a device on a post", STOP)
+    yield Occurrence(plate, (*on_posts, under_reset))
+    on_plate = placement(z=DEVICE_PLATE)
+    yield Occurrence(stop, tuple(own.after(on_plate) for own in on_posts))
     reset = device(signals.RESET, "reset of the safety circuit", BUTTON)
-    yield Occurrence(reset, (placement(right, fence.floor + _RESET_HEIGHT, outer),))
+    yield Occurrence(reset, (under_reset.after(on_plate),))
     enabling = device(signals.ENABLING, "enabling switch for setting up", ENABLING)
     under = height - (STOP.size[1] + ENABLING.size[1]) / 2 - GAP
     yield Occurrence(enabling, (placement(right, under, outer),))
