@@ -23,8 +23,7 @@ from ilmek.machines.hand_shed import HandShed
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders, spacer_tube
 from ilmek.machines.warp_tension.params import WarpTensionParams
-from ilmek.machines.warp_tension.tree import HANDLE_SIZE, winding_reducer
-from ilmek.part import catalogue
+from ilmek.machines.warp_tension.tree import HANDLE_SIZE, reach_of, winding_reducer
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import polygon, slotted
@@ -138,7 +137,7 @@ def laid_out(
         buckling_safety=safety[1],
         bow_limit=safety[2],
     )
-    column, task = _column(task, catalogue.face_of(winding_reducer(winding)) / 2 + ROOM)
+    column, task = _column(task, reach_of(winding_reducer(winding)) + ROOM)
     depth = -radius - task.lever
     axes = {"upper": upper.at, "lower": lower.at, "spacer": spacer.at}
     brackets = tuple(_bracket(params, own, axes[own.name], column, depth, safety[0]) for own in cylinders(winding))

@@ -65,7 +65,7 @@ def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
             own.name,
             own.seat,
             far,
-            max(own.flange, catalogue.face_of(drives[own.name][0]) / 2, wheel),
+            max(own.flange, reach_of(drives[own.name][0]), wheel),
         )
         for own in cylinders(design)
     )
@@ -177,6 +177,11 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     plain = replace(plain, throat=max(upper.throat, lower.throat))
     slotted = _made("spacer", "spacer cylinder", "steel tube", spacer.shape, _size(spacer), steel)
     return plain, plain, replace(slotted, throat=spacer.throat)
+
+
+def reach_of(reducer: Part) -> float:
+    """Half of the width across the shaft that a turned reducer takes [m]."""
+    return catalogue.face_of(reducer) / 2 * (math.cos(TURNED) + math.sin(TURNED))
 
 
 def winding_reducer(design: WarpTensionDesign) -> Part:
