@@ -38,6 +38,7 @@ from ilmek.machines.arrangement.spans import (
 )
 from ilmek.machines.shedding.tree import front_of
 from ilmek.machines.warp_tension.cylinders import spacer_tube
+from ilmek.machines.warp_tension.tree import reach_of, winding_reducer
 from ilmek.machines.weaver.carriage_drive import motor_corner
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.head_shape import HeadShape
@@ -63,6 +64,11 @@ ABOVE_CYLINDER = 50 * mm
 
 _HALF_HOUSING = 90 * mm
 """Half of the housing of a cylinder's bearing, at most [m]."""
+
+_COLUMN_ROOM = ((100 * mm, 150 * mm), (math.inf, 220 * mm))
+"""Half of the width of a cylinder's reducer, at most, and least room of the columns beside it [m]: looms with larger
+reducers have wider columns; assumed by this project.
+"""
 
 RAIL = 80 * mm
 """Side of the room for the linear axis of the heads on their rail [m]."""
@@ -162,6 +168,7 @@ class SideView:
     back_rest, upper, spacer, lower                                roll  radius of the lower cylinder with the carpet
     compensator   of the warps' tension, between back rest and upper cylinder
     pile          legs of the knots in front of the warps [m]      heads  None where weavers tie
+    reducer       half of the width of a cylinder's reducer, across its shaft [m]
     """
 
     room: ShedRoom
@@ -176,6 +183,7 @@ class SideView:
     lower: RoundPart
     roll: float
     pile: float
+    reducer: float
     heads: HeadsView | None = group()
 
     front_span = computed("mm", "from the fell to the lowest cam shaft", lambda it: it.spans.front[0])
@@ -238,9 +246,9 @@ class SideView:
 
     @property
     def column_room(self) -> tuple[float, float]:
-        """Room of the columns along x [m]: outside of all, between the housings of upper and lower cylinders."""
+        """Room of the columns along x [m]: outside of all, between housings and reducers of upper and lower cylinders."""
         upper, lower = self.upper, max(self.lower, self.spacer, key=lambda one: -one.at.real)
-        behind, before = (min(one.radius, _HALF_HOUSING) for one in (upper, lower))
+        behind, before = (max(min(one.radius, _HALF_HOUSING), self.reducer) for one in (upper, lower))
         return upper.at.real + behind, lower.at.real - before
 
     @property
@@ -274,6 +282,11 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
     lower = _out_of_reach(heads, lower, roll + room.clearance) if heads else lower
     # A wider spacer leaves the columns their room; the warps count as shorter by that, which stretches them more.
     behind, rest = cylinder_offset(room) + spacer.radius - radius, complex(-room.back_rest, spans.back_rest)
+    reducer = reach_of(winding_reducer(cylinder)) if cylinder else 0.0
+    sides = (max(min(own, _HALF_HOUSING), reducer) for own in (radius, lower.radius))
+    columns = next(wide for reach, wide in _COLUMN_ROOM if reducer <= reach)
+    front = min(lower.at.real, spacer.at.real)
+    behind = max(behind, columns + sum(sides) - front + rest.real)
     return SideView(
         room=room,
         spans=spans,
@@ -298,6 +311,7 @@ def laid_out(task: "LoomTask", path: "BeatPath | None" = None) -> SideView:
         lower=lower,
         roll=roll,
         pile=head.drawn / 2 if head else pile_leg(task),
+        reducer=reducer,
         heads=heads,
     )
 
