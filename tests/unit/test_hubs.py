@@ -190,7 +190,7 @@ def test_a_keyed_hub_sits_on_a_groove(machine: str, settings: Any) -> None:
 
 
 ORDERED = {
-    "reducer": r"(planetary|worm) reducer \d+:1(?=.*(shaft \d|for a motor))",
+    "reducer": r"(right-angle )?(planetary|worm) reducer \d+:1(?=.*(shaft \d|for a motor))",
     "servo": r"servo \d+ W, \d+ rpm, .*peak .*flange \d+.* mm, shaft \d+|to measure: .*",
     "stepper": r"stepper NEMA \d+, .*holding .*flange \d+.* mm, shaft \d+",
     "bearing": r"\d{4}-2RS, DIN 625-1|UCF \d{3}, ISO 9628.*|HF\d+|CF \d+.*|idler .*|NU .*",

@@ -129,6 +129,6 @@ def throat_for(force: float, wall: float, thickest: float = 0.0) -> float:
     (0.003, 0.007, 0.004)
     """
     largest = largest_throat(wall) + _ROUNDING
-    offered = [throat for throat in THROATS if throat <= largest] or [largest // _FINE * _FINE]
+    offered = [throat for throat in THROATS if throat <= largest] or [largest // _FINE * _FINE or largest]
     least = least_throat(wall, max(wall, thickest)) - _ROUNDING
     return next((one for one in offered if one >= least and force <= STRENGTH * one), offered[-1])

@@ -18,6 +18,7 @@ from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.fatigue import Loading, endurance_limit, goodman
 from ilmek.elements.locknuts import locknut_for
 from ilmek.elements.materials import GRAVITY
+from ilmek.elements.parallel_keys import keyed_end
 from ilmek.elements.sections import square_section
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
 from ilmek.elements.whirl import uniform_speed
@@ -203,8 +204,9 @@ def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float)
     """Bearings for the load of a span [N], its safety included, on journals turned from the bar [m].
 
     A journal in torsion alone: d = (16 sqrt(3) T / (pi sigma))^(1/3), von Mises; its shoulder at the bearing's side
-    bears half of a span's load too, and must have the safety of DIN 743 against fatigue. A support between the ends
-    carries a whole span, an end half of one; the bearings of the steadies are taken no larger than those of the ends.
+    bears half of a span's load too, and must have the safety of DIN 743 against fatigue; beyond the bearing its key
+    must bear the torque. A support between the ends carries a whole span, an end half of one; the bearings of the
+    steadies are taken no larger than those of the ends.
     Where no insert bearing that fits the bar has the life and the bore, the strongest that fits the bar is taken.
     """
     torque, loaded = safety * task.torque, span_load / safety
@@ -214,12 +216,13 @@ def seat_for(task: SquareShaftTask, span_load: float, safety: float, bar: float)
     def shoulder(row: RollingBearing) -> Shoulder:
         return Shoulder(bar, row.bore, task.tensile, loaded / 2 * row.width / 2, task.torque)
 
+    def bears(row: RollingBearing) -> bool:
+        key = keyed_end(row.bore, torque, task.strength)
+        return row.bore >= journal and shoulder(row).safety >= LEAST_SAFETY and key.pressure <= key.allowed
+
     revolutions = task.bearing_life * task.speed / turn
     if task.bearing is None:
-        offered = sorted(_inserts(), key=lambda one: one.bore)
-        bore = next(
-            (one.bore for one in offered if one.bore >= journal and shoulder(one).safety >= LEAST_SAFETY), journal
-        )
+        bore = min((row.bore for row in _inserts() if bears(row)), default=journal)
         found = bearings.smallest_bearing(reaction, revolutions, kind=INSERT, bore=bore)
         bearing = found if found is not None and found.bore <= _passing(bar) else _strongest(bar)
     else:
