@@ -11,7 +11,6 @@ ELECTRIC = {
     "electric.mains": "mains",
     "electric.connected": "connected load",
     "electric.mean": "mean power while it weaves",
-    "electric.main-current": "current",
     "electric.main-fuse": "main fuses",
     "electric.main-wire": "wires from the mains",
     "electric.motors": "Motors",

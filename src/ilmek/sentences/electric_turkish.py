@@ -12,7 +12,6 @@ ELECTRIC = {
     "electric.mains": "şebeke",
     "electric.connected": "bağlı yük",
     "electric.mean": "dokurken ortalama güç",
-    "electric.main-current": "akım",
     "electric.main-fuse": "ana sigortalar",
     "electric.main-wire": "şebeke kablosu",
     "electric.motors": "Motorlar",
