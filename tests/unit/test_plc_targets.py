@@ -11,7 +11,7 @@ from ilmek.io.plc.scl import scl_body
 from ilmek.io.plc.targets import TARGETS
 from ilmek.io.plc.units import PlcProject
 from ilmek.loom.control.alarms import ALARMS
-from ilmek.machines.automated_loom.equipment.signals import signal_count
+from ilmek.machines.automated_loom.equipment.signals import signals_of
 
 STANDARD = set(
     re.findall(
@@ -73,7 +73,7 @@ def test_the_program_of_the_task_reads_and_writes_the_signals(target: str) -> No
     assert machine.read(main, "HaltSignal")
     assert machine.read(main, "Alarm") == ALARMS["emergency stop"].number
     located = re.findall(r"(\w+) AT (%[\w.]+) : (\w+)", text_of(2, target))
-    assert len(located) == len({address for _, address, _ in located}) == signal_count(2)
+    assert len(located) == len({address for _, address, _ in located}) == len(signals_of(2))
 
 
 def test_scl_has_the_same_statements_with_marked_names() -> None:
@@ -102,7 +102,7 @@ def test_scl_maps_each_signal_once() -> None:
     before, behind = cycle.split('"LoomData"();')
     read = re.findall(r'("LoomData"\.[\w\[\]]+) := (%I[\w.]+);', before)
     written = re.findall(r'(%Q[\w.]+) := ("LoomData"\.[\w\[\]]+);', behind)
-    assert len({one for pair in (*read, *written) for one in pair}) == 2 * signal_count(2)
+    assert len({one for pair in (*read, *written) for one in pair}) == 2 * len(signals_of(2))
 
 
 def test_the_interpreter_refuses_what_it_does_not_know() -> None:

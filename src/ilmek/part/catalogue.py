@@ -177,7 +177,7 @@ def _holes_text(holes: HolePattern) -> str:
     """Number, thread and circle of the holes of a flange."""
     circle_of_holes = in_mm(round(abs(complex(holes.across, holes.along)), 4))
     return (
-        f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on a circle of {circle_of_holes}"
+        f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on ⌀{circle_of_holes}"
     )
 
 

@@ -192,7 +192,7 @@ def rail_belt(weaver: Weaver, drive: CarriageDrive, top: float, heads: int) -> I
     long, depth = weaver.belt_length, PULLEY_AT + ROLLER - RAIL_AXIS
     straight = box(drive.width, BELT.height, long)
     line = placement(-long / 2, drive.low + drive.width / 2, depth + BELT.height / 2).after(ALONG_WIDTH)
-    whole = f"one length of {format_quantity(long + heads * LOOP, 'm', 4)} with the belt about {heads} pulleys"
+    whole = f"one length, {format_quantity(long + heads * LOOP, 'm', 4)}, loops at {heads} pulleys included"
     belt = _belt(HEADS_BELT, "belt of the heads", straight, drive.width, long, whole)
     yield Occurrence(belt, (line,))
     under, starts = drive.low + drive.width, (-long / 2, long / 2 - CLAMP)
@@ -249,7 +249,7 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
     ).with_cure("set fewer heads, or a lower weaver.carriage_acceleration", HEADS_BELT, BELT_CLAMP)
 
 
-_ONE_PIECE = "of one piece with the belt of the heads, not cut"
+_ONE_PIECE = "included in the length above, not cut"
 
 
 def _belt(name: str, title: str, shape: Shape, wide: float, long: float, data: str) -> Part:  # noqa: PLR0917

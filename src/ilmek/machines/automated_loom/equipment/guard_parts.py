@@ -216,7 +216,7 @@ def _door(wide: float, tall: float) -> Part:
         for own in _mesh(inner, tall - 2 * side)
     )
     shape = Sum((Placed(upright, tuple(ups)), Placed(level, tuple(levels)), *mesh))
-    frame = f"welded in a frame of tube {_FRAME.name}, its hinges welded on"
+    frame = f"welded in a frame, tube {_FRAME.name}, its hinges welded on"
     return _panel(DOOR, "door of the guards", (wide, tall), shape, frame, "halves of its hinges, welded to its post")
 
 
