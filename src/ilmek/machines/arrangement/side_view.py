@@ -249,7 +249,7 @@ class SideView:
 
     @property
     def column_room(self) -> tuple[float, float]:
-        """Room of the columns along x [m]: outside of all, between housings and reducers of upper and lower cylinders."""
+        """Room of the columns along x [m]: outside of all, between housings and reducers of the cylinders."""
         upper, lower = self.upper, max(self.lower, self.spacer, key=lambda one: -one.at.real)
         behind, before = (max(min(one.radius, _HALF_HOUSING), self.reducer) for one in (upper, lower))
         return upper.at.real + behind, lower.at.real - before

@@ -40,8 +40,9 @@ def eye_bolt_of(loom: LoomDesign) -> EyeBolt:
 
 
 def seats_of_eyes(loom: LoomDesign) -> tuple[tuple[Extent, Corner], ...]:
-    """What carries each eye, the outermost columns and feet, and the middle of its plate's lower side [m]: the rear pair
-    first, the left one first.
+    """What carries each eye, and the middle of its plate's lower side [m]: the rear pair first, the left one first.
+
+    Of several columns and feet beside each other the outermost carry them.
     """
     near, row = surroundings(loom), eye_bolt_of(loom)
     creel = creel_of(loom) if loom.heads else None
