@@ -70,7 +70,8 @@ def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
         one.name for one in members
     }
     mass = sum(volume(part.solids[0]) * part.number for part in members) * STEEL.density
-    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=2e-3)  # less the holes of screws
+    # Less the holes of screws: those of bearings and reducers are 0.24 % of the frame.
+    assert mass == pytest.approx(parts_of_loom(loom).frame.mass, rel=3e-3)
     weighed = sum(part.mass * part.number for part in members)
     assert weighed == pytest.approx(mass, rel=1e-4)  # round ends of brackets are chords
     shaft = _part(found, "shedding/cam-shaft")

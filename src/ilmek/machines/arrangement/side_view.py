@@ -59,6 +59,9 @@ BETWEEN_CYLINDERS = 50 * mm
 ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
 
+_UNDER_REDUCER = 140 * mm
+"""The reducer of the lower cylinder above the floor [m]: a foot of the frame of 80 mm has room there; assumed."""
+
 ABOVE_CYLINDER = 50 * mm
 """The frame's columns above the upper cylinder [m]."""
 
@@ -246,7 +249,7 @@ class SideView:
 
     @property
     def column_room(self) -> tuple[float, float]:
-        """Room of the columns along x [m]: outside of all, between housings and reducers of upper and lower cylinders."""
+        """Room of the columns along x [m]: outside of all, between housings and reducers of the cylinders."""
         upper, lower = self.upper, max(self.lower, self.spacer, key=lambda one: -one.at.real)
         behind, before = (max(min(one.radius, _HALF_HOUSING), self.reducer) for one in (upper, lower))
         return upper.at.real + behind, lower.at.real - before
@@ -254,7 +257,7 @@ class SideView:
     @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
-        return self.lower.at.imag - self.roll - ABOVE_FLOOR
+        return self.lower.at.imag - max(self.roll + ABOVE_FLOOR, self.reducer + _UNDER_REDUCER)
 
     @property
     def top(self) -> float:
@@ -384,7 +387,11 @@ def _lower_cylinders(task: "LoomTask", radius: float) -> tuple[RoundPart, RoundP
     roll = rolled(radius, task.params.woven_size[1], pile, task.yarns.warp.diameter)
     made = task.warp_tension
     wide = max(radius, spacer_tube(made.params, radius).outer_radius) if made else radius
-    return *under_the_fell(radius, wide, roll), roll
+    spacer, lower = under_the_fell(radius, wide, roll)
+    if made:  # their reducers, of one size, stand over each other
+        under = spacer.at.imag - 2 * reach_of(winding_reducer(made))
+        lower = RoundPart(complex(lower.at.real, min(lower.at.imag, under)), radius)
+    return spacer, lower, roll
 
 
 def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart:

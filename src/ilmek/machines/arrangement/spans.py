@@ -138,7 +138,7 @@ def _rear(task: "LoomTask") -> float:
     if task.compensator is None or task.warp_tension is None:
         return 0.0
     upper = cylinders(task.warp_tension)[0]
-    return task.compensator.rear + max(upper.outer, upper.seat.side / 2)
+    return task.compensator.rear + max(upper.outer, upper.flange, upper.seat.side / 2)
 
 
 def shed_spans(room: ShedRoom, prime_radius: float, guide_radius: float, shafts: int = 1) -> ShedSpans:

@@ -48,6 +48,9 @@ SAFETY = 2.0
 SWAY = 1 / 1000
 """Allowed deflection of a post or an arm over its length; assumed by this project."""
 
+_FOR_WELDS = 30 * mm
+"""Least distance of two beams beside each other, for the welds at their ends [m]; assumed by this project."""
+
 ARM_WALLS = (3 * mm, 4 * mm, 5 * mm)
 """Walls of the arms, as wide as their axes [m]: of EN 10219-2."""
 
@@ -169,7 +172,7 @@ def _ahead(loom: LoomDesign, frame: LoomFrame) -> float:
     least = rail_ahead(rail, task.drop)
     depth, beam = (rail_middle(loom) + least + loom.side.of_heads.retreated).real, base_section(loom, frame).side
     apart = post_depth(loom, frame) - depth
-    if abs(apart) >= beam:
+    if abs(apart) >= beam + (_FOR_WELDS if apart > 0 else 0.0):
         return least
     return least + (apart if apart >= 0 else beam + apart)
 

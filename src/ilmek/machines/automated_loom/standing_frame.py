@@ -42,7 +42,7 @@ AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
 
 _PACKED, _PAST = 30 * mm, 12 * mm
 """Spacers that are shorter are plates: the welds at both ends of a tube have no room beside each other; how far such a
-plate stands out past a column, for the weld between [m].
+plate stands out past a column where it has room, for the weld between [m].
 """
 
 _LEAST = 0.05 * mm
@@ -200,7 +200,9 @@ def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -
     if gap > _LEAST:
         name, title = f"{one.name}-spacer", f"spacer of the {one.title}"
         if gap < _PACKED:
-            packing = box(section.side, frame.column.side + 2 * _PAST, gap)
+            behind, before = loom.side.column_room
+            wide = min(frame.column.side + 2 * _PAST, before - behind - 2 * ROOM)
+            packing = box(section.side, wide, gap)
             spacer = Part(part_id(name), title, LASER_CUT, shape=packing, material=STEEL, joins=(part.id,))
         else:
             spacer = member(name, title, section, gap)

@@ -263,7 +263,9 @@ def _axis(
     torque, turning = moved * (params.centre_acceleration + GRAVITY) * PULLEY, params.centre_speed / PULLEY
     chosen = smallest_motor(torque, turning, "servo")
     motor = catalogue.motor(CENTRE_MOTOR, "motor of the centre gripper", chosen, torque, turning)
-    upright = placement(across, begin + long / 2, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
+    # Flush with the hanger: nearer to the warps the guide of the followers stands under the axis.
+    end = begin + stroke + max(stroke + HANGER - catalogue.face_of(motor) / 2, 0.0)
+    upright = placement(across, end, under + AXIS, about=(1.0, 0.0, 0.0), angle=2 * UP)
     name, adapter = f"{NAME}/centre-adapter", "adapter of the centre gripper's axis"
     adapters, flanges = catalogue.adapted(name, adapter, motor, AXIS, (upright,))
     yield from adapters

@@ -40,13 +40,17 @@ def eye_bolt_of(loom: LoomDesign) -> EyeBolt:
 
 
 def seats_of_eyes(loom: LoomDesign) -> tuple[tuple[Extent, Corner], ...]:
-    """What carries each eye, and the middle of its plate's lower side [m]: the rear pair first, the left one first."""
+    """What carries each eye, and the middle of its plate's lower side [m]: the rear pair first, the left one first.
+
+    Of several columns and feet beside each other the outermost carry them.
+    """
     near, row = surroundings(loom), eye_bolt_of(loom)
     creel = creel_of(loom) if loom.heads else None
     duct = (0.0, 0.0) if creel is None else (creel.mouth[2] - _aside(creel), creel.mouth[2] + _aside(creel))
+    columns, feet = (near.of(part_id(name)) for name in ("column", "front-foot"))
     return (
-        *((column, _top(column)) for column in near.of(part_id("column"))),
-        *((foot, _free(near, foot, row, duct)) for foot in near.of(part_id("front-foot"))),
+        *((column, _top(column)) for column in (columns[0], columns[-1])),
+        *((foot, _free(near, foot, row, duct)) for foot in (feet[0], feet[-1])),
     )
 
 
