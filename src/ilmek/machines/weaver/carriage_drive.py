@@ -249,7 +249,7 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
     ).with_cure("set fewer heads, or a lower weaver.carriage_acceleration", HEADS_BELT, BELT_CLAMP)
 
 
-_ONE_PIECE = "included in the length above, not cut"
+_ONE_PIECE = "included in that length, not cut"
 
 
 def _belt(name: str, title: str, shape: Shape, wide: float, long: float, data: str) -> Part:  # noqa: PLR0917
