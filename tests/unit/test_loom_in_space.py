@@ -75,7 +75,7 @@ def test_the_frames_members_weigh_what_the_parts_list_states() -> None:
     weighed = sum(part.mass * part.number for part in members)
     assert weighed == pytest.approx(mass, rel=1e-4)  # round ends of brackets are chords
     shaft = _part(found, "shedding/cam-shaft")
-    assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=1e-4)
+    assert volume(shaft.solids[0]) * STEEL.density == pytest.approx(shaft.mass, rel=2e-4)  # chords
 
 
 def test_every_plate_of_the_loom_has_the_volume_of_its_drawing() -> None:
