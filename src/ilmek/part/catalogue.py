@@ -176,9 +176,7 @@ def reducer_face(by: Reducer, row: Motor) -> float:
 def _holes_text(holes: HolePattern) -> str:
     """Number, thread and circle of the holes of a flange."""
     circle_of_holes = in_mm(round(abs(complex(holes.across, holes.along)), 4))
-    return (
-        f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on ⌀{circle_of_holes}"
-    )
+    return f"{holes.number} {'threads' if holes.tapped else 'holes for'} {holes.thread} on ⌀{circle_of_holes}"
 
 
 def _flange_of(row: Motor) -> str:

@@ -25,6 +25,7 @@ from ilmek.carpet.pile import leg_length
 from ilmek.elements.columns import ascending, mid_loaded
 from ilmek.elements.materials import GRAVITY
 from ilmek.errors import LoomError
+from ilmek.machines.arrangement.cylinders import RoundPart, rolled, under_the_fell
 from ilmek.machines.arrangement.spans import (
     BAR,
     LEAF_BEHIND,
@@ -49,12 +50,6 @@ from ilmek.units import deg, mm
 if TYPE_CHECKING:
     from ilmek.machines.beat import BeatPath
     from ilmek.machines.loom_task import LoomTask
-
-SPACER_BELOW = 50 * mm
-"""From the fell to the top of the spacer [m]."""
-
-BETWEEN_CYLINDERS = 50 * mm
-"""Between spacer and full lower cylinder [m]."""
 
 ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
@@ -87,14 +82,6 @@ RETREAT = cmath.exp(-55j * deg)
 
 
 @record
-class RoundPart:
-    """A roller or cylinder: its axis and its radius [m]."""
-
-    at: complex
-    radius: float
-
-
-@record
 class SideBox:
     """A rectangle: its lower corner towards the warps' back, and depth + i height [m]."""
 
@@ -117,10 +104,6 @@ class CamPosition:
 HANDS = complex(200 * mm, 120 * mm)
 """Room of weavers' hands that tie: before the warps, and over the fell [m]; assumed by this project."""
 
-
-GROUND_THICKNESS = 3.0
-"""Thickness of a carpet's ground over the diameter of its warps: wefts, assumed as thick, before and behind them
-[plain weave: Peirce, J. Text. Inst. 28 (1937) T45]."""
 
 _STEPS, _MORE = 65, 1e-4
 """Positions on the heads' retreat, and share of a distance squared that they miss between."""
@@ -402,20 +385,3 @@ def _out_of_reach(heads: HeadsView, lower: RoundPart, reach: float) -> RoundPart
     over = np.sqrt(np.maximum((1 + _MORE) * reach**2 - aside**2, 0.0))
     free = [lower.at.imag, *(corners.imag - over)[np.abs(aside) < reach].tolist()]
     return RoundPart(complex(lower.at.real, min(free)), lower.radius)
-
-
-def rolled(radius: float, length: float, pile_height: float, warp: float) -> float:
-    """Radius of a cylinder with a carpet wound on it [m]; warp: its diameter [m].
-
-    A carpet of length L and thickness t fills the ring pi (R² - r²) = L t.
-
-    >>> round(rolled(0.0, math.pi, 0.7, 0.1), 9)
-    1.0
-    """
-    return math.sqrt(radius**2 + length * (pile_height + GROUND_THICKNESS * warp) / math.pi)
-
-
-def under_the_fell(radius: float, wide: float, roll: float) -> tuple[RoundPart, RoundPart]:
-    """Spacer of a radius `wide`, and lower cylinder of another, with the carpet of a radius `roll` on it [m]."""
-    under = SPACER_BELOW + 2 * wide + BETWEEN_CYLINDERS + roll
-    return RoundPart(complex(-wide, -SPACER_BELOW - wide), wide), RoundPart(complex(-radius, -under), radius)

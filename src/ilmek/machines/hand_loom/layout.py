@@ -12,7 +12,8 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.fillet_welds import TwoSeams, throat_for
-from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR, RoundPart, rolled, under_the_fell
+from ilmek.machines.arrangement.cylinders import RoundPart, rolled, under_the_fell
+from ilmek.machines.arrangement.side_view import ABOVE_CYLINDER, ABOVE_FLOOR
 from ilmek.machines.automated_loom.brackets import arm_stress, screw_bores
 from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, column_checks

@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import ComplexArray, Float
-from ilmek.machines.arrangement.side_view import RoundPart
+from ilmek.machines.arrangement.cylinders import RoundPart
 from ilmek.machines.automated_loom.cyclogram import EVEN, ODD
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.creel import PACKAGE
