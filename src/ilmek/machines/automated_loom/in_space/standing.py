@@ -1,6 +1,7 @@
 """What stands, and what turns with the warps: frame, heads' rail, cylinders, back rest, carpet roll, motors."""
 
-from ilmek.machines.arrangement.side_view import RETREAT, RoundPart
+from ilmek.machines.arrangement.cylinders import RoundPart
+from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.cyclogram import HEADS, TAKE_UP
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.in_space.maker import (
