@@ -301,8 +301,8 @@ def construction(
     """
     axes, lines = pin_axes(machine.mechanism), slide_lines(motion)
     loads, members = joint_loads(machine.mechanism, axes, run), link_members(machine)
-    guides = {line.name: guide_for(line, members[line.body], loads) for line in lines}
     studs = first_studs(machine, axes, members, loads)
+    guides = {line.name: guide_for(line, members[line.body], loads, studs.values()) for line in lines}
     start = Layering({body: at for at, body in enumerate((GROUND, *machine.mechanism.moving))}, False, 0)
     built = Construction(name, machine, motion, axes, lines, members, studs, guides, loads, start)
     moved = paths(motion)

@@ -10,7 +10,8 @@ at the foot z0 of the journal (d) and of the collar (the shank's d). Without for
 standard sizes next below a third of the least width of its links, which is also the least with them.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -19,13 +20,14 @@ from ilmek.elements.bearing_table import RollingBearing
 from ilmek.elements.bearings import ROLLING_BEARINGS, find_bearing
 from ilmek.elements.hubs import bore_for, hub_for
 from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide
+from ilmek.elements.machine_screws import SOCKET_SCREWS
 from ilmek.elements.pin_joints import PIN_DIAMETERS, mean_pressure, pin_bending, pin_shear
 from ilmek.elements.plates import PIN_SHARE
 from ilmek.elements.retaining_rings import RETAINING_RINGS, RetainingRing, retaining_ring
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.machines.own_linkage.axes import JointLoads, PinAxis, SlideLine
 from ilmek.records import record
-from ilmek.units import mm
+from ilmek.units import mm, um
 
 WIDTH_SHARE, SLENDER, WIDE = 0.2, 6 * mm, 40 * mm
 """Width of a link that is not given: a fifth of the shortest one, within these bounds; assumed by this project."""
@@ -53,6 +55,9 @@ KEYED = 6 * mm
 
 BUSHED = 10 * mm
 """Diameter below which a driven shaft runs in bushes: there are no bearings of the table."""
+
+BESIDE = 0.5 * mm
+"""Between the head of a carriage's screw and the bore of a pin, at least [m]; assumed by this project."""
 
 SAFE_LOAD = 2.0
 """Static load rating of a carriage over its load; makers ask for 1.5 to 3."""
@@ -196,13 +201,19 @@ def thicker(stud: StudSize, *, journal: bool) -> StudSize:
     return replace(stud, journal=thick, shank=shank)
 
 
-def guide_for(line: SlideLine, member: FlatMember, loads: JointLoads) -> LinearGuide:
-    """The guide of a slide: the smallest that bears twice its force, with a carriage as wide as half the link."""
+def guide_for(line: SlideLine, member: FlatMember, loads: JointLoads, studs: Iterable[StudSize]) -> LinearGuide:
+    """The guide of a slide: the smallest that bears twice its force, with a carriage as wide as half the link, and its
+    screws' heads beside the bore of a pin over it.
+    """
     force, _ = loads.slides.get(line.name, (0.0, 0.0))
-    return next(
-        (row for row in LINEAR_GUIDES if row.static >= SAFE_LOAD * force and row.block >= member.width / 2),
-        LINEAR_GUIDES[-1],
-    )
+    over = (stud for stud in studs if abs(stud.axis.points.get(line.body, math.inf) - line.at) < um)
+    bore = max((max(stud.outer, stud.shank) for stud in over), default=0.0)
+
+    def suits(row: LinearGuide) -> bool:
+        beside = abs(complex(*row.holes)) - SOCKET_SCREWS[row.block_screw].sink - bore
+        return row.static >= SAFE_LOAD * force and row.block >= member.width / 2 and (not bore or beside > 2 * BESIDE)
+
+    return next(filter(suits, LINEAR_GUIDES), LINEAR_GUIDES[-1])
 
 
 @record
