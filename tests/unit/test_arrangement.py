@@ -260,7 +260,7 @@ def test_machines_are_designed_for_the_lengths_that_the_view_reports(settings: d
     """But for a compensator that needs more room than was kept for it."""
     made = loom(**settings)
     assert made.task.side is not None
-    tolerance = 0.02 if "shedding.shafts" in settings else 1e-9
+    tolerance = 0.02 if "shedding.shafts" in settings else 1e-3  # the beams' flange is known after the lengths
     for length in (made.task.side.warp_length, made.warp_tension.params.free_length, made.shedding.params.warp_length):
         assert length == pytest.approx(made.side.warp_length, rel=tolerance)
     assert made.shedding.params.front_span == pytest.approx(made.side.front_span)
