@@ -13,6 +13,23 @@ from ilmek.linkage.structure import plan
 BEAT_UP = (0.300, 0.0597, 0.2007, 0.2308)
 
 
+CRANK_ROCKER = """\
+inputs = { A = "crank" }
+branches = { C = 1 }
+[bodies]
+ground.points = { A = [0, 0], D = ["300mm", 0] }
+crank = { length = "60mm", mass = "0.2kg" }
+coupler = { length = "250mm", mass = "0.6kg" }
+rocker = { length = "200mm", mass = "0.5kg" }
+[joints]
+A.pin = ["ground", "crank"]
+B.pin = ["crank", "coupler"]
+C.pin = ["coupler", "rocker"]
+D.pin = ["ground", "rocker"]
+"""
+"""Text of a file: a crank-rocker with masses; keys of the top stand before it, tables behind it."""
+
+
 def six_bar_with_moving_guide() -> Mechanism:
     """A crank-rocker whose coupler drives a link and a block on a slanting line of the rocker, set at an angle."""
     ground, crank, coupler, rocker = 1.0, 0.3, 0.9, 0.8

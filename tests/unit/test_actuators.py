@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.support.mechanisms import CRANK_ROCKER
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
@@ -105,6 +106,19 @@ def test_a_servo_is_chosen_at_the_motor_of_the_file() -> None:
     assert found.run.forces is not None
     assert found.run.forces.driver == "A"
     assert found.run.forces.drive_torque_max == pytest.approx(np.max(np.abs(found.run.forces.forces.effort("A"))))
+
+
+def test_an_actuator_at_its_dead_centre_fails_a_check_and_gives_no_force() -> None:
+    """Coupler and rocker of a crank-rocker turn back against each other twice in a turn of the crank."""
+    file = parse_mechanism('actuators = { C = "torque" }\ngravity = "9.81m/s^2"\n' + CRANK_ROCKER)
+    found = analysis(run(file, MotionRequest(fixed={}, speed="1rad/s")))
+    assert [(check.name, check.value) for check in found.checks if not check.ok] == [("dead centres of actuator C", 2)]
+    assert found.run.forces is not None
+    effort = found.run.forces.forces.effort("C")
+    assert np.isnan(effort[-1])
+    assert np.nanmax(np.abs(effort)) < 1e3
+    apart = run(file, MotionRequest(fixed={}, speed="1rad/s", over="20deg..160deg"))
+    assert all(check.ok for check in analysis(apart).checks)
 
 
 @pytest.mark.parametrize(

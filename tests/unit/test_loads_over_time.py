@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from tests.support.mechanisms import CRANK_ROCKER
 
 from ilmek.dynamics.input_loads import TabulatedLoad
 from ilmek.dynamics.loads import Torque
@@ -11,24 +12,7 @@ from ilmek.io.mechanism_file import MechanismFile, parse_mechanism
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import MechanismRun, run
 
-LINKAGE = """\
-name = "gravity"
-gravity = "9.81m/s^2"
-inputs = { A = "crank" }
-branches = { C = 1 }
-[bodies]
-ground.points = { A = [0, 0], D = ["300mm", 0] }
-crank = { length = "60mm", mass = "0.2kg" }
-coupler = { length = "250mm", mass = "0.6kg" }
-rocker = { length = "200mm", mass = "0.5kg" }
-[joints]
-A.pin = ["ground", "crank"]
-B.pin = ["crank", "coupler"]
-C.pin = ["coupler", "rocker"]
-D.pin = ["ground", "rocker"]
-[loads]
-p = { force = "FORCE", direction = "0deg", on = ["rocker", "C"]TABLE }
-"""
+LOAD = '[loads]\np = { force = "FORCE", direction = "0deg", on = ["rocker", "C"]TABLE }\n'
 
 WHEEL = """\
 name = "wheel"
@@ -46,7 +30,9 @@ duration = "3s"
 
 
 def linkage(force: str = "100N", table: str = "") -> MechanismFile:
-    return parse_mechanism(LINKAGE.replace("FORCE", force).replace("TABLE", table))
+    return parse_mechanism(
+        'gravity = "9.81m/s^2"\n' + CRANK_ROCKER + LOAD.replace("FORCE", force).replace("TABLE", table)
+    )
 
 
 def torque(file: MechanismFile, **request: object) -> tuple[np.ndarray, MechanismRun]:
@@ -96,7 +82,7 @@ def test_a_wheel_gains_the_impulse_of_a_torque_over_time() -> None:
     ],
 )
 def test_a_table_over_time_that_contradicts_itself_is_refused_with_its_line(table: str, message: str) -> None:
-    with pytest.raises(MechanismError, match=f"line 16, loads.p.*{message}"):
+    with pytest.raises(MechanismError, match=f"line 15, loads.p.*{message}"):
         linkage(table=f", table = {table}")
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
-from tests.support.mechanisms import pushed_slider_crank, two_motors
+from tests.support.mechanisms import CRANK_ROCKER, pushed_slider_crank, two_motors
 
 from ilmek.cli import main
 from ilmek.dynamics import own_forward
@@ -337,22 +337,10 @@ def test_a_mechanism_without_masses_says_what_to_add() -> None:
     assert made.warnings == ("motion only: for forces give bodies a mass (mass, centre, moment), or the machine loads",)
 
 
-FAST = """
-inputs = { A = "crank" }
-branches = { C = 1 }
-[bodies]
-ground.points = { A = [0, 0], D = ["300mm", 0] }
-crank = { length = "60mm", mass = "0.2kg" }
-coupler = { length = "250mm", mass = "0.6kg" }
-rocker = { length = "200mm", mass = "0.5kg" }
-[joints]
-A.pin = ["ground", "crank"]
-B.pin = ["crank", "coupler"]
-C.pin = ["coupler", "rocker"]
-D.pin = ["ground", "rocker"]
-[forward]
+FAST = f"""
+{CRANK_ROCKER}[forward]
 duration = "0.5s"
-motor = { torque = "300N*m" }
+motor = {{ torque = "300N*m" }}
 """
 
 

@@ -56,6 +56,10 @@ def add(to: Needs, poses: PoseBlock, body: str, pull: ForceAndMoment, at: Comple
         to[body] = ForceAndMoment(to[body].force + pull.force, to[body].moment + moment)
 
 
+STILL = 1e-9
+"""Motion of an actuator over that of the input, relative to its greatest, at which it stands still: a dead centre."""
+
+
 def loaded(poses: PoseBlock, needed: Needs, efforts: Mapping[str, FloatArray]) -> Needs:
     """The needs under efforts in joints [N m; N]: on the joint's `on` body, and the opposite on the other; see `drive`.
 
@@ -74,7 +78,7 @@ def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
     """Forces [N] and moments [N m] of all joints, including the drive efforts, one value per sample.
 
     poses  the block of samples      needed  of `needs`
-    The values are inf or NaN where the equations are singular, and where the actuators do not move the inputs.
+    The values are inf or NaN where the equations are singular, NaN where the actuators stand still while inputs move.
     """
     pulls = _pulls_by_inputs(poses, needed)
     if not poses.actuators:
@@ -83,6 +87,8 @@ def joint_pulls(poses: PoseBlock, needed: Needs) -> Pulls:
     nothing = {body: ForceAndMoment(0j, 0.0) for body in needed}
     responses = [_response(poses, name, nothing, samples) for name in poses.actuators]
     matrix = np.stack([_input_efforts(poses, response, samples) for response in responses], axis=-1)
+    size = np.abs(np.linalg.det(matrix))
+    matrix[size <= STILL * np.fmax.reduce(size, initial=0.0)] = np.nan
     efforts = solve_many(matrix, -_input_efforts(poses, pulls, samples))
     for response, effort in zip(responses, efforts.T, strict=True):
         pulls = {

@@ -131,4 +131,4 @@ def throat_for(force: float, wall: float, thickest: float = 0.0) -> float:
     largest = largest_throat(wall) + _ROUNDING
     offered = [throat for throat in THROATS if throat <= largest] or [largest // _FINE * _FINE or largest]
     least = least_throat(wall, max(wall, thickest)) - _ROUNDING
-    return next((one for one in offered if one >= least and force <= STRENGTH * one), offered[-1])
+    return next((throat for throat in offered if throat >= least and force <= STRENGTH * throat), offered[-1])

@@ -68,7 +68,7 @@ def annealed_plan(
         part = progress.part(number / ROUNDS, (number + 1) / ROUNDS)
         whole = search.run(moves // ROUNDS, HOT * scale / 2**number, COLD * scale, part, ended)
         floors = search.best_floors
-        best = min(best, left_shifted(factory, search.best, floors), key=lambda found: found.merit)
+        best = min(best, left_shifted(factory, search.best, floors), key=lambda made: made.merit)
         if not whole:
             break
     return best, whole
@@ -240,12 +240,12 @@ class _Annealing:
             least = floors.get(job)
             free = max(free, self.floors.get(job, 0) if least is None else least)
             key = loom, job, free, same
-            found = timed.get(key)
-            if found is None:
-                found = self._timed(loom, job, free, same=same)
+            carpet = timed.get(key)
+            if carpet is None:
+                carpet = self._timed(loom, job, free, same=same)
                 if len(timed) < _KEPT:
-                    timed[key] = found
-            free, cost = found
+                    timed[key] = carpet
+            free, cost = carpet
             energy += cost
             ends.append(free)
             energies.append(energy)

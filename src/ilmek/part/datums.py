@@ -18,7 +18,7 @@ def related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     datums: dict[str, str] = {}
     if seats:
         axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
-        datums = {one.name: letter for one, letter in zip(dict.fromkeys(axis), "AB", strict=False)}
+        datums = {seat.name: letter for seat, letter in zip(dict.fromkeys(axis), "AB", strict=False)}
         return [_turning_true(feature, datums) for feature in features]
     bores = [feature for feature in features if feature.kind is FeatureKind.BORE and feature.duty in _LINKED]
     if not _parallel(bores):
@@ -27,19 +27,18 @@ def related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     for bore in bores:  # what is bored in one line has one datum
         line = next((line for line in axes if _in_line(line[0], bore)), None)
         axes.append([bore]) if line is None else line.append(bore)
-    if len(axes) < _TWO:
+    if len(axes) == 1:
         return list(features)
-    datums = {one.name: letter for line, letter in zip(axes, "AB", strict=False) for one in line}
+    datums = {bore.name: letter for line, letter in zip(axes, "AB", strict=False) for bore in line}
     return [_located(feature, datums) if feature in bores else feature for feature in features]
 
 
 _LINKED = {FitDuty.RUNNING, FitDuty.FIXED, FitDuty.HOUSING, FitDuty.BEARING}
-_TWO = 2
 
 
 def _parallel(features: Sequence[ToleratedFeature]) -> bool:
     along = [feature.position.rotation[:, 2] for feature in features]
-    return all(bool(np.abs(np.cross(one, along[0])).max() < um) for one in along)
+    return all(bool(np.abs(np.cross(axis, along[0])).max() < um) for axis in along)
 
 
 def _in_line(one: ToleratedFeature, other: ToleratedFeature) -> bool:

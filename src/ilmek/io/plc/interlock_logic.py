@@ -63,7 +63,7 @@ def interlock_unit(heads: int, limits: TensionLimits) -> PlcUnit:
     ]
     suspending = (number for number, rule in enumerate(INTERLOCKS) if rule.reaction is Reaction.SUSPEND)
     lines.append(f"Slack := {' OR '.join(f'NOT Satisfied[{number}]' for number in suspending)};")
-    lines.append(f"Contradiction := {' OR '.join(_contradictory(one) for one in CONTRADICTIONS)};")
+    lines.append(f"Contradiction := {' OR '.join(_contradictory(pair) for pair in CONTRADICTIONS)};")
     for name, axes in OPERATIONS.items():
         lines += _operation_lines(name, axes, heads)
     inner = (

@@ -145,7 +145,7 @@ END_IF;"""
 
 
 def questions(size: PlcSize) -> str:
-    """Operations that may be in the carpet, asked for before weaving goes on; an answer counts when it was 0 before."""
+    """Operations that may be in the carpet, resolved before weaving goes on; an answer counts when it was 0 before."""
     asking = " OR ".join(f"StateCurrent = {int(state)}" for state in sorted(ASKING))
     return f"""\
 (* uncertain operations *)

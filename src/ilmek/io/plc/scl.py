@@ -20,7 +20,7 @@ def scl_source(project: PlcProject, rows: list[IoRow]) -> str:
     names = {structure.name for structure in project.structures} | {unit.name for unit in project.units}
     texts = ["".join(f"// {remark}\n" for remark in project.remarks)]
     for structure in project.structures:
-        members = "\n".join(f"{2 * INDENT}{_declared(one)}" for one in structure.variables)
+        members = "\n".join(f"{2 * INDENT}{_declared(own)}" for own in structure.variables)
         texts.append(
             f'TYPE "{structure.name}"\nVERSION : 0.1\n{INDENT}STRUCT\n{members}\n{INDENT}END_STRUCT;\nEND_TYPE\n'
         )
@@ -31,8 +31,8 @@ def scl_source(project: PlcProject, rows: list[IoRow]) -> str:
 
 
 def _declared(variable: PlcVariable) -> str:
-    given = f" := {initial_text(variable.initial)}" if variable.initial else ""
-    return f"{variable.name} : {_type(variable)}{given}; // {variable.meaning}".removesuffix(" // ")
+    initial = f" := {initial_text(variable.initial)}" if variable.initial else ""
+    return f"{variable.name} : {_type(variable)}{initial}; // {variable.meaning}".removesuffix(" // ")
 
 
 def _type(variable: PlcVariable) -> str:
@@ -46,7 +46,7 @@ def _unit(unit: PlcUnit, names: set[str]) -> str:
     head = f'{unit.kind} "{unit.name}"' + (f" : {_ELEMENTARY[unit.returns]}" if unit.returns else "")
     lines = [head, f"TITLE = {unit.meaning}", "VERSION : 0.1"]
     for section in unit.sections:
-        lines += [_section(section, unit), *(f"{INDENT}{_declared(one)}" for one in section.variables), "END_VAR"]
+        lines += [_section(section, unit), *(f"{INDENT}{_declared(own)}" for own in section.variables), "END_VAR"]
     local = {variable.name for variable in unit.variables} | ({unit.name} if unit.returns else set())
     return "\n".join((*lines, "BEGIN", indented(scl_body(unit.body, local, names).rstrip()), f"END_{unit.kind}", ""))
 

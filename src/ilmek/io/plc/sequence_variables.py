@@ -161,7 +161,7 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         *(PlcVariable(name, flags, meaning) for name, meaning in (
             ("Order", "the station is to work"), ("Accepted", "it has accepted the order"),
             ("Settling", "its signals of the last order have not fallen yet"), ("Done", "its report"),
-            ("Asked", "its operation is asked for"), ("Released", "the answer was 0 since then"))),
+            ("Asked", "its operation may be in the carpet"), ("Released", "the answer was 0 since then"))),
         PlcVariable("Status", numbers, "its report"),
         PlcVariable("Answer", numbers, "the answer about its operation"),
         PlcVariable("Elapsed", numbers, "scans since its order began or ended"),

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ilmek.dynamics.equations import STILL
+from ilmek.dynamics.inverse import joint_rate
 from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
@@ -14,6 +16,8 @@ from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.solve import solve
+from ilmek.linkage.status import Status
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
@@ -59,7 +63,7 @@ class Analysis:
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
         ended = self.forward.checks if self.forward else ()
         failed = tuple(test for test in self.self_tests if not test.ok)
-        return (*self._closes, *self._defined, *locked, *strength, *ended, *started, *servo, *failed)
+        return (*self._closes, *self._defined, *self._driven, *locked, *strength, *ended, *started, *servo, *failed)
 
     @property
     def _closes(self) -> tuple[Check, ...]:
@@ -83,6 +87,20 @@ class Analysis:
         source = f"velocities and forces exist where the drive determines the motion{where}"
         cure = "change a link's length, drive another body, or keep away from it: --over FROM..TO"
         return (at_most("dead centres in its range", len(values), 0, "1", source).with_cure(cure),)
+
+    @property
+    def _driven(self) -> tuple[Check, ...]:
+        """Whether an actuator that moves the only input drives it everywhere: at a dead centre no effort of it does."""
+        run, names = self.run, self.run.machine.actuators
+        if run.running is None or len(names) != 1:
+            return ()
+        unit = solve(run.plan, run.at(run.values), {run.running.name: 1.0})
+        moved = joint_rate(unit, names[0])[unit.status == Status.OK]
+        sign = np.where(np.abs(moved) > STILL * np.abs(moved).max(initial=0.0), np.sign(moved), 0.0)
+        dead = int(np.count_nonzero(sign[1:] * sign[:-1] < 0) + np.count_nonzero((sign == 0) & (np.roll(sign, 1) != 0)))
+        source = "its joint moves wherever the input does"
+        cure = "put the motor at another joint, or keep away from there: --over FROM..TO"
+        return (at_most(f"dead centres of actuator {names[0]}", dead, 0, "1", source).with_cure(cure),)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:

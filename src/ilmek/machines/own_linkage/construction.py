@@ -313,7 +313,9 @@ def construction(
         weak = _strengthened(built)
         if not weak:
             break
-        built = replace(built, studs={**built.studs, **weak})
+        studs = {**built.studs, **weak}
+        guides = {line.name: guide_for(line, members[line.body], loads, studs.values()) for line in lines}
+        built = replace(built, studs=studs, guides=guides)
     _check_bores(built)
     return built
 

@@ -203,17 +203,14 @@ def thicker(stud: StudSize, *, journal: bool) -> StudSize:
 
 def guide_for(line: SlideLine, member: FlatMember, loads: JointLoads, studs: Iterable[StudSize]) -> LinearGuide:
     """The guide of a slide: the smallest that bears twice its force, with a carriage as wide as half the link, and its
-    screws' heads beside the bore of a pin over it.
+    screws' heads beside the bore of a pin over it; where none has these, without.
     """
     force, _ = loads.slides.get(line.name, (0.0, 0.0))
+    strong = [row for row in LINEAR_GUIDES if row.static >= SAFE_LOAD * force and row.block >= member.width / 2]
     over = (stud for stud in studs if abs(stud.axis.points.get(line.body, math.inf) - line.at) < um)
-    bore = max((max(stud.outer, stud.shank) for stud in over), default=0.0)
-
-    def suits(row: LinearGuide) -> bool:
-        beside = abs(complex(*row.holes)) - SOCKET_SCREWS[row.block_screw].sink - bore
-        return row.static >= SAFE_LOAD * force and row.block >= member.width / 2 and (not bore or beside > 2 * BESIDE)
-
-    return next(filter(suits, LINEAR_GUIDES), LINEAR_GUIDES[-1])
+    bore = max((max(stud.outer, stud.shank) + 2 * BESIDE for stud in over), default=0.0)
+    beside = (row for row in strong if abs(complex(*row.holes)) > bore + SOCKET_SCREWS[row.block_screw].sink)
+    return next(beside if bore else iter(strong), (strong or LINEAR_GUIDES[-1:])[0])
 
 
 @record

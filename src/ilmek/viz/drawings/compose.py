@@ -244,7 +244,7 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
 def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
     lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
-    ends = [one.nominal for one in part.features if one.kind is FeatureKind.JOURNAL and one.duty in _CHAMFERED]
+    ends = [own.nominal for own in part.features if own.kind is FeatureKind.JOURNAL and own.duty in _CHAMFERED]
     if ends:
         size = next(size for most, size in _CHAMFERS if min(ends) <= most)
         lines.append(Sentence("sheet.chamfers", size=millimetres(size)))

@@ -95,14 +95,14 @@ def _of_devices(loom: LoomDesign, far: Mapping[str, tuple[float, ...]]) -> Itera
     for name, own in levels.items():
         strips = tuple(dict.fromkeys(level.strip for level in own))
         section = LEAST_POWER if strips == ("X2",) else LEAST_SIGNAL
-        wires = len([level for level in own if level.piece < _TWO])
-        wires += len(
-            [level for level in own if level.piece == 0 and len(strips) > 1 and strips[-1] == "X3"]
-        )  # a contact
+        # Of one piece, or of all in series; a contact of a safety device has two wires.
+        contact = len(strips) > 1 and strips[-1] == "X3"
+        wires = sum((level.piece <= 1) + (contact and level.piece == 0) for level in own)
         yield Cable(", ".join(strips), signs.get(name, ""), wires, section, False, far[name])
 
 
-_BUS, _TWO = 4, 2
+_BUS = 4
+"""Wires of the bus of the modules on the heads."""
 
 
 def routes(loom: LoomDesign) -> dict[str, tuple[float, ...]]:
