@@ -12,7 +12,7 @@ from study_targets import FunctionTarget
 from ilmek.errors import OutputError, ParameterError
 from ilmek.progress import Cancelled, Progress
 from ilmek.studies.outcome import Question
-from ilmek.studies.recorder import Recorder
+from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
 from ilmek.studies.store import StudyFile
 from ilmek.studies.variable import Variable
@@ -27,7 +27,7 @@ def carried_out(path: Path, count: int = 700, *, workers: int = 1, stop: float =
     progress = Progress(lambda _, share: shares.append(share), lambda: bool(shares) and shares[-1] > stop)
     question = Question(FunctionTarget(function), ("f",), time_limit=0.2)
     with StudyFile(path, {"study": function}, ["x", "y"], ["f"]) as file, Workers(question, workers) as running:
-        recorder = Recorder(file, VARIABLES, running, count, progress)
+        recorder = DesignRecorder(file, VARIABLES, running, count, progress)
         try:
             recorder(sampled(VARIABLES, "sobol", count, 3))
         except Cancelled:
@@ -74,7 +74,7 @@ def test_designs_that_cannot_be_made_are_rows_with_their_reason(
     question = Question(FunctionTarget("bad"), ("f",), time_limit=0.1)
     points = np.array([[x, 0.0] for x in (0.1, 0.25, 0.35, 0.45, 0.7, 0.9)])
     with StudyFile(tmp_path / "s.sqlite", {}, ["x", "y"], ["f"]) as file, Workers(question, workers) as running:
-        rows = Recorder(file, VARIABLES, running, len(points))(points)
+        rows = DesignRecorder(file, VARIABLES, running, len(points))(points)
         statuses = {status: reason for status, reason, _ in file.reasons()}
     assert statuses.keys() == {"refused", "fault", "timeout"} | ({"died"} if workers > 1 else set())
     assert (statuses["refused"], statuses["fault"]) == ("cannot close", "ZeroDivisionError: a fault")
@@ -95,12 +95,10 @@ def test_files_of_others_are_refused(tmp_path: Path) -> None:
     (tmp_path / "text.sqlite").write_text("no database, but long enough to be read as its header" * 30)
     with pytest.raises(OutputError, match="not a database"):
         carried_out(tmp_path / "text.sqlite", 10)
-    with (
-        StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"]) as file,
-        pytest.raises(OutputError, match="locked"),
-    ):
+    with StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"]) as file:
         assert len(file) == 0
-        StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"])
+        with pytest.raises(OutputError, match="locked"):
+            StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"])
 
 
 def test_a_file_with_other_designs_is_refused(tmp_path: Path) -> None:
@@ -120,5 +118,5 @@ def test_a_full_disc_is_an_error_that_keeps_what_is_there(tmp_path: Path) -> Non
         file._base.execute(f"PRAGMA max_page_count = {file._base.execute('PRAGMA page_count').fetchone()[0]}")
         points = np.full((5000, 2), 0.7)
         with Workers(Question(FunctionTarget("bad"), ("f",))) as running, pytest.raises(OutputError, match="full"):
-            Recorder(file, VARIABLES, running, 1)(np.vstack([sampled(VARIABLES, "sobol", 10, 3), points]))
+            DesignRecorder(file, VARIABLES, running, 1)(np.vstack([sampled(VARIABLES, "sobol", 10, 3), points]))
         assert len(file) % 256 == 10

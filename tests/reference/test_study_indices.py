@@ -12,7 +12,7 @@ from ilmek.num.pareto import front
 from ilmek.studies.fronts import evolve
 from ilmek.studies.optimum import optimum
 from ilmek.studies.outcome import Question
-from ilmek.studies.recorder import Recorder
+from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
 from ilmek.studies.sensitivity import local, morris, sobol
 from ilmek.studies.store import StudyFile
@@ -21,10 +21,12 @@ from ilmek.studies.variable import NORMAL, Variable
 from ilmek.studies.workers import Workers
 
 
-def recorded(tmp_path: Path, function: str, variables: tuple[Variable, ...], results: tuple[str, ...]) -> Recorder:
+def recorded(
+    tmp_path: Path, function: str, variables: tuple[Variable, ...], results: tuple[str, ...]
+) -> DesignRecorder:
     """A recorder of a function's designs."""
     file = StudyFile(tmp_path / "s.sqlite", {}, [v.name for v in variables], results)
-    return Recorder(file, variables, Workers(Question(FunctionTarget(function), results)), 1)
+    return DesignRecorder(file, variables, Workers(Question(FunctionTarget(function), results)), 1)
 
 
 def ranges(number: int, low: float, high: float) -> tuple[Variable, ...]:

@@ -124,7 +124,8 @@ def command(
     order = None if parts_to is None else WorkshopOrder(parts_to, tolerance, issue_of(issued))
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         write_parts = workshop_writer(order, call.outputs)
-        moved = run(read_mechanism(file, read_settings(values)), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
+        request = MotionRequest(_fixed(fixed), over, speed, steps)
+        moved = run(read_mechanism(file, read_settings(values)), request, call.progress)
         drawn = not (page_to is None and animation_to is None)
         if order is None and space_to is None:
             found = analysis(moved, call.progress)

@@ -37,13 +37,17 @@ follow: uniform, normal, triangular).
 
 @click.command(epilog=EXAMPLES)
 @click.argument("target", metavar="MACHINE|FILE.toml")
-@click.option("--vary", multiple=True, metavar="NAME=RANGE", help="Vary a parameter, or an entry of [values] of a file.")
+@click.option(
+    "--vary", multiple=True, metavar="NAME=RANGE", help="Vary a parameter, or an entry of [values] of a file."
+)
 @click.option("--set", "settings", multiple=True, metavar="NAME=VALUE", help="Set a parameter that does not vary.")
 @click.option("--goal", "goals", multiple=True, metavar="[most] RESULT", help="A result to make least, or most.")
 @click.option("--hold", "holds", multiple=True, metavar="'RESULT >= VALUE'", help="A limit, beside the checks.")
 @click.option("--record", "recorded", multiple=True, metavar="RESULT", help="A further result to keep of each design.")
 @click.option("--method", type=click.Choice(METHODS), default="sweep", show_default=True, help="What is done.")
-@click.option("--sampling", type=click.Choice(SAMPLINGS), default="sobol", show_default=True, help="Designs of a sweep.")
+@click.option(
+    "--sampling", type=click.Choice(SAMPLINGS), default="sobol", show_default=True, help="Designs of a sweep."
+)
 @click.option("--samples", type=click.IntRange(1), metavar="N", help="Number of designs; default: by the method.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed of all random numbers.")
 @click.option("--over", default="", metavar="FROM..TO", help="Range of a mechanism's driving input.")
@@ -51,7 +55,9 @@ follow: uniform, normal, triangular).
 @click.option("--workers", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 @text_option("--cluster", "ADDRESS", "Evaluate on a Dask cluster (extra cluster), like tcp://host:8786.")
 @text_option("--time-limit", "TIME", "Longest time of a design, like 30s; a longer one is a row with that reason.")
-@file_option("--out", "FILE.sqlite", "Keep all designs in a results file (SQLite), also of a study that is interrupted.")
+@file_option(
+    "--out", "FILE.sqlite", "Keep all designs in a results file (SQLite), also of a study that is interrupted."
+)
 @click.option("--resume", is_flag=True, help="Go on with the results file of --out.")
 @file_option("--csv", "FILE.csv", "Write the designs as a table, SI and radians.", "csv_to")
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
@@ -142,4 +148,3 @@ def _require_file(out: Path | None, resume: bool, force: bool) -> None:
         out.unlink()
     if not out.parent.is_dir():
         raise OutputError(f"--out {out}: there is no folder {out.parent}", do="make it first")
-

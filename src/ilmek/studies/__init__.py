@@ -1,1 +1,1 @@
-"""Design studies: sweeps, sensitivities, tolerances and optima of anything that turns values into numbers and checks."""
+"""Design studies: sweeps, sensitivities, tolerances and optima of whatever makes numbers of values."""

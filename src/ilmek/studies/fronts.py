@@ -1,6 +1,6 @@
 """Several goals: the front of designs of which none is better in every goal, by NSGA-II (pymoo), and its knee."""
 
-from typing import Any
+from importlib import import_module
 
 import numpy as np
 
@@ -23,21 +23,22 @@ def evolve(variables: tuple[Variable, ...], goals: int, judge: Judge, count: int
     without the extra.
     """
     try:
-        from pymoo.algorithms.moo.nsga2 import NSGA2
-        from pymoo.core.problem import Problem
-        from pymoo.core.termination import NoTermination
+        nsga2, problems = import_module("pymoo.algorithms.moo.nsga2"), import_module("pymoo.core.problem")
+        terminations = import_module("pymoo.core.termination")
     except ImportError:
-        raise ParameterError("a front of several goals needs the extra study", do="pip install 'ilmek[study]'") from None
+        raise ParameterError(
+            "a front of several goals needs the extra study", do="pip install 'ilmek[study]'"
+        ) from None
     size = max(8, min(MEMBERS, count // 4))
-    problem = Problem(n_var=len(variables), n_obj=goals, n_ieq_constr=1, xl=0.0, xu=1.0)
-    algorithm: Any = NSGA2(pop_size=size)
-    algorithm.setup(problem, termination=NoTermination(), seed=seed, verbose=False)
+    problem = problems.Problem(n_var=len(variables), n_obj=goals, n_ieq_constr=1, xl=0.0, xu=1.0)
+    algorithm = nsga2.NSGA2(pop_size=size)
+    algorithm.setup(problem, termination=terminations.NoTermination(), seed=seed, verbose=False)
     for _ in range(max(count // size, 1)):
         members = algorithm.ask()
         unit = members.get("X")
-        points = np.column_stack([_value(v, unit[:, n]) for n, v in enumerate(variables)])
+        points = np.column_stack([v.across(unit[:, n]) for n, v in enumerate(variables)])
         values, margins = judge(points)
-        made = np.isfinite(values).all(axis=1)
+        made = np.asarray(np.isfinite(values).all(axis=1))
         members.set("F", np.where(made[:, None], values, LARGE))
         members.set("G", np.minimum(violation(margins, made), HOPELESS)[:, None])
         members.set("H", np.zeros((len(unit), 0)))
@@ -46,14 +47,8 @@ def evolve(variables: tuple[Variable, ...], goals: int, judge: Judge, count: int
         algorithm.tell(infills=members)
 
 
-def _value(variable: Variable, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
-    if variable.continuous:
-        return variable.low + share * (variable.high - variable.low)
-    return np.minimum(np.floor(variable.low + share * (variable.high - variable.low + 1)), variable.high)
-
-
 def knee(costs: Float[np.ndarray, "members goals"]) -> int:
-    """The member of a front that is farthest from the plane through its extremes towards the ideal: sum of scaled goals.
+    """The knee of a front: the member of the least sum of goals, each scaled to its range over the front.
 
     >>> knee(np.array([[0.0, 1.0], [0.2, 0.2], [1.0, 0.0]]))
     1

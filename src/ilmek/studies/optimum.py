@@ -9,6 +9,7 @@ what a limit costs. A result is taken only if it is better and every check of it
 from collections.abc import Callable
 
 import numpy as np
+from scipy.optimize import NonlinearConstraint, differential_evolution, minimize
 
 from ilmek.arrays import Float
 from ilmek.records import record
@@ -52,13 +53,11 @@ class Optimum:
 def violation(margins: Float[np.ndarray, "n checks"], made: np.ndarray) -> Float[np.ndarray, " n"]:
     """The sum of what the checks of each design miss; 0: every check holds."""
     missed = np.where(np.isnan(margins), 0.0, np.minimum(margins, 0.0)).clip(-1e6)
-    return np.where(made, -missed.sum(axis=1), HOPELESS)
+    return np.asarray(np.where(made, -missed.sum(axis=1), HOPELESS))
 
 
 def optimum(variables: tuple[Variable, ...], judge: Judge, count: int, seed: int) -> Optimum:
     """The design of least goal of which every check holds, from at most `count` designs and those of SLSQP."""
-    from scipy.optimize import NonlinearConstraint, differential_evolution
-
     cube = _Cube(variables, judge)
     size = max(16, MEMBERS * len(variables))
     generations = max(count // size - 1, 1)
@@ -98,20 +97,11 @@ class _Cube:
         self._points: dict[bytes, np.ndarray] = {}
 
     def values(self, unit: np.ndarray) -> np.ndarray:
-        columns = [
-            v.low + unit[:, n] * (v.high - v.low)
-            if v.continuous
-            else np.minimum(np.floor(v.low + unit[:, n] * (v.high - v.low + 1)), v.high)
-            for n, v in enumerate(self._variables)
-        ]
-        return np.column_stack(columns)
+        return np.asarray(np.column_stack([v.across(unit[:, n]) for n, v in enumerate(self._variables)]))
 
     def unit(self, values: np.ndarray) -> np.ndarray:
-        shares = [
-            (value - v.low) / (v.high - v.low) if v.continuous else (value - v.low + 0.5) / (v.high - v.low + 1)
-            for value, v in zip(values, self._variables, strict=True)
-        ]
-        return np.clip(np.array(shares), 0.0, 1.0)
+        shares = [variable.share(value) for value, variable in zip(values, self._variables, strict=True)]
+        return np.asarray(np.clip(np.array(shares), 0.0, 1.0))
 
     def judged(self, unit: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Goals, margins, and whether made, of points of the cube."""
@@ -153,8 +143,6 @@ def _polish(cube: _Cube, start: np.ndarray) -> dict[int, float]:
 
     Every point that it tries is remembered, so that the best that holds is never worse than the start.
     """
-    from scipy.optimize import minimize
-
     goal, margins, _ = cube.judged(start[None])
     kept = np.flatnonzero(np.isfinite(margins[0]))
     scale = abs(float(goal[0])) or 1.0

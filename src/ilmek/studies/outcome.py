@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Protocol
 
-from ilmek.errors import IlmekError, ParameterError
+from ilmek.errors import IlmekError, ParameterError, did_you_mean
 from ilmek.params import Value
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -25,7 +25,7 @@ class Numbers:
     checks: tuple[Check, ...]
 
 
-class Target(Protocol):
+class StudySubject(Protocol):
     """What a study evaluates; it is sent to other processes."""
 
     @property
@@ -60,7 +60,7 @@ class Hold:
 class Question:
     """What is computed of each design: chosen results, limits, and the longest time [s]; 0: any."""
 
-    target: Target
+    target: StudySubject
     results: tuple[str, ...]
     holds: tuple[Hold, ...] = ()
     time_limit: float = 0.0
@@ -154,8 +154,6 @@ def _at_most(limit: float) -> Iterator[None]:
 def result_named(name: str, units: Mapping[str, str]) -> str:
     """The result of a name. Raises ParameterError, naming the nearest."""
     if name not in units:
-        from ilmek.errors import did_you_mean
-
         near = did_you_mean(name, units, otherwise=f"it has {', '.join(sorted(units)[:20])}")
         raise ParameterError(f"no result {name!r} that is a number", do=near)
     return name

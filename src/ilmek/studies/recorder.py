@@ -10,7 +10,7 @@ from ilmek.studies.variable import Variable, settings_of
 from ilmek.studies.workers import Workers
 
 
-class Recorder:
+class DesignRecorder:
     """Evaluates designs one batch after another; a method that is deterministic goes on where it was interrupted.
 
     total  number of designs that are expected, for the progress

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from scipy.stats import qmc
 
 from ilmek.arrays import Float
 from ilmek.errors import ParameterError
@@ -25,8 +26,6 @@ def sampled(variables: tuple[Variable, ...], sampling: str, count: int, seed: in
         raise ParameterError(f"{count} designs", allowed=f"1 to {MOST_DESIGNS:,}")
     if sampling == "grid":
         return _grid(variables, count)
-    from scipy.stats import qmc
-
     if sampling == "sobol":
         unit = qmc.Sobol(len(variables), rng=seed).random_base2(math.ceil(math.log2(count)))[:count]
     else:

@@ -1,6 +1,7 @@
 """Sensitivity of results to variables: derivatives at a design, Morris' elementary effects, Sobol' indices."""
 
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ Evaluate = Callable[[Float[np.ndarray, "n variables"]], Float[np.ndarray, "n res
 
 
 @record
-class Sensitivity:
+class SensitivityIndex:
     """A measure of how a result depends on a variable.
 
     value     derivative [SI], mean of |effect| [of the result], or index [1]
@@ -41,8 +42,8 @@ class Sensitivity:
 
 def local(
     variables: tuple[Variable, ...], results: tuple[str, ...], evaluate: Evaluate
-) -> tuple[Sensitivity, ...]:
-    """Derivatives at the nominal design by central differences, extrapolated (Richardson); the error is the last change.
+) -> tuple[SensitivityIndex, ...]:
+    """Derivatives at the nominal design by central differences, extrapolated (Richardson).
 
         d = (4 D(h/2) - D(h)) / 3,   D(h) = (f(x + h) - f(x - h)) / 2h,   error |d - D(h/2)|
 
@@ -64,7 +65,7 @@ def local(
     best = (4 * slopes[:, 1] - slopes[:, 0]) / 3
     error = np.abs(best - slopes[:, 1])
     return tuple(
-        Sensitivity(result, variable.name, "derivative", float(best[i, j]), float(error[i, j]))
+        SensitivityIndex(result, variable.name, "derivative", float(best[i, j]), float(error[i, j]))
         for j, result in enumerate(results)
         for i, variable in enumerate(variables)
     )
@@ -72,46 +73,45 @@ def local(
 
 def morris(
     variables: tuple[Variable, ...], results: tuple[str, ...], evaluate: Evaluate, count: int, seed: int
-) -> tuple[Sensitivity, ...]:
+) -> tuple[SensitivityIndex, ...]:
     """Morris' mean of absolute elementary effects over the range of each variable, with its interval (SALib).
 
     count  number of designs; so many trajectories are taken as fit
     """
-    salib = _salib()
     problem = _problem(variables)
     trajectories = max(count // (len(variables) + 1), 2)
-    unit = salib.morris_sample(problem, trajectories, num_levels=LEVELS, seed=seed)
+    unit = _salib("sample.morris").sample(problem, trajectories, num_levels=LEVELS, seed=seed)
     values = evaluate(_values(variables, unit))
     found = []
     for number, result in enumerate(results):
         kept = _whole_groups(values[:, number], len(variables) + 1, result)
-        indices = salib.morris_analyze(problem, unit[kept], values[kept, number], num_levels=LEVELS, seed=seed)
+        analyze = _salib("analyze.morris").analyze
+        indices = analyze(problem, unit[kept], values[kept, number], num_levels=LEVELS, seed=seed)
         rows = zip(variables, indices["mu_star"], indices["mu_star_conf"], indices["sigma"], strict=True)
         for variable, mean, interval, sigma in rows:
-            found.append(Sensitivity(result, variable.name, "mean |effect|", float(mean), float(interval)))
-            found.append(Sensitivity(result, variable.name, "deviation of effects", float(sigma), np.nan))
+            found.append(SensitivityIndex(result, variable.name, "mean |effect|", float(mean), float(interval)))
+            found.append(SensitivityIndex(result, variable.name, "deviation of effects", float(sigma), np.nan))
     return tuple(found)
 
 
 def sobol(
     variables: tuple[Variable, ...], results: tuple[str, ...], evaluate: Evaluate, count: int, seed: int
-) -> tuple[Sensitivity, ...]:
+) -> tuple[SensitivityIndex, ...]:
     """Sobol' indices of first order and total, with 95 % intervals by bootstrap (SALib: Saltelli 2010, Jansen).
 
     count  number of designs; the base sample is the largest power of two that fits, at least 8
     """
-    salib = _salib()
     problem = _problem(variables)
     base = 2 ** max(3, int(np.log2(max(count / (len(variables) + 2), 1))))
-    unit = salib.sobol_sample(problem, base, calc_second_order=False, seed=seed)
+    unit = _salib("sample.sobol").sample(problem, base, calc_second_order=False, seed=seed)
     values = evaluate(_values(variables, unit))
     found = []
     for number, result in enumerate(results):
         kept = _whole_groups(values[:, number], len(variables) + 2, result)
-        indices = salib.sobol_analyze(problem, values[kept, number], calc_second_order=False, seed=seed)
+        indices = _salib("analyze.sobol").analyze(problem, values[kept, number], calc_second_order=False, seed=seed)
         for measure, key in (("first order", "S1"), ("total", "ST")):
             rows = zip(variables, indices[key], indices[f"{key}_conf"], strict=True)
-            found += [Sensitivity(result, v.name, measure, float(value), float(i)) for v, value, i in rows]
+            found += [SensitivityIndex(result, v.name, measure, float(value), float(i)) for v, value, i in rows]
     return tuple(found)
 
 
@@ -144,19 +144,9 @@ def _values(variables: tuple[Variable, ...], unit: Float[np.ndarray, "n v"]) -> 
     return np.column_stack(columns)
 
 
-def _salib() -> Any:
-    """The functions of SALib. Raises ParameterError without the extra."""
+def _salib(module: str) -> Any:
+    """A module of SALib. Raises ParameterError without the extra."""
     try:
-        from SALib.analyze.morris import analyze as morris_analyze
-        from SALib.analyze.sobol import analyze as sobol_analyze
-        from SALib.sample.morris import sample as morris_sample
-        from SALib.sample.sobol import sample as sobol_sample
+        return import_module(f"SALib.{module}")
     except ImportError:
         raise ParameterError("global sensitivities need the extra study", do="pip install 'ilmek[study]'") from None
-
-    class Functions:
-        pass
-
-    Functions.morris_analyze, Functions.sobol_analyze = staticmethod(morris_analyze), staticmethod(sobol_analyze)
-    Functions.morris_sample, Functions.sobol_sample = staticmethod(morris_sample), staticmethod(sobol_sample)
-    return Functions

@@ -81,7 +81,9 @@ class StudyFile:
     def __enter__(self) -> "StudyFile":
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self._base.close()
 
     def __len__(self) -> int:
@@ -112,7 +114,14 @@ class StudyFile:
         numbers = np.full(1 + max((self._checks[name] for name in margins), default=-1), np.nan, dtype="<f4")
         for name, value in margins.items():
             numbers[self._checks[name]] = np.clip(value, -1e30, 1e30)
-        return (None, None, *(_stored(v) for v in outcome.results), outcome.failed, _stored(outcome.worst), numbers.tobytes())
+        return (
+            None,
+            None,
+            *(_stored(v) for v in outcome.results),
+            outcome.failed,
+            _stored(outcome.worst),
+            numbers.tobytes(),
+        )
 
     def designs(self, first: int = 0, last: int | None = None) -> "StudyRows":
         """The designs from a number up to another."""
@@ -168,7 +177,9 @@ class _Clear:
     def __enter__(self) -> None:
         return None
 
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         if isinstance(error, sqlite3.Error):
             do = "let the other study end first" if "locked" in str(error) else "free some space, or give another file"
             raise OutputError(f"results file {self.path}: {error}", do=do) from None

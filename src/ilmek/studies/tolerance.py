@@ -1,13 +1,14 @@
 """Tolerances: yield of random parts, worst case of their limits, and which tolerance contributes how much.
 
-    yield = share of the designs of which every check holds, with the 95 % interval of Clopper and Pearson
-    contribution of variable i = (r_i b_i) / sum_j (r_j b_j): the share of the variance that a linear fit gives to it,
-    b the standardised coefficients of the fit, r the correlations with the result (Pratt's measure)
+yield = share of the designs of which every check holds, with the 95 % interval of Clopper and Pearson
+contribution of variable i = (r_i b_i) / sum_j (r_j b_j): the share of the variance that a linear fit gives to it,
+b the standardised coefficients of the fit, r the correlations with the result (Pratt's measure)
 """
 
 from itertools import product
 
 import numpy as np
+from scipy.stats import binomtest
 
 from ilmek.arrays import Float
 from ilmek.records import JsonObject, record
@@ -31,7 +32,7 @@ class Yield:
 
 
 @record
-class Spread:
+class ResultSpread:
     """The spread of a result: mean, standard deviation, 0.135 % and 99.865 % quantiles, worst case of the corners [SI].
 
     contributions  variable -> its share of the variance that a linear fit explains; their sum is `explained`
@@ -59,8 +60,6 @@ def yield_of(feasible: np.ndarray) -> Yield:
     >>> round(yield_of(np.arange(100) < 90).low, 3)
     0.824
     """
-    from scipy.stats import binomtest
-
     interval = binomtest(int(feasible.sum()), len(feasible)).proportion_ci(0.95, "exact")
     return Yield(float(feasible.mean()), float(interval.low), float(interval.high))
 
@@ -83,7 +82,7 @@ def spread_of(
     points: Float[np.ndarray, "n variables"],
     values: Float[np.ndarray, " n"],
     at_corners: Float[np.ndarray, " m"],
-) -> Spread:
+) -> ResultSpread:
     """The spread of a result over random designs, and over the corners of their limits."""
     usable = np.isfinite(values)
     x, y = points[usable], values[usable]
@@ -98,6 +97,6 @@ def spread_of(
     contributions = {variable.name: float(share) for variable, share in zip(variables, shares, strict=True)}
     ends = at_corners[np.isfinite(at_corners)]
     worst = (float(ends.min()), float(ends.max())) if len(ends) else (np.nan, np.nan)
-    return Spread(
+    return ResultSpread(
         result, float(y.mean()), deviation, float(low), float(high), *worst, contributions, float(shares.sum())
     )

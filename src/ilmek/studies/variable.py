@@ -1,8 +1,7 @@
 """A varied parameter: a range, a list of values, or a distribution, each as a function of a share of probability."""
 
-from typing import Any
-
 import numpy as np
+from scipy import stats
 
 from ilmek.arrays import Float, FloatArray
 from ilmek.errors import ParameterError
@@ -47,20 +46,24 @@ class Variable:
         >>> Variable("swing", "deg", 0.5, 1.0, 0.6).at(np.array([0.0, 0.5])).tolist()
         [0.5, 0.75]
         """
-        if self.whole or self.choices:
-            return np.minimum(np.floor(self.low + share * (self.high - self.low + 1)), self.high)
-        return np.asarray(self.distribution().ppf(share))
-
-    def distribution(self) -> Any:
-        """The distribution of the values, of `scipy.stats`."""
-        from scipy import stats
-
+        if self.spread == UNIFORM or not self.continuous:
+            return self.across(share)
         half, length = (self.high - self.low) / 2, self.high - self.low
         if self.spread == NORMAL:
-            return stats.norm(self.low + half, half / SIGMAS)
-        if self.spread == TRIANGULAR:
-            return stats.triang((self.nominal - self.low) / length, self.low, length)
-        return stats.uniform(self.low, length)
+            return np.asarray(stats.norm.ppf(share, self.low + half, half / SIGMAS))
+        return np.asarray(stats.triang.ppf(share, (self.nominal - self.low) / length, self.low, length))
+
+    def across(self, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """Values [SI] at shares of the range, whatever the distribution."""
+        if self.continuous:
+            return np.asarray(self.low + share * (self.high - self.low))
+        return np.asarray(np.minimum(np.floor(self.low + share * (self.high - self.low + 1)), self.high))
+
+    def share(self, value: float) -> float:
+        """The share of the range of a value [SI], of a whole number or a choice the middle of its part."""
+        if self.continuous:
+            return (value - self.low) / (self.high - self.low)
+        return (value - self.low + 0.5) / (self.high - self.low + 1)
 
     def setting(self, value: float) -> Value:
         """The value as the parameter takes it: a choice, a whole number, or a number [SI]."""

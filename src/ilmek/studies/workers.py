@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack
+from importlib import import_module
 from typing import Any
 
 from ilmek.errors import ParameterError
@@ -92,11 +93,10 @@ def _pool(count: int) -> ProcessPoolExecutor:
 def cluster_client(address: str) -> Any:
     """A client of a Dask scheduler. Raises ParameterError without the extra, or where none answers."""
     try:
-        import distributed
+        distributed = import_module("distributed")
     except ImportError:
         raise ParameterError("--cluster needs the extra cluster", do="pip install 'ilmek[cluster]'") from None
     try:
-        dask: Any = distributed
-        return dask.Client(address, timeout=10)
+        return distributed.Client(address, timeout=10)
     except (OSError, ValueError, TimeoutError) as error:
         raise ParameterError(f"--cluster {address}: no scheduler answers ({error})", do="check the address") from None

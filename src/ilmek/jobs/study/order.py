@@ -179,9 +179,14 @@ def study_file(path: Path) -> dict[str, Any] | None:
         kind = KEYS.get(key)
         at = f"study file {path}, line {text.lines.get((key,), 1)}"
         if kind is None:
-            raise ParameterError(f"{at}: unknown key {key!r}", do=did_you_mean(key, KEYS, otherwise=f"keys: {', '.join(KEYS)}"))
+            raise ParameterError(
+                f"{at}: unknown key {key!r}", do=did_you_mean(key, KEYS, otherwise=f"keys: {', '.join(KEYS)}")
+            )
         if not isinstance(value, kind):
-            raise ParameterError(f"{at}: {key} is {value!r}", allowed={dict: "a table", list: "a list", str: "a text", int: "a whole number"}[kind])
+            raise ParameterError(
+                f"{at}: {key} is {value!r}",
+                allowed={dict: "a table", list: "a list", str: "a text", int: "a whole number"}[kind],
+            )
     beside = path.parent / data["target"]
     return {**data, "target": str(beside)} if beside.suffix in (".toml", ".json") else data
 

@@ -30,7 +30,9 @@ def study_report(found: StudyResult) -> Report:
         Result("failed", int((~rows.made).sum()), "", "designs that could not be made"),
         Result("feasible", int(rows.feasible.sum()), "", "designs of which every check holds"),
         Result("digest", found.digest, "", "SHA-256 of all designs", shown=False),
-        Result("best", best_json(found), "", "the best design, that of the knee where there are several goals", shown=False),
+        Result(
+            "best", best_json(found), "", "the best design, that of the knee where there are several goals", shown=False
+        ),
         Result("front", [_design(found, n) for n in found.front], "", "designs that are best in some way", shown=False),
         Result("indices", [one.as_json() for one in found.sensitivities], "", "sensitivities", shown=False),
         Result("yield", found.yielded.as_json() if found.yielded else None, "", "share that holds", shown=False),
@@ -87,7 +89,7 @@ def _checks(found: StudyResult) -> tuple[Check, ...]:
 
 
 def _failures(found: StudyResult) -> list[tuple[str, float]]:
-    """Checks that fail in some designs, with the share of the made designs in which they do; the most frequent first."""
+    """Checks that fail, each with the share of the made designs in which it does; the most frequent first."""
     made = max(int(found.rows.made.sum()), 1)
     shares = (found.margins < 0).sum(axis=0) / made
     named = [(name, float(share)) for name, share in zip(found.checks, shares, strict=True) if share > 0]
@@ -95,51 +97,63 @@ def _failures(found: StudyResult) -> list[tuple[str, float]]:
 
 
 def _tables(found: StudyResult) -> Iterator[Table]:
-    units = {**{v.name: v.unit for v in found.variables}, **{name: found.units[name] for name in found.results}}
-    if found.front:
-        names = [v.name for v in found.variables]
-        heads = (Column("design"), *(Column(n, units[n] if found.variables[i].continuous else "") for i, n in enumerate(names)),
-                 *(Column(n, units[n]) for n in found.results), Column("least margin"))  # fmt: skip
-        title = "Best design" if len(found.goals) == 1 else "Front: no other design is better in every goal"
-        rows = tuple(
-            (n, *(_cell(value) for value in settings_of(found.variables, found.rows.points[n]).values()),
-             *found.rows.results[n].tolist(), float(found.rows.worst[n]))
-            for n in _thinned(found.front)
-        )  # fmt: skip
-        yield Table("study-best", title, heads, rows, brief=True)
-        number = best(found)
-        assert number is not None
-        yield Table("study-command", "As a command", (Column("command"),), ((found.command(number),),), brief=True)
-    if found.optimum is not None and found.optimum.multipliers:
-        heads = (Column("check"), Column(f"{found.goals[0].text}: change if its limit is relaxed by 1 %", found.units[found.goals[0].result]))
-        rows = tuple((found.checks[n], -0.01 * m * found.goals[0].sign) for n, m in found.optimum.multipliers.items())
-        yield Table("study-multipliers", "What binding limits cost", heads, rows, brief=True)
-    for result in found.results:
-        those = [one for one in found.sensitivities if one.result == result]
-        if those:
-            heads = (Column("variable"), Column("measure"), Column("value [SI]"), Column("± (95 %)"))
-            rows = tuple((one.variable, one.measure, one.value, one.interval) for one in those)
-            yield Table(f"study-sensitivity-{result}", f"Sensitivity of {result}", heads, rows, brief=True)
-    if found.yielded is not None:
-        heads = (Column("yield", "%"), Column("from", "%"), Column("to", "%"))
-        rows = ((found.yielded.value, found.yielded.low, found.yielded.high),)
-        yield Table("study-yield", "Share of the designs that hold, with its 95 % interval", heads, rows, brief=True)
-    for spread in found.spreads:
-        unit = units[spread.result]
-        heads = (*(Column(name, unit) for name in ("mean", "deviation", "0.135 %", "99.865 %", "worst case from", "to")),)
-        rows = ((spread.mean, spread.deviation, spread.low, spread.high, spread.worst_low, spread.worst_high),)
-        yield Table(f"study-spread-{spread.result}", f"Spread of {spread.result}", heads, rows, brief=True)
-        shares = sorted(spread.contributions.items(), key=lambda one: -one[1])
-        heads = (Column("variable"), Column("share of the variance", "%"))
-        yield Table(f"study-contributions-{spread.result}", f"What makes {spread.result} spread", heads, tuple(shares), brief=True)
+    yield from _best_tables(found)
+    yield from _sensitivity_tables(found)
+    yield from _yield_tables(found)
     failures = _failures(found)
     if failures:
         heads = (Column("check"), Column("fails in", "%"))
         yield Table("study-failures", "Checks that fail", heads, tuple(failures[:SHOWN]), brief=True)
 
 
-def _cell(value: object) -> float | int | str:
-    return value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+def _best_tables(found: StudyResult) -> Iterator[Table]:
+    """The best design or the front, the command of the best, and what its binding limits cost."""
+    number = best(found)
+    if number is None:
+        return
+    varied = (Column(v.name, v.unit if v.continuous else "") for v in found.variables)
+    heads = (Column("design"), *varied, *(Column(n, found.units[n]) for n in found.results), Column("least margin"))
+    title = "Best design" if len(found.goals) == 1 else "Front: no other design is better in every goal"
+    rows = tuple(_design_row(found, one) for one in _thinned(found.front))
+    yield Table("study-best", title, heads, rows, brief=True)
+    yield Table("study-command", "As a command", (Column("command"),), ((found.command(number),),), brief=True)
+    if found.optimum is not None and found.optimum.multipliers:
+        goal = found.goals[0]
+        head = Column(f"change of {goal.result} where its limit is relaxed by 1 %", found.units[goal.result])
+        costs = tuple((found.checks[n], -0.01 * m * goal.sign) for n, m in found.optimum.multipliers.items())
+        yield Table("study-multipliers", "What binding limits cost", (Column("check"), head), costs, brief=True)
+
+
+def _design_row(found: StudyResult, number: int) -> tuple[float | int | str, ...]:
+    values = settings_of(found.variables, found.rows.points[number]).values()
+    shown = (one if isinstance(one, int | float) and not isinstance(one, bool) else str(one) for one in values)
+    return (number, *shown, *found.rows.results[number].tolist(), float(found.rows.worst[number]))
+
+
+def _sensitivity_tables(found: StudyResult) -> Iterator[Table]:
+    for result in found.results:
+        those = [one for one in found.sensitivities if one.result == result]
+        if those:
+            heads = (Column("variable"), Column("measure"), Column("value [SI]"), Column("± (95 %)"))
+            rows = tuple((one.variable, one.measure, one.value, one.interval) for one in those)
+            yield Table(f"study-sensitivity-{result}", f"Sensitivity of {result}", heads, rows, brief=True)
+
+
+def _yield_tables(found: StudyResult) -> Iterator[Table]:
+    """The yield; the spread of each result, and what makes it spread."""
+    if found.yielded is not None:
+        heads = (Column("yield", "%"), Column("from", "%"), Column("to", "%"))
+        rows = ((found.yielded.value, found.yielded.low, found.yielded.high),)
+        yield Table("study-yield", "Share of the designs that hold, with its 95 % interval", heads, rows, brief=True)
+    for spread in found.spreads:
+        name, unit = spread.result, found.units[spread.result]
+        names = ("mean", "deviation", "0.135 %", "99.865 %", "worst case from", "to")
+        numbers = (spread.mean, spread.deviation, spread.low, spread.high, spread.worst_low, spread.worst_high)
+        limits = tuple(Column(one, unit) for one in names)
+        yield Table(f"study-spread-{name}", f"Spread of {name}", limits, (numbers,), brief=True)
+        shares = tuple(sorted(spread.contributions.items(), key=lambda one: -one[1]))
+        parts = (Column("variable"), Column("share of the variance", "%"))
+        yield Table(f"study-contributions-{name}", f"What makes {name} spread", parts, shares, brief=True)
 
 
 def _thinned(numbers: tuple[int, ...]) -> tuple[int, ...]:
@@ -220,4 +234,3 @@ def _failure_plot(found: StudyResult, number: int) -> Iterator[Plot]:
     variable = found.variables[number]
     axes = (Axis(variable.name, variable.unit), Axis("designs that fail", "%"))
     yield Plot(f"study-failures-{variable.name}", f"Failed checks over {variable.name}", *axes, tuple(series))
-

@@ -4,6 +4,7 @@ import tempfile
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,11 +19,11 @@ from ilmek.records import record
 from ilmek.studies.fronts import evolve
 from ilmek.studies.optimum import Optimum, optimum
 from ilmek.studies.outcome import Hold, Numbers, Question
-from ilmek.studies.recorder import Recorder
+from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
-from ilmek.studies.sensitivity import Sensitivity, local, morris, sobol
+from ilmek.studies.sensitivity import SensitivityIndex, local, morris, sobol
 from ilmek.studies.store import StudyFile, StudyRows
-from ilmek.studies.tolerance import Spread, Yield, corners, spread_of, yield_of
+from ilmek.studies.tolerance import ResultSpread, Yield, corners, spread_of, yield_of
 from ilmek.studies.variable import Variable, settings_of
 from ilmek.studies.workers import MOST_WORKERS, Workers
 
@@ -51,9 +52,9 @@ class StudyResult:
     reasons: tuple[tuple[str, str, int], ...]
     digest: str
     front: tuple[int, ...] = ()
-    sensitivities: tuple[Sensitivity, ...] = ()
+    sensitivities: tuple[SensitivityIndex, ...] = ()
     yielded: Yield | None = None
-    spreads: tuple[Spread, ...] = ()
+    spreads: tuple[ResultSpread, ...] = ()
     optimum: Optimum | None = None
     file: Path | None = None
 
@@ -119,7 +120,7 @@ def study(
         path = file or Path(folder) / "study.sqlite"
         kept = stack.enter_context(StudyFile(path, plan, [v.name for v in variables], results))
         running = stack.enter_context(Workers(Question(target, results, holds, order.time_limit), workers, cluster))
-        recorder = Recorder(kept, variables, running, samples, progress)
+        recorder = DesignRecorder(kept, variables, running, samples, progress)
         found = _METHODS[order.method](recorder, order, samples, goals, results)
         rows, margins = kept.designs(), kept.margins()
         best = _front(rows, goals, results)
@@ -155,7 +156,9 @@ def _front(rows: StudyRows, goals: tuple[Goal, ...], results: tuple[str, ...]) -
     return tuple(int(number) for number in usable[best][first])
 
 
-def _sweep(recorder: Recorder, order: StudyOrder, samples: int, _goals: object, _results: object) -> dict[str, object]:
+def _sweep(
+    recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, _results: object
+) -> dict[str, Any]:
     points = sampled(recorder.variables, order.sampling, samples, order.seed)
     for start in range(0, len(points), BLOCK):
         recorder(points[start : start + BLOCK])
@@ -163,8 +166,8 @@ def _sweep(recorder: Recorder, order: StudyOrder, samples: int, _goals: object, 
 
 
 def _sensitivity(
-    recorder: Recorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, object]:
+    recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
+) -> dict[str, Any]:
     def evaluate(points: FloatArray) -> FloatArray:
         return np.asarray(recorder(points).results)
 
@@ -175,8 +178,8 @@ def _sensitivity(
 
 
 def _tolerance(
-    recorder: Recorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
-) -> dict[str, object]:
+    recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
+) -> dict[str, Any]:
     variables = recorder.variables
     drawn = recorder(sampled(variables, "latin" if order.sampling == "grid" else order.sampling, samples, order.seed))
     ends = recorder(corners(variables))
@@ -191,8 +194,8 @@ def _tolerance(
 
 
 def _optimum(
-    recorder: Recorder, order: StudyOrder, samples: int, goals: tuple[Goal, ...], results: tuple[str, ...]
-) -> dict[str, object]:
+    recorder: DesignRecorder, order: StudyOrder, samples: int, goals: tuple[Goal, ...], results: tuple[str, ...]
+) -> dict[str, Any]:
     columns = [results.index(goal.result) for goal in goals]
     signs = np.array([goal.sign for goal in goals])
 

@@ -31,7 +31,7 @@ EXTREMES = {"_min": min, "_max": max}
 
 @record
 class MachineTarget:
-    """A machine of the catalogue, with settings that do not vary. Its parts are not compared with each other in space."""
+    """A machine of the catalogue, with settings that do not vary; its parts are not compared in space."""
 
     machine: str
     settings: Mapping[str, Setting]
@@ -114,7 +114,7 @@ def read_target(name: str, settings: Mapping[str, Setting], request: MotionReque
         order = read_machine_order(name, settings)
         _no_motion(request, name)
         return MachineTarget(order.machine, dict(order.settings))
-    values = {given.removeprefix("values."): setting for given, setting in settings.items()}
+    values = {given.removeprefix("values."): str(setting) for given, setting in settings.items()}
     read_mechanism(path, values)  # the first error has its line
     data = with_values(text.data, values)
     return MechanismTarget(data, sha256(repr(sorted(data.items())).encode()).hexdigest(), request)
