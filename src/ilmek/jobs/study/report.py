@@ -196,7 +196,7 @@ def _response(found: StudyResult, result: str, number: int) -> Plot | None:
     """The result over a variable: mean and the 10 % and 90 % quantiles of the designs of each class, or all designs."""
     variable, values = found.variables[number], found.values(result)
     usable = np.isfinite(values)
-    if usable.sum() < 2 * LEAST_IN_CLASS or not np.ptp(found.rows.points[:, number]):
+    if usable.sum() < 2 or not np.ptp(found.rows.points[:, number]):
         return None
     axes = (Axis(variable.name, variable.unit), Axis(result, found.units[result]))
     name, title = f"study-{result}-{variable.name}", f"{result} over {variable.name}"

@@ -96,6 +96,8 @@ def study(
     OutputError; Cancelled, after which the file has all designs until then.
     """
     check_words(order)
+    for name in order.vary.keys() & order.fixed.keys():
+        raise ParameterError(f"{name} varies and is set", do="leave out one of --vary and --set")
     if not 1 <= workers <= MOST_WORKERS:
         raise ParameterError(f"--workers {workers}", allowed=f"1 to {MOST_WORKERS}")
     target = read_target(order.target, order.fixed, MotionRequest({}, order.over, order.speed))
