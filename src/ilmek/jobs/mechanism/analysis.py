@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.dynamics.equations import STILL
 from ilmek.dynamics.inverse import joint_rate
 from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.machine_balance import MachineBalance, machine_balance
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.own_machine import OwnMachine
@@ -43,6 +44,7 @@ class Analysis:
     transmission  pin -> acute transmission angle [rad] by sample
     servo, strength, forward, study  None: not required
     start_strength  strength over the forward run; None: not required
+    balance  best counterweight and flywheel; None: not required
     """
 
     run: MechanismRun
@@ -52,6 +54,7 @@ class Analysis:
     forward: "OwnForward | None"
     study: StudyOfSpeeds | None
     start_strength: MachineStrength | None = None
+    balance: MachineBalance | None = None
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -167,9 +170,21 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
 
         forward = own_forward(machine, run.plan, machine.forward)
         started = machine_strength(machine, forward.inverse)
+    balance = _balance(run)
     progress(0.5)
     servo = _servo(machine, forces) if machine.servo and forces is not None and forces.time is not None else None
-    return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started)
+    return Analysis(
+        run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started, balance
+    )
+
+
+def _balance(run: MechanismRun) -> MachineBalance | None:
+    """The balance of a machine; None: not required. Raises MechanismError where it has none."""
+    if run.fluctuation is None:
+        return None
+    if run.forces is None or run.speed is None:
+        raise MechanismError("balance without masses at constant speed", do="give bodies a mass, and --speed")
+    return machine_balance(run.forces, run.speed, run.fluctuation)
 
 
 def _servo(machine: OwnMachine, forces: InverseRun) -> ServoChoice | None:
