@@ -18,6 +18,7 @@ from ilmek.linkage.joints import GROUND, Pin
 from ilmek.linkage.model import Rotation
 from ilmek.linkage.status import Status
 from ilmek.plane.enclosing_circle import enclosing_circle
+from ilmek.plane.vectors import cross
 from ilmek.records import record, result
 from ilmek.units import turn
 
@@ -57,7 +58,7 @@ def machine_balance(run: InverseRun, speed: float, fluctuation: float) -> Machin
     centre, radius = enclosing_circle(run.shaking.force * np.exp(-1j * angle))
     pivot = motion.point(crank.body, crank.about).position
     added = -centre * np.exp(1j * angle)
-    moment = run.shaking.moment + (pivot.conj() * added).imag
+    moment = run.shaking.moment + cross(pivot, added)
     effort, turned = np.abs(angle - angle[0]), run.effort * np.sign(speed)
     work = np.concatenate([[0.0], np.cumsum((turned[1:] + turned[:-1]) / 2 * np.diff(effort))])
     excess = float(np.ptp(work - effort / turn * work[-1]))
