@@ -3,8 +3,7 @@
 from functools import lru_cache
 
 from ilmek.elements.prices import price_of, read_prices
-from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.machine_cost import machine_cost, price_shares
+from ilmek.machines.automated_loom.machine_cost import MachineCost, machine_cost, price_shares
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.tree import tree
 from ilmek.part.bill import bill
@@ -19,6 +18,7 @@ class TuftingPrice:
     lines: tuple[BillLine, ...]
     prices: dict[str, float]
     shares: dict[str, float]
+    cost: MachineCost
 
     mass = computed("kg", "mass of all parts but the reducers", lambda it: sum(line.mass_all for line in it.lines))
     parts_number = computed("1", "pieces in the parts list", lambda it: sum(line.number for line in it.lines))
@@ -40,5 +40,6 @@ class TuftingPrice:
 def tufting_price(machine: TuftingMachine) -> TuftingPrice:
     """The price of a machine. Raises ParameterError for unreadable prices."""
     lines, prices = bill(tree(machine)), read_prices(machine.params.prices)
-    shares = price_shares(lines, prices, CostRates(), machine_cost(lines, prices))
-    return TuftingPrice(lines, {line.part: price_of(line, prices) for line in lines}, shares)
+    cost = machine_cost(lines, prices)
+    shares = price_shares(lines, prices, machine.params.cost, cost)
+    return TuftingPrice(lines, {line.part: price_of(line, prices) for line in lines}, shares, cost)
