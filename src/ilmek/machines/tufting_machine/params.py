@@ -26,7 +26,7 @@ class TuftingPatternParams(Params):
     attachment: str = kind.choice(
         ROLLERS,
         ATTACHMENTS,
-        doc="feed of the yarn: rollers for all needles, for groups of them, or a servo scroll for each needle",
+        doc="feed of the yarn: rollers for all needles, for groups of them, or a scroll with its motor for each needle",
     )
     groups: int = kind.count(2, at_least=2, at_most=64, doc="groups of needles, needle by needle in turn")
     colours: int = kind.count(1, at_least=1, at_most=16, doc="colours of the creel, in turn from needle to needle")
@@ -38,6 +38,7 @@ class TuftingPatternParams(Params):
         "each tuft the one of its colour alone",
     )
     hidden: float = kind.length(0.0, at_least=0.0, at_most=30 * mm, doc="height of loops that are not to be seen")
+    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls of a module, which is wired as one axis")
     threading: float = kind.time(20.0, at_least=0.0, at_most=3600.0, doc="threading of a needle from its cone")
 
 
