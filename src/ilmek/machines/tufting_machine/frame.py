@@ -14,14 +14,17 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.reducers import DIRECT
 from ilmek.machines.tufting.links import WALL
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import bearing_plate
 from ilmek.machines.tufting_machine.layout import BED, CLEAR, TuftingLayout, looper_bearing
 from ilmek.machines.tufting_machine.looper_parts import BODIES, NAME
 from ilmek.machines.tufting_machine.needle_parts import DOWN, needle_heights
-from ilmek.machines.tufting_machine.params import TuftingMachineParams
+from ilmek.machines.tufting_machine.params import SCROLLS, TuftingMachineParams
+from ilmek.machines.tufting_machine.scrolls import scroll_parts, scrolls
 from ilmek.part import catalogue
+from ilmek.part.catalogue import reducer_face
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -76,6 +79,8 @@ def frame_parts(laid: TuftingLayout) -> Iterator[Occurrence]:
     yield from _looper_brackets(laid)
     yield _guides(laid)
     yield from _bed(laid)
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        yield from scroll_parts(laid, scroll_height(laid))
 
 
 def _post_at(laid: TuftingLayout) -> float:
@@ -87,15 +92,36 @@ def roller_axes(laid: TuftingLayout) -> dict[str, complex]:
     """Axes of the rollers [m]: the spiked ones' tops at the backing's under side, the yarn's above the needles."""
     feed = laid.machine.params.feed
     low = laid.under - feed.spiked_roller / 2
+    spiked = {"rear": complex(laid.rear, low), "front": complex(laid.front, low)}
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        return spiked
     yarn = complex(laid.line + BED, laid.driven_shaft.imag + ABOVE / 2)
-    return {"rear": complex(laid.rear, low), "front": complex(laid.front, low), "yarn": yarn}
+    row, by = laid.machine.feed.motors["yarn"] or (None, DIRECT)
+    face = reducer_face(by, row) if row else catalogue.SPECIAL_FACE
+    pitch = max(feed.yarn_roller, face) + CLEAR
+    return spiked | {
+        f"yarn {number + 1}": yarn + 1j * number * pitch for number in range(laid.machine.feed.yarn_shafts)
+    }
+
+
+def scroll_height(laid: TuftingLayout) -> float:
+    """Lower end of the plate of the scrolls [m]."""
+    return laid.driven_shaft.imag + ABOVE / 2
+
+
+def _top(laid: TuftingLayout) -> float:
+    """Upper end of the end plates [m]: over the yarn feed."""
+    least = laid.driven_shaft.imag + ABOVE
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        return max(least, scrolls(laid, scroll_height(laid)).top)
+    return max(least, *(axis.imag + ABOVE / 2 for axis in roller_axes(laid).values()))
 
 
 def _end_plate(laid: TuftingLayout) -> Part:
     """An end plate: free holes for the main and the looper crank shaft, bushes for the rollers' journals."""
     left, right = min(laid.behind - BEAM, laid.rear) - BEAM / 2, laid.front + BEAM / 2
     outline = np.array([left, right, right, left]) + 1j * np.array(
-        [laid.shaft.imag - FLOOR, laid.shaft.imag - FLOOR, *(2 * [laid.driven_shaft.imag + ABOVE])]
+        [laid.shaft.imag - FLOOR, laid.shaft.imag - FLOOR, *(2 * [_top(laid)])]
     )
     free = ((0j, needle_sizes(laid.machine.needle).main), (laid.crank_shaft, laid.machine.params.looper.shaft))
     holes = (

@@ -62,14 +62,16 @@ class LooperParts:
         looper, pitch = self.params.looper, self.params.width / self.params.drives
         half, raised = (pitch - BETWEEN) / 2, self.upright.after(placement(z=self.level))
         first, ahead = -pitch * (number + 0.5), looper.needle / 2 + looper.gap
-        heights = (first + float(place.origin[2]) + ahead for place in needle_heights(self.params, self.needles))
+        between = (0.0,) if self.params.looper_gauge == self.params.gauge else (0.0, self.params.looper_gauge)
+        beside = [first + float(place.origin[2]) + ahead for place in needle_heights(self.params, self.needles)]
+        heights = [z + step for z in beside for step in between]
         hooks = [placement(y=looper.arm, z=z) for z in heights if -pitch / 2 <= z + looper.thickness / 2 < pitch / 2]
         arms = [placement(z=side * ARMS * pitch - ARM_THICKNESS / 2) for side in (-1, 1)]
-        beside = complex(_bar_beside(self.drive), looper.arm - looper.stem - looper.bar / 2)
+        square = complex(_bar_beside(self.drive), looper.arm - looper.stem - looper.bar / 2)
         placed = (
             (self.shaft, [placement(z=-half)]),
             (self.arm, arms),
-            (self.bar, [placement(beside.real, beside.imag, -half)]),
+            (self.bar, [placement(square.real, square.imag, -half)]),
             (self.hook, hooks),
         )
         return tuple(

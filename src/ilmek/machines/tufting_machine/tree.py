@@ -21,10 +21,12 @@ from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import POSES, keyed, needle_drives
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.feed import SPIKED_ROLLER, YARN_ROLLER
-from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes
+from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes, scroll_height
 from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
 from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR, needle_heights, needle_parts
+from ilmek.machines.tufting_machine.params import SCROLLS
+from ilmek.machines.tufting_machine.scrolls import scroll_bodies
 from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
 from ilmek.part import catalogue
 from ilmek.part.flat_link import eyed_link
@@ -49,9 +51,6 @@ STATION = BELT_WIDTH + 2 * (catalogue.BESIDE + catalogue.RIM)
 SKIN, PLUG = 5 * mm, 20 * mm
 """Wall of the rollers, and length of the plugs in their ends; assumed by this project."""
 
-DRIVES = {"rear": ("spiked", SPIKED_ROLLER), "front": ("spiked", SPIKED_ROLLER), "yarn": ("yarn", YARN_ROLLER)}
-"""What feeds with each roller, and the id of its part."""
-
 
 @lru_cache(maxsize=4)
 def tree(machine: TuftingMachine) -> Tree:
@@ -62,7 +61,9 @@ def tree(machine: TuftingMachine) -> Tree:
     whole = Tree((RigidBody(FRAME, parts),)).carrying(FRAME, needles)
     loopers, loops = _loopers(laid)
     joined = (Closure(JointKind.ROLLING, (MAIN_SHAFT, LOOPER_CRANKS)), *loops, *bars)
-    return Tree((*whole.bodies, *loopers, *_rollers(laid)), (*whole.closures, *joined))
+    scrolls = laid.machine.params.pattern.attachment == SCROLLS
+    fed = scroll_bodies(laid, scroll_height(laid), FRAME) if scrolls else ()
+    return Tree((*whole.bodies, *loopers, *_rollers(laid), *fed), (*whole.closures, *joined))
 
 
 def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
@@ -169,7 +170,7 @@ def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:
     shapes = {name: _roller(diameter, last - first) for name, diameter in sizes.items()}
     parts = {name: Part(name, titles[name], "machined link", shapes[name], STEEL) for name, size in sizes.items()}
     for place, at in roller_axes(laid).items():
-        kind, name = DRIVES[place]
+        kind, name = _fed_by(place)
         position = placement(at.real, at.imag, first - END_PLATE)
         joint = Joint(JointKind.PIN, motor=f"{NAME}/{kind}-motor")
         yield RigidBody(f"{name} {place}", (Occurrence(parts[name]),), FRAME, joint, (position,))
@@ -200,7 +201,12 @@ def _motors(laid: TuftingLayout) -> Iterator[Occurrence]:
         for kind, pair in feed.motors.items()
     }
     for place, at in roller_axes(laid).items():
-        yield from in_line(parts[DRIVES[place][0]], begin, at)
+        yield from in_line(parts[_fed_by(place)[0]], begin, at)
+
+
+def _fed_by(place: str) -> tuple[str, str]:
+    """What feeds with a roller of `roller_axes`, and the id of its part."""
+    return ("spiked", SPIKED_ROLLER) if place in {"rear", "front"} else ("yarn", YARN_ROLLER)
 
 
 def _driving(
