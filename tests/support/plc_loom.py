@@ -116,7 +116,7 @@ class PlcLoom:
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
         self.scans = self.row = self.command = 0
-        self.given = self.requested = -1
+        self.given = self.requested = self.back_to = -1
         self.heads_clear: bool | None = None
         self.alarms: list[int] = []
         self.next_act: Callable[[int], Act] = lambda _: HONEST
@@ -146,9 +146,12 @@ class PlcLoom:
         self.ends.clear()
 
     def take_out(self, rows: int) -> None:
-        """An operator takes out the row in work and whole rows before it, and sets the host's journal back."""
+        """An operator takes out the row in work and whole rows before it, and sets the host's journal back.
+
+        The journal stays there until the program requests that row.
+        """
         self.row -= rows
-        self.given = min(self.given, self.row)
+        self.given = self.back_to = min(self.given, self.row)
         self.carpet = {place: tubes for place, tubes in self.carpet.items() if place[0] < self.row}
         self.ends = [end for end in self.ends if end[0] < self.row]
 
@@ -159,7 +162,9 @@ class PlcLoom:
         if self.host_silent:
             return
         setup, number = self.programme.setup, self.read("RowRequest")
-        if 0 <= number < setup.rows:
+        if number == self.back_to:
+            self.back_to = -1
+        if 0 <= number < setup.rows and self.back_to < 0:
             self.given = max(self.given, number)
         recipe = {"Programme": digest_words(self.programme.digest), "Rows": setup.rows, "Columns": setup.columns,
                   "Tubes": setup.tubes, "Row": self.given}  # fmt: skip

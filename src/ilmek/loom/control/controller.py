@@ -24,6 +24,7 @@ from ilmek.loom.control.exchange import (
     JogRequested,
     ModeChosen,
     Operation,
+    RowsTakenOut,
     Sensed,
     SpeedChosen,
     StateChanged,
@@ -34,7 +35,7 @@ from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import PackMode, PackState, Refusal, commanded, mode_refused, state_name
 from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, Order, SensorsChanged, Tie
-from ilmek.loom.control.sequence import LOOM, key_of
+from ilmek.loom.control.sequence import LOOM, Sequence, key_of
 from ilmek.loom.control.state import MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft
 from ilmek.loom.operations import LoomProgramme
 
@@ -62,6 +63,7 @@ class Controller(ControlCore):
             SpeedChosen: self._speed_chosen,
             Acknowledged: self._acknowledged,
             Answered: self._answered,
+            RowsTakenOut: self._rows_taken_out,
             Sensed: self._sensed,
             StoreFailed: self._store_failed,
         }
@@ -295,6 +297,23 @@ class Controller(ControlCore):
         draft.sync = True
         self._resolve(key_of(operation), found=given.yes, origin=Origin.OPERATOR, draft=draft)
 
+    def _rows_taken_out(self, given: RowsTakenOut, draft: Draft) -> None:
+        """In state Stopped; what was uncertain is taken out as well. The sensor then looks whether the rows are out."""
+        state, sequence = self.state, self.state.sequence
+        name = f"{given.rows} rows back in row {sequence.row + 1}"
+        if state.state is not PackState.STOPPED:
+            draft.refusals.append(Refusal(f"{name}, state {state_name(state.state)}", "allowed in Stopped"))
+        elif not 0 <= given.rows <= sequence.most_back:
+            draft.refusals.append(Refusal(name, rows_back_range(sequence)))
+        else:
+            sequence.take_out(given.rows)
+            state.doubts.clear()
+            state.requests.clear()
+            state.retried.clear()
+            state.verified = False
+            draft.record(state, RecordKind.ROWS_BACK, 0, sequence.row, 0, 0, given.rows)
+            self.record_state(draft)
+
     def _sensed(self, given: Sensed, draft: Draft) -> None:
         key = key_of(given.operation)
         doubt = self.state.doubts.get(key)
@@ -355,3 +374,10 @@ class Controller(ControlCore):
             requests=tuple(state.requests.values()),
             complete=sequence.finished,
         )
+
+
+def rows_back_range(sequence: Sequence) -> str:
+    """How many whole rows may be taken out, in words."""
+    if sequence.most_back < 0:
+        return "none: the packages were changed within the row in work"
+    return f"0 (the row in work alone) to {sequence.most_back}"

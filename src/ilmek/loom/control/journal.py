@@ -49,6 +49,7 @@ class RecordKind(IntEnum):
     ANSWER   of the operator to a request: code: 1 yes, 0 no; row, head, number of the operation
     SPEED    number: speed [1/1000 of the programme's]
     START    the journal was opened: number: how often before
+    ROWS_BACK  an operator has taken out all from a row on: row; number: whole rows before the row in work
     """
 
     KNOT = 1
@@ -59,6 +60,7 @@ class RecordKind(IntEnum):
     ANSWER = 6
     SPEED = 7
     START = 8
+    ROWS_BACK = 9
 
 
 class Origin(IntEnum):
