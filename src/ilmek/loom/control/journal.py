@@ -49,6 +49,7 @@ class RecordKind(IntEnum):
     ANSWER   of the operator to a request: code: 1 yes, 0 no; row, head, number of the operation
     SPEED    number: speed [1/1000 of the programme's]
     START    the journal was opened: number: how often before
+    HOMED    an axis is at home: code: its number in the list of axes; row
     ROWS_BACK  an operator has taken out all from a row on: row; number: whole rows before the row in work
     """
 
@@ -61,6 +62,7 @@ class RecordKind(IntEnum):
     SPEED = 7
     START = 8
     ROWS_BACK = 9
+    HOMED = 10
 
 
 class Origin(IntEnum):
