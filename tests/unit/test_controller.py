@@ -18,6 +18,7 @@ from ilmek.loom.control.exchange import (
     StoreFailed,
     WeavingStep,
 )
+from ilmek.loom.control.homing import HOMED
 from ilmek.loom.control.opening import journal_records, open_journal
 from ilmek.loom.control.packml import MODE_STATES, PackCommand, PackMode, PackState, allowed_commands
 from ilmek.loom.control.ports import Done, EndRow, Failed, Fault, Order, SensorsChanged, Tie
