@@ -26,7 +26,7 @@ from ilmek.elements.eye_bolts import eye_bolt_for, find_eye_bolt
 from ilmek.elements.machine_screws import SCREWS
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import MOTORS
-from ilmek.io.plc.io_list import io_csv, io_rows
+from ilmek.io.plc.io_list import io_rows
 from ilmek.io.plc.project import plc_project
 from ilmek.io.table_csv import rows_csv
 from ilmek.jobs.workshop import UNDATED, write_workshop
@@ -260,13 +260,17 @@ def test_axes_stand_before_a_body_comes_from_the_doors() -> None:
 
 
 def test_terminals_are_the_signals_of_the_control() -> None:
-    report: Any = default_report("automated-loom")
-    field = [row for row in io_rows(plc_project(small_programme(heads=report["heads"])).units[-1]) if row[3]]
+    field = [row for row in io_list() if row[3]]
     terminals = rows_of("electrical", 3)
     assert sorted(str(row[0]) for row in terminals) == sorted(row[0] for row in field)
     over_wires = [row for row in terminals if row[1] != "A1"]
     assert len({row[1] for row in over_wires}) == len(over_wires)
-    assert {str(row[0]) for row in over_wires} == {
+    assert {str(row[0]).partition("[")[0] for row in over_wires} == {
+        "TubeIndex",
+        "WeftPresent",
+        "WarpsWhole",
+        "SafetyReady",
+        "YarnPresent",
         "EmergencyStop",
         "DoorClosed",
         "HeadsClear",
@@ -282,10 +286,24 @@ def test_terminals_are_the_signals_of_the_control() -> None:
     }
 
 
+def io_list() -> list[tuple[str, ...]]:
+    (table,) = (table for table in papers().lists if table.name == "io")
+    return [tuple(map(str, row)) for row in table.rows]
+
+
 def test_the_folder_has_the_list_of_the_control_that_the_plc_command_writes() -> None:
+    """Its signals and addresses, with parts of this loom alone, and an address of its own for each other input."""
     heads: Any = default_report("automated-loom")["heads"]
-    table = next(table for table in papers().lists if table.name == "io")
-    assert rows_csv(table) == io_csv(plc_project(small_programme(heads=heads)).units[-1])
+    written, rows = io_rows(plc_project(small_programme(heads=heads)).units[-1]), io_list()
+    alike = {row[:5] for row in written}
+    assert alike <= {row[:5] for row in rows}
+    there = {row["id"] for row in listed("parts")}
+    assert {part for row in rows for part in row[5].split()} <= there
+    own = {row[0]: row for row in rows if row[:5] not in alike}
+    loom = default_design("automated-loom")
+    assert own.keys() == {one.signal for one in channels(loom)} - {row[0] for row in written}
+    assert len({row[3] for row in rows if row[3]}) == sum(bool(row[3]) for row in rows)
+    assert all(one.part in own[one.signal][5] for one in channels(loom) if one.signal in own)
 
 
 def test_phases_are_balanced_and_every_fuse_is_sold_for_its_voltage() -> None:

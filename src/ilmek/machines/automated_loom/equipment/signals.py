@@ -28,6 +28,7 @@ from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
 from ilmek.machines.weft.carriers import BOX_MOTOR
 from ilmek.machines.weft.carriers import MOTOR as WEFT_MOTOR
 from ilmek.machines.weft.rapier_tree import EDGE_MOTOR
+from ilmek.records import record
 
 STOP, RESET = part_id("emergency-stop"), part_id("reset-button")
 HANDS, GRID = part_id("hand-button"), part_id("light-grid")
@@ -53,10 +54,35 @@ ENCODED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """Encoders, and the motors of which each is on the one that a loom has: its amplifier reads it."""
 
-READ: Mapping[str, int] = MappingProxyType({INDEX_SENSOR: 1, WEFT_STOP: 1, WARP_STOP: 2, RELAY: 1})
-"""What inputs in the cabinet read besides signals of the program, and the pieces that give one signal: sender and
-receiver of a barrier.
-"""
+
+@record
+class DeviceSignal:
+    """An input that the motion controller reads itself: variable, meaning, id of the device, module, pieces for one."""
+
+    name: str
+    meaning: str
+    part: str
+    module: str = INPUTS
+    share: int = 1
+
+    def elements(self, number: int) -> tuple[str, ...]:
+        """The variables of so many pieces of the device.
+
+        >>> DeviceSignal("WarpsWhole", "", "", share=2).elements(2), DeviceSignal("TubeIndex", "", "").elements(2)
+        (('WarpsWhole',), ('TubeIndex[0]', 'TubeIndex[1]'))
+        """
+        count = number // self.share
+        return (self.name,) if count == 1 else tuple(f"{self.name}[{index}]" for index in range(count))
+
+
+READ = (
+    DeviceSignal("TubeIndex", "the index of the yarn tubes is before its sensor", INDEX_SENSOR),
+    DeviceSignal("WeftPresent", "the weft is before its sensor", WEFT_STOP),
+    DeviceSignal("WarpsWhole", "no broken warp is in the light barrier", WARP_STOP, share=2),
+    DeviceSignal("SafetyReady", "the safety relay is closed", RELAY),
+    DeviceSignal("YarnPresent", "the pile yarn is in its sensor", YARN_STOP, YARN_INPUTS),
+)
+"""What the motion controller reads besides signals of the program, and reports in the status of an order."""
 
 ANALOG = frozenset(("WarpTension",))
 """Signals of 0 ... 10 V."""
@@ -66,7 +92,7 @@ SWITCHED = (CLUTCH,)
 
 
 _KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR, SOLENOID)
-_TUBE = (COLOUR_MOTOR, TIER_MOTOR, INPUTS, INDEX_SENSOR)
+_TUBE = (COLOUR_MOTOR, TIER_MOTOR)
 _ROW = (SHEDDING_MOTOR, RETREAT_MOTOR, WEFT_MOTOR, BOX_MOTOR, EDGE_MOTOR)
 _BEAT = (CRANK_MOTOR, OUTPUTS, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)
 
@@ -80,7 +106,7 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "BeaterBack": (CONTROLLER, BEAT_ANGLE),
     "ShedClosed": (CONTROLLER, SHED_ANGLE),
     "TieDone": (CONTROLLER,),
-    "TieStatus": (CONTROLLER, YARN_INPUTS, YARN_STOP),
+    "TieStatus": (CONTROLLER, INPUTS, INDEX_SENSOR, YARN_INPUTS, YARN_STOP),
     "EndDone": (CONTROLLER,),
     "EndStatus": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
     "Halt": (CONTROLLER,),

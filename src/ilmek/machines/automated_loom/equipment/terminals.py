@@ -59,7 +59,7 @@ class TerminalLevel:
 @record
 class ModuleInput:
     """An input of a module in the cabinet: id of its kind of module, index among all of these from 0; the signal of the
-    program, or "" of what the motion controller reads; id of the device and its piece, 0: all.
+    program, or that which the motion controller reads; id of the device and its piece, 0: all.
     """
 
     module: str
@@ -81,9 +81,10 @@ def module_inputs(own: tuple[Signal, ...], numbers: Mapping[str, int]) -> tuple[
         for name, parts in _wired(own, numbers)
     ]
     wired += [
-        (signals.INPUTS, "", part, piece)
-        for part, share in signals.READ.items()
-        for piece in range(1, (1 if part == signals.RELAY else numbers.get(part, 0)) + 1, share)
+        (own.module, name, own.part, index * own.share + 1)
+        for own in signals.READ
+        if own.module == signals.INPUTS
+        for index, name in enumerate(own.elements(1 if own.part == signals.RELAY else numbers.get(own.part, 0)))
     ]
     used: dict[str, int] = {}
     inputs = []

@@ -40,6 +40,7 @@ from ilmek.machines.automated_loom.papers.wiring import (
     connected_at,
     feeds,
     levels_of,
+    listed,
     numbers_of,
     plan_of,
     signal_rows,
@@ -237,8 +238,8 @@ def _devices(
 ) -> PaperSection:
     """Devices of some kinds with their signs, by their ids, the signals that they give, and where each is connected."""
     given = dict[str, list[str]]()
-    for name, parts in site_of(loom).signals:
-        for part in parts:
+    for name, _, _, parts in signal_rows(loom):
+        for part in parts.split():
             given.setdefault(part, []).append(name)
     rows = tuple(
         (
@@ -246,7 +247,7 @@ def _devices(
             part.title,
             part.purchase.row,
             number,
-            ", ".join(given.get(part.id, ())),
+            listed(given.get(part.id, ())),
             *(() if at is None else (at.get(part.id, ""),)),
         )
         for part, number in loom_tree(loom).occurrences()
