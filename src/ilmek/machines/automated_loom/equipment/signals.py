@@ -41,6 +41,7 @@ STRAIN_AMPLIFIER, YARN_INPUTS = part_id("strain-amplifier"), part_id("yarn-input
 INPUTS, OUTPUTS, ANALOG_INPUTS = part_id("inputs"), part_id("outputs"), part_id("analog-inputs")
 OUTLET, PROTECTIVE_BAR, MAINS_TERMINAL = part_id("outlet-filter"), part_id("protective-bar"), part_id("mains-terminal")
 BENCH_STOP, ENABLING = part_id("bench-stop"), part_id("enabling-switch")
+GUARD_RELAY, MODE = part_id("guard-relay"), part_id("mode-selector")
 TENSION, RETREATED = part_id("tension-sensor"), part_id("retreat-sensor")
 HEAD_ANGLE, BEAT_ANGLE, SHED_ANGLE = part_id("head-encoder"), part_id("beat-encoder"), part_id("shed-encoder")
 WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-sensor"), part_id("yarn-sensor")
@@ -79,10 +80,15 @@ READ = (
     DeviceSignal("TubeIndex", "the index of the yarn tubes is before its sensor", INDEX_SENSOR),
     DeviceSignal("WeftPresent", "the weft is before its sensor", WEFT_STOP),
     DeviceSignal("WarpsWhole", "no broken warp is in the light barrier", WARP_STOP, share=2),
-    DeviceSignal("SafetyReady", "the safety relay is closed", RELAY),
+    DeviceSignal("StopsReady", "the relay of the emergency stops is closed", RELAY),
+    DeviceSignal("GuardsReady", "the relay of the guards is closed", GUARD_RELAY),
+    DeviceSignal("SettingMode", "the mode selector is at setting: axes may only jog", MODE),
     DeviceSignal("YarnPresent", "the pile yarn is in its sensor", YARN_STOP, YARN_INPUTS),
 )
 """What the motion controller reads besides signals of the program, and reports in the status of an order."""
+
+IN_CABINET = frozenset((RELAY, GUARD_RELAY, MODE))
+"""What is wired within the cabinet, one of each."""
 
 ANALOG = frozenset(("WarpTension",))
 """Signals of 0 ... 10 V."""
@@ -98,7 +104,7 @@ _BEAT = (CRANK_MOTOR, OUTPUTS, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR
 
 _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EmergencyStop": (STOP, RELAY),
-    "DoorClosed": (INTERLOCK, RELAY),
+    "DoorClosed": (INTERLOCK, GUARD_RELAY),
     "WarpTensionKnown": (STRAIN_AMPLIFIER, TENSION, INPUTS),
     "WarpTension": (STRAIN_AMPLIFIER, TENSION, ANALOG_INPUTS),
     "GrippersOpen": (CONTROLLER, HEAD_ANGLE),
@@ -156,7 +162,11 @@ def signals_of(heads: int, weavers: int = 0) -> tuple[Signal, ...]:
     stops = {"EmergencyStop": (STOP, BENCH_STOP, RELAY)}
     every = {**SIGNALS, **stops}.items()
     alike = ((name, parts) for name, parts in every if name not in PER_HEAD and name not in OF_HEADS)
-    return (*alike, *((f"{hands}[{index}]", (HANDS, RELAY)) for index in range(weavers)), (grid, (GRID, RELAY)))
+    return (
+        *alike,
+        *((f"{hands}[{index}]", (HANDS, GUARD_RELAY)) for index in range(weavers)),
+        (grid, (GRID, GUARD_RELAY)),
+    )
 
 
 def beat_signals(weavers: int) -> tuple[Signal, ...]:

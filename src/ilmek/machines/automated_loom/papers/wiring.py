@@ -31,6 +31,8 @@ SIGNS: Mapping[str, str] = {
     signals.PROTECTOR: "F24",
     signals.SWITCH: "Q1",
     signals.RELAY: "K1",
+    signals.GUARD_RELAY: "K2",
+    signals.MODE: "S8",
     signals.RESET: "S0",
     signals.ENABLING: "S9",
     signals.TERMINAL: "X1",
