@@ -106,11 +106,13 @@ def test_terminals_and_controller_are_enough_for_the_signals() -> None:
         levels = levels_of(loom)
         assert len({level.address for level in levels}) == len(levels)
         assert numbers[signals.TERMINAL] == len({(level.strip, level.number) for level in levels})
-        read = {own.signal: own for own in channels(loom) if own.signal}
+        read = {own.signal: own for own in channels(loom)}
+        assert all(read)  # every input has its variable
         for name, parts in signals.signals_of(loom.heads, loom.weavers):  # a wire to an input, or none at all
             assert (name in read) == (parts[0] != signals.CONTROLLER), name
         field = {level.part for level in levels if level.strip == "X1"}
-        assert field >= {own.part for own in read.values()} - {signals.STRAIN_AMPLIFIER}
+        inside = {signals.STRAIN_AMPLIFIER, signals.RELAY, signals.YARN_STOP}  # a yarn's sensor is at its head's module
+        assert field >= {own.part for own in read.values()} - inside
 
 
 def test_a_signal_of_each_head_has_a_part_on_each() -> None:

@@ -240,7 +240,7 @@ def _geared(start: CrankStart) -> Iterator[Part]:
     if reducer.ratio != 1:
         yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer, row)
     speed = start.duty.linkage.params.speed
-    yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed)
+    yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed, rear=True)
 
 
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:

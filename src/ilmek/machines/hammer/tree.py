@@ -189,7 +189,7 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
     drive, load = found.drive, found.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     row = drive.motor if drive else None
-    motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
+    motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count, rear=True)
     ratio = drive.reducer.ratio if drive else 1.0
     brake = catalogue.holding_brake(BRAKE, "brake of a vertical axis", motor, found.brake / ratio)
     if drive is None or ratio == 1:
@@ -203,7 +203,7 @@ def _axis_data(params: HammerParams) -> str:
     if params.axis == "screw":
         drive = f"lead {in_mm(params.screw_lead)}"
         drive = f"screw {in_mm(params.screw_diameter)}, {drive}" if params.screw_diameter else drive
-    return f"linear axis {in_mm(AXIS_SIDE)} wide, {params.axis} drive, {drive}"
+    return f"linear axis {in_mm(AXIS_SIDE)} wide, {params.axis} drive, {drive}, {catalogue.stroke_of(params.stroke)}"
 
 
 @lru_cache(maxsize=4)

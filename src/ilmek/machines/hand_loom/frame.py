@@ -9,6 +9,7 @@ from functools import lru_cache
 from ilmek.elements.columns import STEEL
 from ilmek.elements.materials import GRAVITY
 from ilmek.errors import LoomError
+from ilmek.machines.automated_loom.cabinet import control_needs, control_parts
 from ilmek.machines.automated_loom.equipment.bench import (
     BOARD,
     ELBOW,
@@ -26,7 +27,6 @@ from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.beating import beat_branch
 from ilmek.machines.automated_loom.in_space.machines import joined
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.standing_frame import control_needs, control_parts
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.hand_beat import HandBeat
 from ilmek.machines.hand_beat.report import tree as tools_tree

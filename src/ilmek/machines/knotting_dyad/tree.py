@@ -255,7 +255,8 @@ def _axis(
     """The axis of the centre gripper under its foot, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
     long, under = 2 * stroke, needle_level(dyad) + jaws.bar + FOOT
-    title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
+    title, shape, data = "axis of the centre gripper", box(AXIS, long, AXIS), catalogue.stroke_of(stroke)
+    bought = Bought("linear axis", length=stroke, data=f"straight, {data}")
     axis = Part(f"{NAME}/centre-axis", title, "linear axis", shape, purchase=bought, envelope=True, size="straight")
     begin = _depth(params, head, jaws) - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))

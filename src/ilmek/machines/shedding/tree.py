@@ -323,6 +323,7 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         drive.motor,
         drive.motor_torque,
         drive.motor_speed,
+        rear=index == 0,  # for the encoder of the shed
     )
     far = bearing_inner(design, index) + shaft.seat.through + catalogue.length_of(geared)
     flange = placement(z=-far)

@@ -91,7 +91,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         title = "angle reducer of a head"
         geared = catalogue.reducer(part_id("reducer"), title, servo.reducer, motor, output=output)
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
-    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
+    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed, rear=True)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
     on_output = placement(begin - catalogue.BESIDE, at.imag, at.real).after(ALONG_WIDTH)
     bore, hub = keyed_bore(OUTPUT / 2, key.keyway.width, key.keyway.in_hub, key.number), hub_diameter(OUTPUT)

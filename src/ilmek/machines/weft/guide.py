@@ -220,7 +220,7 @@ class ShuttleGuide:
         """The slides of the boxes on the bar, beside their outer ends, with their steppers above."""
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
-        data = f"slide {in_mm(SLIDE)} wide, belt drive"
+        data = f"slide {in_mm(SLIDE)} wide, belt drive, {catalogue.stroke_of(self.pitch)}"
         shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch, data=data)
         slide = bought_part(part_id("box-slide"), "slide of a box", "linear axis", shape, bought)
         x = self.box_end + SLIDE / 2

@@ -129,7 +129,7 @@ class RapierSide:
         axis, carrier, (left, right) = self.axis, self.params.carrier, self.run
         wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
         size = f"belt {axis.belt.belt.name}, {wide}"
-        data = f"{in_mm(SIDE)} wide, {size}"
+        data = f"{in_mm(SIDE)} wide, {size}, {catalogue.stroke_of(self.passage.stroke)}"
         room, bought = box(SIDE, SIDE, right - left), Bought("belt axis", length=self.passage.stroke, data=data)
         belt = bought_part(AXIS, f"axis of the {carrier}", "linear axis", room, bought, size=size)
         yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
@@ -167,7 +167,7 @@ class RapierSide:
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
         motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
-        data = f"slide {in_mm(SIDE)} wide, rack drive"
+        data = f"slide {in_mm(SIDE)} wide, rack drive, {catalogue.stroke_of(2 * self.params.turn)}"
         room, bought = box(SIDE, SIDE, long), Bought("slide", length=2 * self.params.turn, data=data)
         name, title = part_id("needle-axis"), "axis of a tuck-in needle"
         slide = bought_part(name, title, "linear axis", room, bought, size="along the edge")

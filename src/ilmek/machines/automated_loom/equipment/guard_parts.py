@@ -15,6 +15,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.anchors import anchored
+from ilmek.machines.automated_loom.cabinet import CONTROL
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
     DEVICE_PLATE,
@@ -41,7 +42,7 @@ from ilmek.machines.automated_loom.equipment.guards import (
     side_posts,
 )
 from ilmek.machines.automated_loom.equipment.site import LoomSite
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import GAP, Surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
