@@ -60,7 +60,7 @@ class Forces:
     input_power   Σ effort times its speed [W]
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
-    undetermined  what depends on the tension of belts and chains
+    undetermined  what depends on the tension of belts and chains, and on redundant constraints
     actuators     joints whose efforts drive the motion; (): those of the inputs
 
     >>> from ilmek import bar, four_bar, inverse_dynamics, solve
@@ -276,7 +276,7 @@ def _without(forces: Forces, missing: Undetermined) -> Forces:
     return replace(
         forces,
         reactions=shown(forces.reactions, missing.couplings | missing.joints),
-        couples=shown(forces.couples, missing.joints),
+        couples=shown(forces.couples, missing.joints | missing.couples),
         efforts=shown(forces.efforts, missing.inputs),
         frictions=shown(forces.frictions, missing.frictions),
         input_power=forces.input_power if not missing.inputs else np.full_like(forces.input_power, np.nan),

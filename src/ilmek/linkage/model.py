@@ -115,6 +115,7 @@ class Mechanism:
     pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
               closed form: the start of Newton's method. Default of a body: its frame coincides with the world.
     couplings  gears, belts, racks
+    redundant  joints that stand still by constraints elsewhere, which leave a force in them open: see `redundant`
 
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
     branch that is neither +1 nor -1, a pose that is not finite. The degrees of freedom are checked by `structure.plan`,
@@ -136,11 +137,13 @@ class Mechanism:
     name: str = "mechanism"
     pose: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
     couplings: tuple[Coupling, ...] = ()
+    redundant: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         given = Arguments("a mechanism", MechanismError)
         kinds = {"bodies": Body, "joints": (Pin, Slide), "inputs": (Rotation, Displacement), "couplings": Coupling}
         object.__setattr__(self, "name", given.text("name", self.name))
+        object.__setattr__(self, "redundant", given.sequence("redundant", self.redundant, str))
         for name, kind in kinds.items():
             object.__setattr__(self, name, given.sequence(name, getattr(self, name), kind))
         branches = given.mapping("branches", self.branches, partial(given.whole, least=-1, most=1))
@@ -219,6 +222,9 @@ def _check(mechanism: Mechanism) -> None:
     for name in mechanism.pose:
         with about("pose", name):
             mechanism.body(name)
+    for name in mechanism.redundant:
+        with about("redundant"):
+            mechanism.joint(name)
 
 
 def _check_names(mechanism: Mechanism) -> None:

@@ -8,6 +8,7 @@ from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.drawing import as_drawn
 from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
+from ilmek.linkage.redundant import without_redundant
 from ilmek.plane.teeth import PRESSURE_ANGLE
 
 
@@ -28,11 +29,12 @@ def mechanism_of(data: Table, source: SourceText) -> Mechanism:
             branches=data.get("branches", {}),
             name=name,
             couplings=tuple(_coupling(one, table) for one, table in data.get("couplings", {}).items()),
+            redundant=data.get("redundant", ()),
             pose={body: (complex_of(pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
         )
         for entry in mechanism.inputs:
             _check_driven(mechanism, entry, data["inputs"])
-        mechanism = as_drawn(mechanism)
+        mechanism = as_drawn(without_redundant(mechanism))
     if "lengths" not in data.get("confirm", ()):
         check_lengths(points, members, source)
     return mechanism

@@ -73,6 +73,7 @@ class _Writer:
             "servo": one.servo,
             "actuators": {name: effort_of(mechanism.joint(name)) for name in one.actuators},
             "paths": [list(spot) for spot in one.paths],
+            "redundant": list(mechanism.redundant),
             "transmission": list(one.transmission),
         }
         data |= {key: value for key, value in further.items() if value}

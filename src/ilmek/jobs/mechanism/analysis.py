@@ -12,10 +12,13 @@ from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.dynamics.pose_block import characteristic_length
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.model import Pin
+from ilmek.linkage.outputs import RelativeAngle, Travel, output_history
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.transmission import transmission_angles
@@ -26,6 +29,9 @@ from ilmek.report import Check, at_least, at_most
 if TYPE_CHECKING:
     from ilmek.arrays import FloatArray
     from ilmek.dynamics.own_forward import OwnForward
+
+STANDS = 1e-6
+"""Greatest motion of a joint that stands still [rad], or relative to the mechanism's length."""
 
 BALANCE, ENERGY = 1e-9, 1e-6
 """Greatest relative residual of the balances of power and forces, and of the energy of a forward run."""
@@ -63,7 +69,18 @@ class Analysis:
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
         ended = self.forward.checks if self.forward else ()
         failed = tuple(test for test in self.self_tests if not test.ok)
-        return (*self._closes, *self._defined, *self._driven, *locked, *strength, *ended, *started, *servo, *failed)
+        return (
+            *self._closes,
+            *self._standing,
+            *self._defined,
+            *self._driven,
+            *locked,
+            *strength,
+            *ended,
+            *started,
+            *servo,
+            *failed,
+        )
 
     @property
     def _closes(self) -> tuple[Check, ...]:
@@ -74,6 +91,21 @@ class Analysis:
         return (
             at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive").with_cure(cure),
         )
+
+    @property
+    def _standing(self) -> tuple[Check, ...]:
+        """Whether the joints of redundant constraints stand still: else a constraint is violated, and not redundant."""
+        run, checks = self.run, []
+        for name in run.plan.mechanism.redundant:
+            joint, size = run.plan.mechanism.joint(name), characteristic_length(run.plan.mechanism)
+            turns = isinstance(joint, Pin)
+            moved = output_history(run.motion, RelativeAngle(*joint.bodies) if turns else Travel(name)).value
+            limit, unit = (STANDS, "deg") if turns else (STANDS * size, "mm")
+            most = float(np.max(np.abs(moved[run.motion.status == Status.OK]), initial=0.0))
+            source = "the constraints elsewhere keep it still: its own is redundant"
+            cure = "give lengths at which it is, or leave the body out"
+            checks.append(at_most(f"{name}: stands still", most, limit, unit, source).with_cure(cure))
+        return tuple(checks)
 
     @property
     def _defined(self) -> tuple[Check, ...]:
@@ -139,8 +171,8 @@ class Analysis:
             yield run.left_out
         unknown = run.forces.forces.undetermined if run.forces is not None else None
         if unknown:
-            names = ", ".join(sorted(unknown.joints | unknown.inputs)) or "none but its own"
-            yield f"not determined without the tension of {', '.join(sorted(unknown.couplings))}: the forces of {names}"
+            names = ", ".join(name for name in unknown.listed if name not in unknown.couplings) or "none but its own"
+            yield f"not determined without {unknown.cause}: the forces of {names}"
         if not run.machine.has_forces:
             yield HINT
         if run.assumed and run.forces is not None:
