@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from ilmek.errors import MechanismError, did_you_mean
-from ilmek.io.mechanism.joints import joints_of, members_of
+from ilmek.io.mechanism.joints import blocks_of, joints_of, members_of
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.drawing import as_drawn
@@ -23,7 +23,7 @@ def mechanism_of(data: Table, source: SourceText) -> Mechanism:
     _check_points(points, members, name, source)
     with source.located():
         mechanism = Mechanism(
-            bodies=tuple(Body(body, own) for body, own in points.items()),
+            bodies=(*(Body(body, own) for body, own in points.items()), *blocks_of(data["joints"], points)),
             joints=joints,
             inputs=tuple(_input(joint, body, joints, members) for joint, body in data["inputs"].items()),
             branches=data.get("branches", {}),
