@@ -256,7 +256,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actu
         motion.status.copy(),
         reactions={joint.name: np.empty(samples, complex) for joint in joined},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
-        torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind != "rack"},
+        torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind in ("gears", "belt")},
         acting={joint.name: WholeForce(np.empty(samples, complex), np.empty(samples)) for joint in joined},
         efforts={name: np.empty(samples) for name in actuators or [entry.name for entry in mechanism.inputs]},
         frictions={law.joint: np.zeros(samples) for law in joint_frictions},

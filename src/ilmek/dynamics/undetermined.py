@@ -18,7 +18,7 @@ from ilmek.arrays import BoolArray, ComplexField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction
-from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_tension
 from ilmek.linkage.model import GROUND, Coupling
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross
@@ -86,7 +86,7 @@ def undetermined(
     joint_frictions  friction of joints
     """
     mechanism = poses.motion.plan.mechanism
-    open_couplings = [coupling for coupling in mechanism.couplings if not has_teeth(coupling)]
+    open_couplings = [coupling for coupling in mechanism.couplings if has_tension(coupling)]
     if not open_couplings and not mechanism.redundant:
         return Undetermined()
     nothing = {body: ForceAndMoment(0j, 0.0) for body in inertias}

@@ -14,9 +14,10 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TypeAlias, TypeVar
+from typing import Protocol, TypeAlias, TypeVar
 
 from ilmek.arguments import Arguments
+from ilmek.arrays import RealField
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.linkage.joints import GROUND, Body, Displacement, Pin, Rotation, Slide, about, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
@@ -43,13 +44,33 @@ GREATEST_PRESSURE_ANGLE = 45 * deg
 """Greatest pressure angle of a coupling [rad]; teeth have 14.5° to 30°."""
 
 
+class TransferLaw(Protocol):
+    """A law q_2 = f(q_1) of a higher pair, periodic in q_1 but for a constant; `geneva.Geneva`, the lift of a cam.
+
+    slides  whether q_2 is a displacement [m], not an angle      turns  of q_1 after which the second is as before
+    one_sided  whether the first body can only press on the second
+    """
+
+    @property
+    def slides(self) -> bool: ...
+
+    @property
+    def turns(self) -> int: ...
+
+    @property
+    def one_sided(self) -> bool: ...
+
+    def motion(self, angle: RealField, /) -> tuple[RealField, RealField, RealField, RealField]:
+        """F and its first three derivatives at angles [rad]."""
+
+
 @dataclass(frozen=True, slots=True)
 class Coupling:
-    """A fixed ratio between the motions of two bodies on one carrier: gears, a belt or chain, a rack and its pinion.
+    """A fixed relation of the motions of two bodies on one carrier: gears, belt or chain, rack, cam, Geneva wheel.
 
-        q_second - second_at = ratio (q_first - first_at)
+        q_second - second_at = ratio (q_first - first_at),   or  = f(q_first - first_at) by a law
 
-    kind     "gears", "belt" or "rack"
+    kind     "gears", "belt", "rack", "cam" or "geneva"
     first    body and its point in the middle of the wheel; q is its angle against the carrier [rad]
     second   the same of the other wheel; for a rack the sliding body and its slide, q the slide's displacement s [m]
     ratio    gears outside one another -z1/z2, one inside the other z1/z2; an open belt r1/r2, a crossed one -r1/r2;
@@ -57,6 +78,8 @@ class Coupling:
     first_at, second_at   both q in the assembled position: the mesh is given, never assumed
     carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
     pressure_angle   of gears and racks: of their teeth at the pitch point [rad]; a belt has none
+    law      f of a cam or Geneva wheel, in place of the ratio; the angle of a Geneva crank from the line of its centres
+    roller   point of a cam's follower in the middle of its roller; "": a flat face square to its slide
 
     Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
     to be within half a turn of `first_at` (`second_at`).
@@ -74,11 +97,13 @@ class Coupling:
     second_at: float
     carrier: str = GROUND
     pressure_angle: float = PRESSURE_ANGLE
+    law: TransferLaw | None = None
+    roller: str = ""
 
     def __post_init__(self) -> None:
-        set_texts(self, "name", "kind", "carrier")
+        set_texts(self, "name", "kind", "carrier", "roller")
         given = Arguments(f"coupling {self.name!r}", MechanismError)
-        rack = self.kind == "rack"
+        rack = self.slides
         with about("couplings", self.name):
             for name in ("first", "second"):
                 body, point = given.pair(name, getattr(self, name), "(body, point)")
@@ -94,8 +119,19 @@ class Coupling:
         """First, second, carrier."""
         return self.first[0], self.second[0], self.carrier
 
+    @property
+    def slides(self) -> bool:
+        """Whether the second body slides."""
+        return self.kind == "rack" if self.law is None else self.law.slides
 
-KINDS = ("gears", "belt", "rack")
+    def transfer(self, turned: RealField) -> tuple[RealField, RealField, RealField, RealField]:
+        """q_second - second_at and its derivatives by q_first, at q_first - first_at [rad]."""
+        if self.law is not None:
+            return self.law.motion(turned)
+        return self.ratio * turned, self.ratio, 0.0, 0.0
+
+
+KINDS = ("gears", "belt", "rack", "cam", "geneva")
 """Kinds of couplings."""
 
 Joint: TypeAlias = Pin | Slide
@@ -257,12 +293,14 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
     for body, point in (coupling.first, coupling.second):
         mechanism.point(body, point)
     mechanism.body(coupling.carrier)
-    if coupling.ratio == 0:
+    if coupling.ratio == 0 and coupling.law is None:
         raise MechanismError(f"{subject} has ratio 0", allowed="another number")
     if not 0 <= coupling.pressure_angle <= GREATEST_PRESSURE_ANGLE:
         given = f"{subject} has a pressure angle of {coupling.pressure_angle:g} rad"
         raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
-    if coupling.kind == "rack":
+    if coupling.roller:
+        mechanism.point(coupling.second[0], coupling.roller)
+    if coupling.slides:
         slide = mechanism.joint(coupling.second[1])
         if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):
             given = (

@@ -1,4 +1,4 @@
-"""Joints of a mechanism file. A pin of several bodies becomes pins of two bodies each, a pin in a slot a pin on a block.
+"""Joints of a mechanism file. A pin of several bodies becomes pins of two bodies each, a pin in a slot one of a block.
 
 All pins of one point are attached to the body that is located first, outward from the ground and the inputs: so each
 dyad keeps its closed form. The first of these pins has the joint's name, the others `NAME.BODY`.

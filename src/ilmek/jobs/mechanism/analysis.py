@@ -12,7 +12,7 @@ from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.own_machine import OwnMachine
-from ilmek.dynamics.pose_block import characteristic_length
+from ilmek.dynamics.pose_block import characteristic_length, pose_block
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
@@ -22,6 +22,7 @@ from ilmek.linkage.outputs import RelativeAngle, Travel, output_history
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.transmission import transmission_angles
+from ilmek.plane.vectors import dot
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -74,6 +75,7 @@ class Analysis:
             *self._standing,
             *self._defined,
             *self._driven,
+            *self._pressed,
             *locked,
             *strength,
             *ended,
@@ -133,6 +135,23 @@ class Analysis:
         source = "its joint moves wherever the input does"
         cure = "put the motor at another joint, or keep away from there: --over FROM..TO"
         return (at_most(f"dead centres of actuator {names[0]}", dead, 0, "1", source).with_cure(cure),)
+
+    @property
+    def _pressed(self) -> tuple[Check, ...]:
+        """Whether the followers of cams that can only press are pressed on at every sample."""
+        if self.run.forces is None:
+            return ()
+        forces, checks = self.run.forces.forces, []
+        for cam in self.run.plan.mechanism.couplings:
+            contact = pose_block(forces.motion, {}).joints[cam.name].tooth
+            if cam.law is None or not cam.law.one_sided or contact is None:
+                continue
+            pressed = np.asarray(dot(contact.force, forces.reactions[cam.name]))
+            least = float(np.min(pressed[np.isfinite(pressed)], initial=np.inf))
+            source = "a cam without a groove can only press on its follower"
+            cure = "a stronger or longer spring, a lower speed, or groove = true"
+            checks.append(at_least(f"{cam.name}: force on the follower", least, 0.0, "N", source).with_cure(cure))
+        return tuple(checks)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:
