@@ -17,7 +17,7 @@ from ilmek.arguments import Arguments
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, loaded, needs
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, tooth_separations
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, separations
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
 from ilmek.dynamics.undetermined import Undetermined, undetermined
@@ -217,7 +217,7 @@ def inverse(
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
             laws = [
-                *tooth_separations(mechanism),
+                *separations(mechanism),
                 *(law for law in joint_frictions if law.joint not in missing.frictions),
             ]
             forces.load_power[part] += _load_power(poses, acting)

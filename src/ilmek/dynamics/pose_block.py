@@ -37,7 +37,7 @@ class JointPoses:
     at     position [m] of the joint; of teeth the pitch point; of another coupling the middle of its first wheel
     line   of a slide: unit vector along its line; otherwise None
     tooth  of a coupling: unit force and moment about `at` that it transmits to the second body; otherwise None
-    separation  of teeth: unit vector in which they press the second body; otherwise None
+    separation  unit vector in which teeth press, or a belt pulls, the second body; otherwise None
     middle      of the second wheel of a coupling [m]; otherwise None
     """
 
@@ -52,7 +52,8 @@ class JointPoses:
 
     def point_on(self, body: str) -> ComplexField:
         """Position [m] at which the force acts on one of the two bodies: without teeth its own middle."""
-        return self.middle if self.middle is not None and self.separation is None and body == self.on else self.at
+        apart = self.middle is not None and self.tooth is not None and np.any(self.tooth.moment)
+        return self.middle if apart and self.middle is not None and body == self.on else self.at
 
     def generalized_force(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
         """Generalized force of a force and moment on the joint's relative motion; only a drive effort balances it.
@@ -194,7 +195,8 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
         pole, separation = at + ratio / (ratio - 1) * offset, along if ratio < 0 else -along
         return JointPoses(coupling.name, second, first, pole, None, ForceAndMoment(1j * along, 0.0), separation, middle)
     tooth = ForceAndMoment((ratio - 1) * 1j * along, ratio * distance)
-    return JointPoses(coupling.name, second, first, at, None, tooth, middle=middle)
+    pulled = None if coupling.spans is None else -along
+    return JointPoses(coupling.name, second, first, at, None, tooth, pulled, middle)
 
 
 def _pair_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
@@ -233,8 +235,8 @@ def has_teeth(coupling: Coupling) -> bool:
 
 
 def has_tension(coupling: Coupling) -> bool:
-    """Whether a coupling has an open force: a belt, or wheels that turn alike."""
-    return coupling.law is None and not has_teeth(coupling)
+    """Whether a coupling has an open force: a belt without its spans, or wheels that turn alike."""
+    return coupling.law is None and coupling.spans is None and not has_teeth(coupling)
 
 
 def receiver(joint: Joint) -> str:

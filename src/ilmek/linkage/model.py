@@ -65,6 +65,36 @@ class TransferLaw(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Spans:
+    """The spans of a belt or chain between its pulleys, whose forces load their bearings.
+
+    radius      r_1 of the first pulley [m]; r_2 = r_1 / |ratio|
+    pretension  T_0 of each span at rest [N]; 0: a chain, whose slack span has no force
+    friction    mu of a flat belt on its pulleys; None: teeth, which do not slip
+
+    >>> Spans("40mm", pretension="300N", friction=0.3).radius
+    0.04
+    """
+
+    radius: float
+    pretension: float = 0.0
+    friction: float | None = None
+
+    def __post_init__(self) -> None:
+        given = Arguments("a belt", MechanismError)
+        object.__setattr__(self, "radius", given.not_negative("radius", self.radius, "m"))
+        if not self.radius:
+            raise MechanismError("the radius of a pulley is 0", allowed="above 0")
+        object.__setattr__(self, "pretension", given.not_negative("pretension", self.pretension, "N"))
+        if self.friction is not None:
+            object.__setattr__(self, "friction", given.not_negative("friction", self.friction, ""))
+
+    def lean(self, ratio: float, distance: RealField) -> RealField:
+        """Sin alpha = (r_1 -+ r_2) / a: of the spans against the line of centres, at a distance a of these [m]."""
+        return self.radius * (1 - 1 / ratio) / distance
+
+
+@dataclass(frozen=True, slots=True)
 class Coupling:
     """A fixed relation of the motions of two bodies on one carrier: gears, belt or chain, rack, cam, Geneva wheel.
 
@@ -79,6 +109,7 @@ class Coupling:
     carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
     pressure_angle   of gears and racks: of their teeth at the pitch point [rad]; a belt has none
     law      f of a cam or Geneva wheel, in place of the ratio; the angle of a Geneva crank from the line of its centres
+    spans    of a belt or chain; None: the forces that depend on its tension are open
     roller   point of a cam's follower in the middle of its roller; "": a flat face square to its slide
 
     Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
@@ -99,6 +130,7 @@ class Coupling:
     pressure_angle: float = PRESSURE_ANGLE
     law: TransferLaw | None = None
     roller: str = ""
+    spans: Spans | None = None
 
     def __post_init__(self) -> None:
         set_texts(self, "name", "kind", "carrier", "roller")
@@ -298,6 +330,8 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
     if not 0 <= coupling.pressure_angle <= GREATEST_PRESSURE_ANGLE:
         given = f"{subject} has a pressure angle of {coupling.pressure_angle:g} rad"
         raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
+    if coupling.spans is not None:
+        _check_spans(mechanism, coupling, coupling.spans)
     if coupling.roller:
         mechanism.point(coupling.second[0], coupling.roller)
     if coupling.slides:
@@ -307,6 +341,18 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
                 f"{subject} requires a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
             )
             raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
+
+
+def _check_spans(mechanism: Mechanism, coupling: Coupling, spans: Spans) -> None:
+    points = mechanism.body(coupling.carrier).points
+    if coupling.kind != "belt":
+        raise MechanismError(f"{coupling.name!r} has spans", allowed="a belt or chain has them")
+    if coupling.first[1] in points and coupling.second[1] in points:
+        distance = abs(points[coupling.first[1]] - points[coupling.second[1]])
+        if abs(spans.radius * (1 - 1 / coupling.ratio)) >= distance:
+            other = spans.radius / abs(coupling.ratio)
+            given = f"{coupling.name!r}: pulleys of radius {spans.radius:g} m and {other:g} m at {distance:g} m"
+            raise MechanismError(given, allowed="a distance at which a belt reaches around both")
 
 
 def _check_input(mechanism: Mechanism, entry: Input) -> None:

@@ -9,7 +9,19 @@ from ilmek.io.mechanism.pairs import law_of_pair
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
 from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.model import GROUND, KINDS, Body, Coupling, Displacement, Input, Joint, Mechanism, Rotation, Slide
+from ilmek.linkage.model import (
+    GROUND,
+    KINDS,
+    Body,
+    Coupling,
+    Displacement,
+    Input,
+    Joint,
+    Mechanism,
+    Rotation,
+    Slide,
+    Spans,
+)
 from ilmek.linkage.redundant import without_redundant
 from ilmek.plane.teeth import PRESSURE_ANGLE
 
@@ -115,4 +127,14 @@ def _coupling(name: str, table: Table, sliding: Set[str]) -> Coupling:
         table.get("pressure_angle", PRESSURE_ANGLE),
         law,
         table.get("roller", ""),
+        _spans(table),
     )
+
+
+def _spans(table: Table) -> Spans | None:
+    """The spans of a belt that is given with a radius. Raises MechanismError for a tension without one."""
+    if "radius" in table:
+        return Spans(table["radius"], table.get("pretension", 0.0), table.get("friction"))
+    if table.keys() & {"pretension", "friction"}:
+        raise MechanismError("a belt has a tension or friction and no radius", do="give the radius of its first pulley")
+    return None

@@ -138,7 +138,10 @@ class _Writer:
             units["pressure_angle"] = "deg"
         numbers = {key: self.quantity(float(getattr(one, key)), unit) for key, unit in units.items()}
         ends: list[Json] = [list(one.first), list(one.second)]
-        return {one.kind: ends, "carrier": one.carrier, **numbers, **self.pair(one)}
+        units = {"radius": "mm", "pretension": "N", "friction": "1"}
+        given = {key: getattr(one.spans, key, None) for key in units}
+        spans = {key: self.quantity(value, units[key]) for key, value in given.items() if value is not None}
+        return {one.kind: ends, "carrier": one.carrier, **numbers, **spans, **self.pair(one)}
 
     def pair(self, one: Coupling) -> dict[str, Json]:
         """The law and the contact of a higher pair."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from ilmek.dynamics.equations import STILL
 from ilmek.dynamics.inverse import joint_rate
-from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.inverse_run import InverseRun, greatest
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.own_machine import OwnMachine
@@ -76,6 +76,7 @@ class Analysis:
             *self._defined,
             *self._driven,
             *self._pressed,
+            *self._grip,
             *locked,
             *strength,
             *ended,
@@ -151,6 +152,29 @@ class Analysis:
             source = "a cam without a groove can only press on its follower"
             cure = "a stronger or longer spring, a lower speed, or groove = true"
             checks.append(at_least(f"{cam.name}: force on the follower", least, 0.0, "N", source).with_cure(cure))
+        return tuple(checks)
+
+    @property
+    def _grip(self) -> tuple[Check, ...]:
+        """Whether flat belts do not slip: the difference of their spans against the limit of Euler and Eytelwein.
+
+        |T_1 - T_2| <= 2 T_0 tanh(mu beta / 2),   beta = pi - 2 |alpha| of an open, pi + 2 |alpha| of a crossed belt
+        """
+        if self.run.forces is None:
+            return ()
+        forces, checks = self.run.forces.forces, []
+        poses = pose_block(forces.motion, {})
+        for belt in self.run.plan.mechanism.couplings:
+            joint = poses.joints[belt.name]
+            if belt.spans is None or belt.spans.friction is None or joint.middle is None:
+                continue
+            lean = np.arcsin(belt.spans.lean(belt.ratio, np.nanmax(np.abs(joint.middle - joint.at))))
+            wrap = np.pi - 2 * float(np.abs(lean)) * np.sign(belt.ratio)
+            limit = 2 * belt.spans.pretension * np.tanh(belt.spans.friction * wrap / 2)
+            apart = greatest(forces.torques[belt.name]) * abs(belt.ratio) / belt.spans.radius
+            source = f"difference of its spans, by T_1/T_2 = exp(mu beta) at {np.degrees(wrap):.0f} deg of wrap"
+            cure = "a higher pretension, a larger pulley, or a toothed belt"
+            checks.append(at_most(f"{belt.name}: grip of the belt", apart, float(limit), "N", source).with_cure(cure))
         return tuple(checks)
 
     @property
