@@ -29,7 +29,7 @@ from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
-from ilmek.linkage.model import Mechanism, Pin, Slide, Spans
+from ilmek.linkage.model import BeltSpans, Mechanism, Pin, Slide
 from ilmek.num.linear import solve_many
 from ilmek.plane.vectors import cross, dot
 
@@ -141,7 +141,7 @@ class SpanTension:
     """
 
     joint: str
-    spans: Spans
+    spans: BeltSpans
     ratio: float
     drag: float = 0.0
 

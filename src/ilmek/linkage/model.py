@@ -65,14 +65,14 @@ class TransferLaw(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Spans:
+class BeltSpans:
     """The spans of a belt or chain between its pulleys, whose forces load their bearings.
 
     radius      r_1 of the first pulley [m]; r_2 = r_1 / |ratio|
     pretension  T_0 of each span at rest [N]; 0: a chain, whose slack span has no force
     friction    mu of a flat belt on its pulleys; None: teeth, which do not slip
 
-    >>> Spans("40mm", pretension="300N", friction=0.3).radius
+    >>> BeltSpans("40mm", pretension="300N", friction=0.3).radius
     0.04
     """
 
@@ -130,7 +130,7 @@ class Coupling:
     pressure_angle: float = PRESSURE_ANGLE
     law: TransferLaw | None = None
     roller: str = ""
-    spans: Spans | None = None
+    spans: BeltSpans | None = None
 
     def __post_init__(self) -> None:
         set_texts(self, "name", "kind", "carrier", "roller")
@@ -343,7 +343,7 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
             raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
 
 
-def _check_spans(mechanism: Mechanism, coupling: Coupling, spans: Spans) -> None:
+def _check_spans(mechanism: Mechanism, coupling: Coupling, spans: BeltSpans) -> None:
     points = mechanism.body(coupling.carrier).points
     if coupling.kind != "belt":
         raise MechanismError(f"{coupling.name!r} has spans", allowed="a belt or chain has them")

@@ -12,6 +12,7 @@ from ilmek.linkage.drawing import as_drawn
 from ilmek.linkage.model import (
     GROUND,
     KINDS,
+    BeltSpans,
     Body,
     Coupling,
     Displacement,
@@ -20,7 +21,6 @@ from ilmek.linkage.model import (
     Mechanism,
     Rotation,
     Slide,
-    Spans,
 )
 from ilmek.linkage.redundant import without_redundant
 from ilmek.plane.teeth import PRESSURE_ANGLE
@@ -131,10 +131,10 @@ def _coupling(name: str, table: Table, sliding: Set[str]) -> Coupling:
     )
 
 
-def _spans(table: Table) -> Spans | None:
+def _spans(table: Table) -> BeltSpans | None:
     """The spans of a belt that is given with a radius. Raises MechanismError for a tension without one."""
     if "radius" in table:
-        return Spans(table["radius"], table.get("pretension", 0.0), table.get("friction"))
+        return BeltSpans(table["radius"], table.get("pretension", 0.0), table.get("friction"))
     if table.keys() & {"pretension", "friction"}:
         raise MechanismError("a belt has a tension or friction and no radius", do="give the radius of its first pulley")
     return None
