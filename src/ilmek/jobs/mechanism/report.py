@@ -80,4 +80,6 @@ def _forces(found: Analysis) -> tuple[Result, ...]:
 
 def _mobility(run: MechanismRun) -> str:
     first = int(np.flatnonzero(run.motion.status == Status.OK)[0])
-    return mobility(run.plan.mechanism, run.motion.pose(first)).description
+    mechanism = run.plan.mechanism
+    without = f", without the redundant constraints at {', '.join(mechanism.redundant)}" if mechanism.redundant else ""
+    return mobility(mechanism, run.motion.pose(first)).description + without

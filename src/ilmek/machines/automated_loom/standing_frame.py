@@ -21,7 +21,6 @@ from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box, tube
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.records import record
 from ilmek.units import mm
 
 LEVELLING_FOOT = part_id("levelling-foot")
