@@ -38,7 +38,11 @@ def weave(group: int, batch: int) -> tuple[float, bytes]:
         moving.extend(outputs.orders)
 
     asked = controller.react((SensorsChanged(READY, 0), Commanded(PackCommand.RESET)))
+    while asked.orders:  # each axis is at home
+        carry_out(asked)
+        asked = controller.react(tuple(Done(order, 0) for order in asked.orders))
     carry_out(asked)
+    moving.clear()
     carry_out(controller.react(tuple(Sensed(one, False) for one in asked.questions)))
     carry_out(controller.react((Commanded(PackCommand.START),)))
     spent, now = 0.0, 0

@@ -318,3 +318,45 @@ def test_a_recorded_run_is_replayed(carpet: Path, tmp_path: Path) -> None:
     assert "NOT the recorded run" in call("replay", recording, carpet).stdout
     assert "another programme" in error("replay", recording, carpet.with_name("other.ilmek"))
     assert "does not exist" in error("replay", tmp_path / "none.txt", carpet)
+
+
+def test_rows_that_were_taken_out_are_woven_again(carpet: Path, tmp_path: Path) -> None:
+    """Also in the middle of a row, and after the carpet is complete; the journal counts what is on the loom."""
+    run = LoomRun(RunOrder(carpet, tmp_path / "j", speed=None))
+    with run:
+        run.work(lambda snapshot: run.stop() if snapshot.knots >= 80 else None)
+    rows = as_json("status", "--journal", tmp_path / "j")["row"] - 1
+    with LoomRun(RunOrder(carpet, tmp_path / "j", speed=None, start=False, serves=True, rows_back=1)) as run:
+        assert run.snapshot().row == rows - 1
+        assert run.snapshot().knots == run.begun == 24 * (rows - 1)
+        assert [run.woven.counts(row).any() for row in range(6)] == [row < rows - 1 for row in range(6)]
+    found = as_json("status", "--journal", tmp_path / "j")
+    assert (found["row"], found["knots"]) == (rows, 24 * (rows - 1))
+    found = as_json("run", carpet, "--journal", tmp_path / "j", "--speed", "max")
+    assert (found["state"], found["knots"], found["faults"]) == ("Complete", 144, 0)
+    assert "rows back in row 7; 0 (the row in work alone) to" in error(
+        "run", carpet, "--journal", tmp_path / "j", "--speed", "max", "--rows-back", 20
+    )
+    assert "--rows-back 21; 0 to 20" in error("run", carpet, "--speed", "max", "--rows-back", 21)
+
+
+def test_a_loom_that_serves_is_moved_by_hand_and_takes_rows_back(carpet: Path, tmp_path: Path) -> None:
+    with LoomRun(RunOrder(carpet, tmp_path / "j", speed=None, start=False, serves=True)) as run:
+        work = threading.Thread(target=run.work)
+        work.start()
+        journal = ("--journal", tmp_path / "j")
+        assert "Stopped" in call("mode", "manual", *journal).output
+        for command in ("reset", "start"):
+            assert run.command(command).ok
+        assert run.snapshot().state == "Execute"
+        assert call("jog", "carriage", "20mm", *journal).exit_code == 0
+        assert "up to 0.05 m" in error("jog", "carriage", "80mm", *journal)
+        assert "wrong unit" in error("jog", "beater", "2mm", *journal)
+        assert "allowed in Stopped" in run.command("rows-back 0").reason
+        assert "the mode changes in" in error("mode", "production", *journal)
+        assert run.command("stop").ok
+        until(lambda: run.snapshot().state == "Stopped")
+        assert run.command("rows-back 0").ok
+        assert not run.command("rows-back 1").ok
+        run.stop()
+        work.join(PATIENCE)

@@ -47,6 +47,8 @@ main = LazyGroup(
         "status": ("ilmek.cli.status", "Show the state of a run, from another terminal."),
         "hold": ("ilmek.cli.hold", "Hold a run, from another terminal."),
         "resume": ("ilmek.cli.resume", "Have a run go on, from another terminal."),
+        "mode": ("ilmek.cli.mode", "Choose the mode of a run, from another terminal."),
+        "jog": ("ilmek.cli.jog", "Move an axis of a run by hand, from another terminal."),
         "stop": ("ilmek.cli.stop", "Stop and end a run, from another terminal."),
         "replay": ("ilmek.cli.replay", "Replay a recorded run, and compare its digest."),
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),

@@ -126,6 +126,17 @@ ELSIF Done[Station] THEN
 ELSIF Elapsed[Station] > Most OR (Elapsed[Station] > {ACCEPT_SCANS} AND NOT Accepted[Station]) THEN
     Fault := {ALARMS[Fault.TIMEOUT].number};
 END_IF;
+{_fault(size)}
+IF NOT Order[Station] THEN
+    Settling[Station] := TRUE;
+    Elapsed[Station] := 0;
+END_IF;
+"""
+
+
+def _fault(size: PlcSize) -> str:
+    """An order that has failed falls; a first missed grip is tried again, any fault of homing is one alarm."""
+    return f"""\
 IF Fault > 0 THEN
     Order[Station] := FALSE;
     IF Station = {size.heads} AND EndCode >= {FIRST_HOME} THEN
@@ -140,12 +151,7 @@ IF Fault > 0 THEN
             Retried[Station] := FALSE;
         END_IF;
     END_IF;
-END_IF;
-IF NOT Order[Station] THEN
-    Settling[Station] := TRUE;
-    Elapsed[Station] := 0;
-END_IF;
-"""
+END_IF;"""
 
 
 def _counted(size: PlcSize) -> str:
