@@ -34,6 +34,7 @@ main = LazyGroup(
         "machines": ("ilmek.cli.machines", "List the machines, or the parameters of one machine."),
         "design": ("ilmek.cli.design", "Design one machine and report it."),
         "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),
+        "import": ("ilmek.cli.import_mechanism", "Write a mechanism of URDF, MJCF or pylinkage as a mechanism file."),
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),
         "reproduce": ("ilmek.cli.reproduce", "Recompute four published papers and compare, number by number."),

@@ -29,7 +29,7 @@ every name, every order.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
@@ -188,11 +188,16 @@ def _masses(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[dict
 
 def write_mechanism(path: Path, machine: OwnMachine) -> None:
     """Write a .toml or .json file. Raises OutputError; MechanismError for another suffix."""
+    write_file(path, writer_for(path)(machine))
+
+
+def writer_for(path: Path) -> Callable[[OwnMachine], str]:
+    """The writer of a file's ending. Raises MechanismError for another than .toml and .json."""
     writers = {".toml": mechanism_toml, ".json": mechanism_json}
     writer = writers.get(path.suffix.lower())
     if writer is None:
         raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
-    write_file(path, writer(machine))
+    return writer
 
 
 def mechanism_toml(machine: OwnMachine) -> str:
