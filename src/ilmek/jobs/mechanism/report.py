@@ -75,7 +75,7 @@ def _forces(found: Analysis) -> tuple[Result, ...]:
     angles = Result("transmission_angle_min", least, "deg", "least transmission angle of each free pin", shown=False)
     if run.forces is None:
         return (angles, *NO_FORCES)
-    return (angles, *results_of(run.forces, found.strength, found.servo, found.study, found.forward))
+    return (angles, *results_of(run.forces, found.strength, found.servo, found.study, found.forward, found.balance))
 
 
 def _mobility(run: MechanismRun) -> str:
