@@ -137,7 +137,7 @@ def _read(text: DataText, name: str) -> MechanismFile:
     else:
         values = named_values({}, source, si=False)
     checked = Reader(schema(), source, values.quantity).read(data)
-    for key in ("bodies", "joints", "couplings", "loads", "springs", "dampers"):
+    for key in ("bodies", "joints", "couplings", "cylinders", "loads", "springs", "dampers"):
         if len(checked.get(key, ())) > MOST_ENTRIES:
             given = f"has {len(checked[key])} {key}"
             source.refuse((key,), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
