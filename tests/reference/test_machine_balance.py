@@ -18,7 +18,7 @@ motions = { O = "10rad/s" }
 inputs = { O = "crank" }
 [bodies]
 ground.points = { O = [0, 0] }
-crank = { points = { O = [0, 0], G = ["100mm", "30mm"] }, mass = "2kg", centre = ["100mm", "30mm"], moment = "0.01kg*m^2" }
+crank = { points = { O = [0, 0] }, mass = "2kg", centre = ["100mm", "30mm"], moment = "0.01kg*m^2" }
 [joints]
 O.pin = ["ground", "crank"]
 [loads]
