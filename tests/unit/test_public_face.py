@@ -3,6 +3,8 @@
 import dataclasses
 import math
 import re
+import sys
+import types
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
@@ -189,6 +191,20 @@ def test_table_has_a_column_for_each_quantity_of_the_motion() -> None:
     assert np.array_equal(table["crank [rad]"], np.linspace(0, 6, 13))
     assert np.array_equal(table["rocker angle [rad]"], motion.angle("rocker"))
     assert np.array_equal(table["coupler.B ay [m/s^2]"], motion.point("coupler", "B").acceleration.imag)
+
+
+@pytest.mark.parametrize("library", ["pandas", "polars"])
+def test_a_frame_is_the_table_by_the_library_that_is_there(library: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    motion = ilmek.solve(FOUR_BAR, np.linspace(0, 6, 13), speed=10.0)
+    kept = {name: None for name in ("pandas", "polars") if name != library}
+    for name, module in (kept | {library: types.SimpleNamespace(DataFrame=lambda table: (library, table))}).items():
+        monkeypatch.setitem(sys.modules, name, module)
+    made, table = motion.frame()
+    assert made == library
+    assert table.keys() == motion.table().keys()
+    monkeypatch.setitem(sys.modules, library, None)
+    with pytest.raises(ilmek.IlmekError, match="needs pandas or polars"):
+        motion.frame()
 
 
 def test_forces_balance_the_power() -> None:

@@ -29,7 +29,7 @@ every name, every order.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
@@ -137,7 +137,7 @@ def _read(text: DataText, name: str) -> MechanismFile:
     else:
         values = named_values({}, source, si=False)
     checked = Reader(schema(), source, values.quantity).read(data)
-    for key in ("bodies", "joints", "couplings", "loads", "springs", "dampers"):
+    for key in ("bodies", "joints", "couplings", "cylinders", "loads", "springs", "dampers"):
         if len(checked.get(key, ())) > MOST_ENTRIES:
             given = f"has {len(checked[key])} {key}"
             source.refuse((key,), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
@@ -203,11 +203,16 @@ def _masses(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[dict
 
 def write_mechanism(path: Path, machine: OwnMachine) -> None:
     """Write a .toml or .json file. Raises OutputError; MechanismError for another suffix."""
+    write_file(path, writer_for(path)(machine))
+
+
+def writer_for(path: Path) -> Callable[[OwnMachine], str]:
+    """The writer of a file's ending. Raises MechanismError for another than .toml and .json."""
     writers = {".toml": mechanism_toml, ".json": mechanism_json}
     writer = writers.get(path.suffix.lower())
     if writer is None:
         raise MechanismError(f"mechanism file {path} ends in {path.suffix!r}", allowed=".toml or .json")
-    write_file(path, writer(machine))
+    return writer
 
 
 def mechanism_toml(machine: OwnMachine) -> str:

@@ -1,6 +1,8 @@
 """The result of `solve`: the motion of every body at each sample, and the status of the sample."""
 
 from collections.abc import Mapping
+from contextlib import suppress
+from importlib import import_module
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -143,7 +145,7 @@ class Motion:
 
         For each input `crank [rad]`; for each moving body `rocker angle [rad]`, `rocker omega [rad/s]`, `rocker alpha
         [rad/s^2]`; for each moving point, joints once, `rocker.B x [m]`, `rocker.B y [m]` and likewise the velocity
-        `vx`, `vy` [m/s] and the acceleration `ax`, `ay` [m/s^2]. `pandas.DataFrame(motion.table())` takes it as it is.
+        `vx`, `vy` [m/s] and the acceleration `ax`, `ay` [m/s^2]. `frame` is the same as a DataFrame.
         """
         columns = {
             f"{entry.name} [{'rad' if isinstance(entry, Rotation) else 'm'}]": np.asarray(self.drives[entry.name].value)
@@ -163,6 +165,13 @@ class Motion:
                 columns[f"{body}.{point} {rate}x [{unit}]"] = np.real(vector)
                 columns[f"{body}.{point} {rate}y [{unit}]"] = np.imag(vector)
         return columns
+
+    def frame(self) -> Any:
+        """`table` as a DataFrame of pandas or polars, whichever is installed. Raises MechanismError without either."""
+        for library in ("pandas", "polars"):
+            with suppress(ImportError):
+                return import_module(library).DataFrame(self.table())
+        raise MechanismError("a DataFrame needs pandas or polars", do="install one, or use Motion.table()")
 
     def require(self) -> "Motion":
         """The motion itself, if every sample is solved.

@@ -57,6 +57,7 @@ def closures(mechanism: Mechanism, ids: Mapping[str, str]) -> tuple[Closure, ...
     coupled = (
         Closure(JointKind.ROLLING, (ids[coupling.first[0]], ids[coupling.second[0]]), ratio=coupling.ratio)
         for coupling in mechanism.couplings
+        if coupling.law is None
     )
     return (*pins, *coupled)
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence, Set
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.mechanism.cylinders import add_cylinders
 from ilmek.io.mechanism.joints import blocks_of, joints_of, members_of
 from ilmek.io.mechanism.names import value_of
 from ilmek.io.mechanism.pairs import law_of_pair
@@ -35,16 +36,19 @@ def mechanism_of(data: Table, source: SourceText) -> Mechanism:
         joints = joints_of(data["joints"], data["inputs"], data.get("couplings", {}))
     points = {body: points_of(body, table, members, joints, source) for body, table in data["bodies"].items()}
     _check_points(points, members, name, source)
+    pose = {body: (complex_of(table["origin"]), table["angle"]) for body, table in data.get("pose", {}).items()}
+    parts, further = add_cylinders(data.get("cylinders", {}), points, pose, source)
+    joints = (*joints, *further)
     with source.located():
         mechanism = Mechanism(
-            bodies=(*(Body(body, own) for body, own in points.items()), *blocks_of(data["joints"], points)),
+            bodies=(*(Body(body, own) for body, own in points.items()), *blocks_of(data["joints"], points), *parts),
             joints=joints,
             inputs=tuple(_input(joint, body, joints, members) for joint, body in data["inputs"].items()),
             branches=data.get("branches", {}),
             name=name,
             couplings=tuple(_couplings(data.get("couplings", {}), joints, source)),
             redundant=data.get("redundant", ()),
-            pose={body: (complex_of(pose["origin"]), pose["angle"]) for body, pose in data.get("pose", {}).items()},
+            pose=pose,
         )
         for entry in mechanism.inputs:
             _check_driven(mechanism, entry, data["inputs"])

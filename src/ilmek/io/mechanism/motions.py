@@ -164,7 +164,9 @@ def steps_of(rows: Sequence[Table], unit: str, start: float, over: str = "time")
     for number, row in enumerate(rows, start=1):
         duration = row["dwell"] if "dwell" in row else row[over]
         if not duration > 0:
-            raise MechanismError(f"step {number} lasts {duration:g} in SI", allowed="above 0")
+            raise MechanismError(
+                f"step {number} lasts {duration:g} {'s' if over == 'time' else 'rad'}", allowed="above 0"
+            )
         at = value_of(row["to"], unit, "to") if "to" in row else at
         law = _law(row.get("law", "3-4-5"))
         if not math.isfinite(law.acceleration_peak):
