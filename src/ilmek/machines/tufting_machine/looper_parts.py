@@ -20,7 +20,7 @@ from ilmek.part.shapes import Prism, bar, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 NAME = "tufting-machine"
 BODIES = CRANK, COUPLER, ROCKER = "looper crank", "looper coupler", "looper rocker"
@@ -101,7 +101,7 @@ def looper_parts(params: TuftingMachineParams, drive: LooperDrive, mechanism: Me
     size = {body: LinkSize(*section, pin, material) for body in BODIES}
     levels = Levels(((CRANK, COUPLER), (ROCKER,)), size)
     side = looper.bar
-    square, text = Prism(Profile(rectangle(side, side)), long), f"{round_size(shaft)}, {in_mm(long)}"
+    square = Prism(Profile(rectangle(side, side)), long)
     middle = -rocker_angle(drive.linkage, drive.swing)
     return LooperParts(
         params,
@@ -110,9 +110,9 @@ def looper_parts(params: TuftingMachineParams, drive: LooperDrive, mechanism: Me
         linkage_parts(NAME, mechanism, levels, formed, ("Q", "A", "P"), of="looper"),
         placement(about=(0.0, 0.0, 1.0), angle=-middle),
         sum(levels.across(list(BODIES))) / 2,
-        Part(LOOPER_SHAFT, "looper shaft", "steel bar", text, bar(shaft, long), STEEL, machined=True),
+        Part(LOOPER_SHAFT, "looper shaft", "steel bar", bar(shaft, long), STEEL, machined=True),
         _arm(shaft, complex(_bar_beside(drive), looper.arm - looper.stem - side), side),
-        Part(LOOPER_BAR, "looper bar", "steel bar", f"square {in_mm(side)}, {in_mm(long)}", square, STEEL),
+        Part(LOOPER_BAR, "looper bar", "steel bar", square, STEEL),
         _hook(params, drive.sense),
     )
 
@@ -124,7 +124,7 @@ def _arm(shaft: float, under: complex, side: float) -> Part:
     outline = rounded_hull(np.array([0, *ends]), radius)
     shape = Prism(Profile(outline, (circle(0j, shaft / 2),)), ARM_THICKNESS)
     steel = MATERIALS["structural steel"]
-    return Part(ARM, "arm of the loopers", "laser-cut part", "", shape, steel, machined=True)
+    return Part(ARM, "arm of the loopers", "laser-cut part", shape, steel, machined=True)
 
 
 def _hook(params: TuftingMachineParams, sense: int) -> Part:
@@ -142,7 +142,6 @@ def _hook(params: TuftingMachineParams, sense: int) -> Part:
         ]
     )
     outline = polygon(corners if sense > 0 else -np.conj(corners))
-    size = f"{in_mm(looper.thickness)}, {in_mm(BEAK)} x {in_mm(looper.stem)}"
     title = "looper with its knife's edge" if params.pile == "cut" else "looper"
     shape = Prism(Profile(outline), looper.thickness)
-    return Part(LOOPER, title, "laser-cut part", size, shape, STEEL, joins=(LOOPER_BAR,))
+    return Part(LOOPER, title, "laser-cut part", shape, STEEL, joins=(LOOPER_BAR,))

@@ -22,7 +22,7 @@ from ilmek.part.shapes import Prism, disc
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 PLATE, BESIDE, FREE, WIDE = 8 * mm, 2 * mm, 2 * mm, 10 * mm
 """Thickness of the plate, gap between motors, of a shaft in its hole and of a scroll to the plate, width of a scroll;
@@ -75,7 +75,7 @@ def scroll_parts(laid: TuftingLayout, low: float) -> Iterator[Occurrence]:
         holes = tuple(circle(axis - 1j * low, shaft / 2 + FREE) for axis in at.axes[tier :: at.tiers])
         shape = Prism(Profile(outline, holes), PLATE)
         name = f"{NAME}/scroll-plate-{tier + 1}"
-        plate = Part(name, f"plate of scrolls {tier + 1}", "laser-cut part", in_mm(PLATE), shape, _STEEL, joins=joins)
+        plate = Part(name, f"plate of scrolls {tier + 1}", "laser-cut part", shape, _STEEL, joins=joins)
         # The profile's x runs along z of the machine, its normal against x.
         yield Occurrence(plate, (placement(at.face, low).after(TOWARDS),))
     yield Occurrence(motor, tuple(_on(at, axis, 0.0) for axis in at.axes))
@@ -85,8 +85,7 @@ def scroll_bodies(laid: TuftingLayout, low: float, frame: str) -> Iterator[Rigid
     """A scroll on the shaft of each motor."""
     at, (_, shaft) = scrolls(laid, low), _motor(laid)
     shape = Prism(disc(SCROLL_DIAMETER / 2, circle(0j, shaft / 2)), WIDE)
-    size = f"{round_size(SCROLL_DIAMETER)}, {in_mm(WIDE)}"
-    part = Part(YARN_ROLLER, "scroll of a needle's yarn", "machined link", size, shape, MATERIALS["aluminium alloy"])
+    part = Part(YARN_ROLLER, "scroll of a needle's yarn", "machined link", shape, MATERIALS["aluminium alloy"])
     joint = Joint(JointKind.PIN, motor=MOTOR)
     for number, axis in enumerate(at.axes, 1):
         yield RigidBody(f"{YARN_ROLLER} {number}", (Occurrence(part),), frame, joint, (_on(at, axis, PLATE + FREE),))

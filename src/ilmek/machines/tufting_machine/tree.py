@@ -37,7 +37,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import format_quantity, in_mm, mm, turn
 
 FRAME = body_id(NAME, GROUND)
 
@@ -138,7 +138,7 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     (first, last), diameter = laid.ends, machine.params.looper.shaft
     end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
     shaft = Part(
-        LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", "", bar(diameter, end - first), STEEL, machined=True
+        LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", bar(diameter, end - first), STEEL, machined=True
     )
     pulley = _pulley("looper-pulley", diameter)
     parts = (
@@ -168,12 +168,7 @@ def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:
     sizes = {SPIKED_ROLLER: feed.spiked_roller, YARN_ROLLER: feed.yarn_roller}
     titles = {SPIKED_ROLLER: "spiked roller of the backing", YARN_ROLLER: "yarn feed roller"}
     shapes = {name: _roller(diameter, last - first) for name, diameter in sizes.items()}
-    parts = {
-        name: Part(
-            name, titles[name], "machined link", f"{round_size(size)}, {in_mm(last - first)}", shapes[name], STEEL
-        )
-        for name, size in sizes.items()
-    }
+    parts = {name: Part(name, titles[name], "machined link", shapes[name], STEEL) for name, size in sizes.items()}
     for place, at in roller_axes(laid).items():
         kind, name = _fed_by(place)
         position = placement(at.real, at.imag, first - END_PLATE)
@@ -234,7 +229,7 @@ def _flywheel(machine: TuftingMachine) -> Part:
     width, bore = machine.params.shafts.flywheel, catalogue.locked_bore(machine.shafts.diameter)
     diameter = (32 * machine.shafts.flywheel / (math.pi * STEEL.density * width) + bore**4) ** 0.25
     shape = Prism(disc(diameter / 2, circle(0j, bore / 2)), width)
-    return Part(FLYWHEEL_ID, "flywheel", "machined link", f"{round_size(diameter)}, {in_mm(width)}", shape, STEEL)
+    return Part(FLYWHEEL_ID, "flywheel", "machined link", shape, STEEL)
 
 
 def _wheel_clamp(machine: TuftingMachine) -> Part:
