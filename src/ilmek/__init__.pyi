@@ -32,6 +32,8 @@ from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
 from ilmek.api.studies import study as study
+from ilmek.api.tufted import compare as compare
+from ilmek.api.tufted import tuft as tuft
 from ilmek.cams.plate import PlateCam as PlateCam
 from ilmek.cams.programme import CamProgramme as CamProgramme
 from ilmek.carpet.chart import Chart as Chart

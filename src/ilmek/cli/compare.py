@@ -15,7 +15,7 @@ from ilmek.units import parse_quantity
 EXAMPLES = """\b
 Examples:
   ilmek compare measured.csv tufting
-  ilmek compare measured.csv tufting --fit friction_force --fit link_mass.rocker --report compared.html
+  ilmek compare measured.csv tufting --fit friction_force --fit needle_mass --report compared.html
   ilmek compare measured.csv tufting-machine width=2m drives=5 --align --within 5%
 
 measured.csv: a header like `crank angle [deg], main shaft [N*m]`, then rows of numbers. A column is named as a curve of

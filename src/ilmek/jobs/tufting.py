@@ -1,5 +1,6 @@
 """From a carpet picture to a tufting machine and its programme: chart at its gauge, machine, twin, report."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -33,8 +34,8 @@ from ilmek.weaving.tufting.twin import BARE, tufted_face
 
 PROGRAMME, PAGE, REPORT, PICTURE = "tufting.txt", "report.html", "report.json", "carpet.png"
 
-DRIVE_PITCH = 0.4
-"""Distance of the needle drives where their number is left open [m]; assumed by this project."""
+DRIVE_PITCH = 0.38
+"""Greatest distance of the needle drives where their number is left open [m]; assumed by this project."""
 
 OF_THE_PICTURE = {"width": "--size", "pattern.colours": "--colours"}
 """Parameters that follow from the carpet, and the option that sets each."""
@@ -51,8 +52,10 @@ class TuftingOrder:
     def params_for(self, needles: int, colours: int) -> TuftingMachineParams:
         """The parameters for a number of needles and of colours."""
         width = needles * self.params.gauge
-        open_ones: dict[str, Setting] = {"drives": max(2, round(width / DRIVE_PITCH)), "pattern.attachment": SCROLLS}
-        return TuftingMachineParams.read({**open_ones, **self.settings, "width": width, "pattern.colours": colours})
+        left_open: dict[str, Setting] = {"drives": max(2, math.ceil(width / DRIVE_PITCH))}
+        if colours > 1:
+            left_open["pattern.attachment"] = SCROLLS
+        return TuftingMachineParams.read({**left_open, **self.settings, "width": width, "pattern.colours": colours})
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@
     shift     the needle bar goes by j g while the needles are out, half of the time each way:  a = 4 j g / t²
 
 The loopers do not shift: for half gauges they stand half a gauge apart. High and low loops need a roller or scroll for
-each group of needles that is fed alike, a picture in colours by overtufting a scroll for each needle. A scroll feeds
+each group of needles that is fed alike, a picture in colours a scroll for each needle. A scroll feeds
 at most the yarn of a whole loop while its needle comes up, half of a stroke:  v = 2 l f.
 """
 
@@ -16,7 +16,7 @@ from ilmek.elements.duty import MARGIN
 from ilmek.elements.motors import SERVO, STEPPER, Motor, geared_motor
 from ilmek.elements.reducers import DIRECT, PLANETARY, Reducer
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR
-from ilmek.machines.tufting_machine.params import BY_YARN, GROUPS, ROLLERS, SCROLLS, TuftingMachineParams
+from ilmek.machines.tufting_machine.params import GROUPS, ROLLERS, SCROLLS, TuftingMachineParams
 from ilmek.machines.tufting_machine.product import TuftedCarpet
 from ilmek.records import computed, record
 from ilmek.report import Check, at_most, must
@@ -129,7 +129,7 @@ class TuftingFeed:
     def attachments(self) -> tuple[str, ...]:
         """Attachments that feed each yarn as its loops need, the simplest first."""
         params = self.params
-        if params.pattern.colours > 1 and params.pattern.selection == BY_YARN:
+        if params.pattern.colours > 1:  # hidden loops take less; a needle that is not selected takes none
             return (SCROLLS,)
         return (ROLLERS, GROUPS, SCROLLS) if params.low_height is None else (GROUPS, SCROLLS)
 

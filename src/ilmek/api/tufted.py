@@ -1,0 +1,111 @@
+"""Carpets by a tufting machine or a tufting gun, and measurements of machines."""
+
+from __future__ import annotations  # so that `help` shows the aliases
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+from ilmek.api.carpets import Settings
+from ilmek.arguments import Arguments, Quantity
+from ilmek.errors import ParameterError
+from ilmek.jobs import compare as comparing
+from ilmek.jobs.gun import GunResult, read_gun_order, weave_by_gun
+from ilmek.jobs.order import read_order
+from ilmek.jobs.tufting import TuftingResult, read_tufting_order, weave_by_tufting
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+from ilmek.records import JsonObject
+from ilmek.report import Report
+
+TECHNIQUES = ("tufting", "gun")
+
+
+def tuft(
+    picture: str | Path,
+    out: str | Path,
+    *,
+    technique: str = "tufting",
+    size: str | None = None,
+    yarns: str | Path | None = None,
+    deadline: Quantity | None = None,
+    machine: Settings = MappingProxyType({}),
+    force: bool = False,
+    progress: Progress = SILENT,
+    **settings: Setting,
+) -> TuftingResult | GunResult:
+    """Picture to a tufting machine and its programme, or to the path of a tufting gun, in the folder `out`.
+
+    technique        "tufting": needles in a bar, tufted by a twin; "gun": a gun on a gantry
+    size, yarns      as of `weave`                           deadline  time for the whole carpet [s], like "2h"
+    machine          parameters of the machine, or of gun and gantry, by name: {"pattern.selection": "needles"}
+    force            replace a folder that ilmek made
+    settings         further options of the command line by name: colours=5
+
+    Settings are texts with units or numbers in SI. Where it cannot be tufted, the `checks` of the result have the
+    reasons, and there is no programme. Raises any IlmekError; then nothing is written; Cancelled.
+
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp()) / "carpet"
+    >>> made = tuft("examples/medallion.png", folder, technique="gun", size="40x60cm", colours=2)
+    >>> made.tufted.row_length >= made.tufted.row_bound > 0
+    True
+    """
+    given = Arguments("a carpet")
+    further: JsonObject = settings
+    order = read_order(
+        given.path("picture", picture),
+        size=None if size is None else given.text("size", size),
+        yarn_file=None if yarns is None else given.path("yarns", yarns),
+        **further,
+    )
+    own = given.mapping("machine", machine, lambda _, value: value)
+    limit = (
+        deadline if deadline is None or isinstance(deadline, str) else f"{given.number('deadline', deadline, 's')!r}s"
+    )
+    folder, replace = given.path("out", out), given.flag("force", force)
+    on = given.record("progress", progress, Progress)
+    if technique == "gun":
+        return weave_by_gun(order, read_gun_order(order, own, limit), folder, force=replace, progress=on)
+    if technique != "tufting":
+        raise ParameterError(
+            f"technique {technique!r}", allowed=" or ".join(TECHNIQUES), do="`weave` is for knotted ones"
+        )
+    return weave_by_tufting(order, read_tufting_order(order, own, limit), folder, force=replace, progress=on)
+
+
+def compare(
+    file: str | Path,
+    machine: str,
+    *,
+    settings: Settings = MappingProxyType({}),
+    fit: Sequence[str] = (),
+    align: bool = False,
+    within: float | None = None,
+    progress: Progress = SILENT,
+) -> Report:
+    """Measured curves of a CSV file beside those of a machine's figures: differences, and parameters fitted.
+
+    settings  of the machine by name      fit  names of parameters to fit, from their values
+    align     find the shift of the first column too      within  allowed rms difference over a curve's range; a check
+
+    Raises ParameterError for a file, a curve or a parameter that is none; errors of the design; Cancelled.
+
+    >>> import tempfile
+    >>> path = Path(tempfile.mkdtemp()) / "measured.csv"
+    >>> rows = ["crank angle [deg], main shaft [N*m]", "30, 13.9", "60, 10.8", "90, 4.4", "150, 9.3", "210, -0.6"]
+    >>> written = path.write_text(chr(10).join(rows))
+    >>> report = compare(path, "tufting", fit=["friction_force"])
+    >>> 750 < report["fitted"]["friction_force"]["value"] < 850
+    True
+    """
+    given = Arguments("a comparison")
+    order = comparing.read_compare_order(
+        given.path("file", file),
+        given.text("machine", machine),
+        given.mapping("settings", settings, lambda _, value: value),
+        fit=given.sequence("fit", fit, str),
+        align=given.flag("align", align),
+        within=None if within is None else given.number("within", within, "1"),
+    )
+    return comparing.compare(order, given.record("progress", progress, Progress))
