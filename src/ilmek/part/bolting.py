@@ -43,6 +43,9 @@ _CLAMPED = (2.0, 1.0)
 _LONGEST = 10.0
 """Length of a screw under its head that is not in the thread over its diameter, at most: the head is sunk deeper."""
 
+_DEEPEST = 6.0
+"""Depth of a counterbore over its diameter, at most; assumed by this project."""
+
 _PLAY = 0.1 * mm
 """Of a head in the notch of a bought flange [m]."""
 
@@ -73,7 +76,7 @@ class _Screwed:
     """The screws of a contact: `head` is under their heads, `thread` has their threads.
 
     points  in the face under the heads [m]      clamped, engaged  lengths of a screw before and in the thread [m]
-    deep, below  of the parts there [m]          sink  diameter of the counterbore [m]
+    deep, below  of the parts there          sink  diameter of the counterbore [m]
     """
 
     head: FaceSide
@@ -82,7 +85,7 @@ class _Screwed:
     points: tuple[complex, ...]
     clamped: float
     engaged: float
-    deep: float
+    deep: Depth
     sink: float
     below: Depth
 
@@ -91,16 +94,19 @@ class _Screwed:
         """Length of a screw [m]."""
         return self.clamped + self.engaged
 
-    def holes(self, point: complex) -> tuple[tuple[FaceSide, Drilling], tuple[FaceSide, Drilling]]:
-        """The holes of a screw in both parts, in their axes."""
-        row, head, thread = self.screw, self.head, self.thread
-        mouth = head.face.position.after(placement(point.real, point.imag, -self.deep))
-        steps = (self.sink, self.deep - self.clamped), (row.hole, self.clamped)
+    def holes(self, point: complex) -> Iterator[tuple[FaceSide, Drilling]]:
+        """The holes of a screw in both parts, in their axes; to a head in a hollow the key comes through its wall."""
+        row, head, thread, deep = self.screw, self.head, self.thread, self.deep.length
+        mouth = head.face.position.after(placement(point.real, point.imag, -deep))
+        sunk = ((self.sink, deep - self.clamped),) if deep > self.clamped + um else ()
+        yield head, Drilling(mouth, (*sunk, (row.hole, self.clamped)), through=True)
+        if self.deep.wall:
+            outside = mouth.after(placement(z=-self.deep.free - self.deep.wall))
+            yield head, Drilling(outside, ((self.sink, self.deep.wall),), through=True)
         there = thread.piece.lies.inverse.after(head.frame).after(placement(point.real, point.imag))
         long = self.engaged + _TIP * row.diameter
         through = self.below.flat and self.below.length - long < _FLOOR
-        tapped = Drilling(there, ((row.diameter, self.below.length if through else long),), through=through)
-        return (head, Drilling(mouth, steps, through=True)), (thread, tapped)
+        yield thread, Drilling(there, ((row.diameter, self.below.length if through else long),), through=through)
 
 
 _Key = tuple[str, str, str, float]
@@ -294,27 +300,31 @@ def _at_point(
     if thread.part.purchase is not None:
         most = min(most, 2 * screw.diameter)
     if made is not None:
-        alike = abs(made.deep - deep.length) < um and most >= made.engaged - um
-        return replace(made, below=below, points=()) if alike else None
-    lengths = _lengths(screw, deep.length, least, most, made_part=head.part.purchase is None)
-    return None if lengths is None else _Screwed(head, thread, screw, (), *lengths, deep.length, sink, below)
+        alike = abs(made.deep.length - deep.length) < um and most >= made.engaged - um
+        return replace(made, deep=deep, below=below, points=()) if alike else None
+    made_part = head.part.purchase is None
+    lengths = _lengths(screw, deep, least, most, made_part=made_part)
+    if lengths is None or (made_part and deep.length - lengths[0] > _DEEPEST * sink):
+        return None
+    return _Screwed(head, thread, screw, (), *lengths, deep, sink, below)
 
 
 def _lengths(
-    screw: MachineScrew, deep: float, least: float, most: float, *, made_part: bool
+    screw: MachineScrew, deep: Depth, least: float, most: float, *, made_part: bool
 ) -> tuple[float, float] | None:
     """Lengths of a screw before the thread and in it [m]: of those that are sold with enough thread the one whose head
-    is sunk least in a made part; in the flange of a bought one, the shortest.
+    is sunk least in a made part, in a hollow not at all; in the flange of a bought one, the shortest.
 
     deep  of the part under the head      least, most  of the thread
     """
     if most < least - um:
         return None
+    sunk = deep.length if deep.wall else deep.length - screw.head
     if made_part:
-        longest = min(deep - screw.head, _LONGEST * screw.diameter)
+        longest = min(sunk, _LONGEST * screw.diameter)
         shortest = min(0.5 * screw.diameter, longest)
     else:
-        longest, shortest = (min(share * screw.diameter, deep - screw.head) for share in _CLAMPED)
+        longest, shortest = (min(share * screw.diameter, sunk) for share in _CLAMPED)
     if shortest <= 0:
         return None
     engaged = {length: min(max(length - longest, least), most) for length in SOCKET_LENGTHS}

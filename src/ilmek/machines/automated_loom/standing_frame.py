@@ -13,6 +13,7 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.field_devices import TERMINAL
 from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.tubes import TUBES, Tube
+from ilmek.machines.automated_loom.anchors import HOLE, anchors
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT, PLATE
@@ -23,7 +24,7 @@ from ilmek.machines.automated_loom.supports import base_section, floor_top, post
 from ilmek.part.part import LASER_CUT, WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
+from ilmek.part.shapes import Drilling, Placed, Prism, Sum, box, rectangle, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.records import record
 from ilmek.units import format_quantity, mm
@@ -36,6 +37,9 @@ RAIL_ENDS = 50 * mm
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
+
+_ANCHORED = 60 * mm
+"""Of the cabinet's anchors from its sides [m]; assumed by this project."""
 
 AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
 """Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
@@ -236,7 +240,7 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
 
 
 def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) -> Iterator[Occurrence]:
-    """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there.
+    """The cabinet on the floor behind a rear foot, anchored there, with the amplifiers row by row on its wall there.
 
     right, rear  outer side of the column, and end of its rear foot [m]      needs  of the control
     """
@@ -245,7 +249,16 @@ def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) 
     high = next((high for high in heights if 2 * (high - 2 * RAIL_ENDS) >= needs.rail), heights[-1])
     wide = max(least, columns * across + 2 * WALL)
     inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
-    sides = Prism(Profile(rectangle(wide, high), (inside,)), deep)
+    feet = [
+        placement(x, -high / 2, z).after(UPRIGHT)
+        for x in (_ANCHORED - wide / 2, wide / 2 - _ANCHORED)
+        for z in (_ANCHORED, deep - _ANCHORED)
+    ]
+    sides = Prism(
+        Profile(rectangle(wide, high), (inside,)),
+        deep,
+        tuple(Drilling(foot, ((HOLE, WALL),), through=True) for foot in feet),
+    )
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
     named = "cabinet " + " x ".join(f"{size / mm:.0f}" for size in (wide, high, deep)) + " mm, sheet steel"
     control = bought_part(part_id("control"), "control", "control", shape, Bought(named, shape.volume * STEEL.density))
@@ -258,7 +271,9 @@ def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) 
         size="amplifier, cable, switch",
     )
     x, y = right - wide / 2, floor + high / 2
-    yield Occurrence(control, (placement(x, y, rear - deep),))
+    stands = placement(x, y, rear - deep)
+    yield Occurrence(control, (stands,))
+    yield anchors("control", "cabinet", WALL, tuple(stands.after(foot) for foot in feet))
     if axes:
         positions = tuple(
             placement(
