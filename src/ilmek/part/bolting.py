@@ -16,7 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, Float
+from ilmek.arrays import BoolArray, ComplexArray, Float
 from ilmek.elements.machine_screws import SOCKET_LENGTHS, SOCKET_SCREWS, MachineScrew
 from ilmek.part import catalogue
 from ilmek.part.bolt_contacts import (
@@ -35,6 +35,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.seat_faces import Depth, seat_faces
 from ilmek.part.shapes import Drilling, Prism
 from ilmek.part.tree import Occurrence, Tree
+from ilmek.part.welds import welded_together
 from ilmek.units import mm, um
 
 _CLAMPED = (2.0, 1.0)
@@ -60,6 +61,9 @@ _FLOOR = 1.5 * mm
 
 _LARGEST, _BOUGHT = 12 * mm, 8 * mm
 """Largest diameters of screws in made parts and in bought ones [m]; assumed by this project."""
+
+_SEAM = 3 * mm
+"""Between a head and stock that is welded to the part under it, for the seam [m]; assumed by this project."""
 
 _TRIED, _BETWEEN = 8, 3.0
 """Points that are tried for a screw, and the distance of two over their diameter, at least."""
@@ -198,7 +202,11 @@ def _options(
     if head.face.turned or head.part.process == WELDED:
         return
     made: _Screwed | None = None
-    for screw, points, fixed in _offered(head, thread):
+    around = [own for own in group if own is not head.piece and welded_together(own.part, head.part)]
+    for screw, offered, fixed in _offered(head, thread):
+        points = offered[~_closed(head, offered, _sink(head.part, screw) / 2 + _SEAM, around)]
+        if fixed and len(points) < len(offered):
+            continue
         tried = _of_size((head, thread), screw, points, worked, fixed=fixed)
         if tried is not None and (made is None or len(tried.points) > 1):
             made = tried
@@ -216,13 +224,34 @@ def _options(
 
 def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:
     """Whether the box of a piece holds any of some points."""
-    near = ((piece.box[0] < points) & (points < piece.box[1])).all(1)
+    near = _boxed(piece, points)
     if not near.any() or not isinstance(piece.part.shape, Prism):
         return bool(near.any())
     own = piece.lies.inverse.points(points[near])
     section = seat_faces(piece.part.shape)[1]
     within = (own[:, 2] > 0) & (own[:, 2] < piece.part.shape.length)
     return bool((within & (section.room(own[:, 0] + 1j * own[:, 1], mm) > 0)).any())
+
+
+def _closed(head: FaceSide, points: ComplexArray, radius: float, around: Sequence[StandingPiece]) -> BoolArray:
+    """Whether stock that is welded to the part under the heads closes round heads of a radius at points [m]."""
+    closed = np.zeros(len(points), bool)
+    if not around or not len(points):
+        return closed
+    deep = head.depth(complex(points[0]), 0.0).length + mm
+    mouths = head.frame.points(np.stack([points.real, points.imag, np.full(len(points), -deep)], axis=1))
+    for piece in around:
+        if isinstance(piece.part.shape, Prism) and _boxed(piece, mouths, radius).any():
+            own, section = piece.lies.inverse.points(mouths), seat_faces(piece.part.shape)[1]
+            outline = replace(section, loops=section.loops[:1])
+            within = (own[:, 2] > 0) & (own[:, 2] < piece.part.shape.length)
+            closed |= within & (outline.room(own[:, 0] + 1j * own[:, 1], 2 * radius) > -radius)
+    return closed
+
+
+def _boxed(piece: StandingPiece, points: Float[np.ndarray, "n 3"], apart: float = 0.0) -> BoolArray:
+    """Which points are in the box of a piece, or so far about it [m]."""
+    return np.asarray(((piece.box[0] - apart < points) & (points < piece.box[1] + apart)).all(1))
 
 
 def _offered(head: FaceSide, thread: FaceSide) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
