@@ -96,3 +96,23 @@ def test_no_head_is_in_stock_that_is_closed_round_it() -> None:
             )
             start, corners = own.points(over), mesh.points[mesh.triangles]
             assert not all(hits(start, own.rotation @ ray, corners) for ray in across), (screw.part.id, piece.part.id)
+
+
+def test_no_bearing_that_is_mounted_before_covers_a_head() -> None:
+    """Shafts come with their bearings, before what drives them: a key reaches past the housings to every head."""
+    tree = bolted(loom_tree(default_design("automated-loom")))
+    pieces = [piece for links in chains(tree) for piece in standing_parts(links)]
+    housings = [piece for piece in pieces if piece.part.process == "bearing"]
+    driven = ("reducer", "servo", "stepper")
+    parts = {piece.part.id: piece.part for piece in pieces}
+    seen = 0
+    for screw in (piece for piece in pieces if is_screw(piece.part)):
+        if any(parts[name].process in driven for name in screw.part.joins):
+            start = screw.position.points(np.array([0.0, 0.0, -1e-3]))
+            box = np.stack([np.minimum(screw.box[0], start) - KEY, np.maximum(screw.box[1], start) + KEY])
+            for piece in housings:
+                if ((piece.box[0] < box[1]) & (box[0] < piece.box[1])).all():
+                    seen += 1
+                    mesh = piece.part.shape.mesh()  # type: ignore[union-attr]
+                    assert not blocked(screw, piece, mesh.points[mesh.triangles]), (screw.part.id, piece.part.id)
+    assert seen > 5
