@@ -10,6 +10,7 @@ from ilmek.elements.machine_screws import screw_of
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.bolting import bolted
 from ilmek.part.contacts import joined_by
+from ilmek.part.features import drillings
 from ilmek.part.insertion_units import StandingPart, is_screw, standing_parts
 from ilmek.part.part import WELDED
 from ilmek.part.poses import chains
@@ -116,3 +117,22 @@ def test_no_bearing_that_is_mounted_before_covers_a_head() -> None:
                     mesh = piece.part.shape.mesh()  # type: ignore[union-attr]
                     assert not blocked(screw, piece, mesh.points[mesh.triangles]), (screw.part.id, piece.part.id)
     assert seen > 5
+
+
+def test_a_levelling_foot_has_its_way_up() -> None:
+    """Over the end of each spindle the foot of the frame has a hole that is wider than it."""
+    tree = loom_tree(default_design("automated-loom"))
+    pieces = [piece for links in chains(tree) for piece in standing_parts(links)]
+    feet = [piece for piece in pieces if piece.part.process == "levelling foot"]
+    holes = [
+        (piece.position.after(hole.position), hole.steps[0][0])
+        for piece in pieces
+        if piece.part.process == WELDED
+        for hole in drillings(piece.part.shape)
+    ]
+    assert len(feet) == 4
+    for foot in feet:
+        top = np.array([*foot.position.origin[:1], foot.box[1][1], foot.position.origin[2]])
+        wide = [size for mouth, size in holes if np.abs(mouth.origin - top).max() < 1e-6]
+        assert wide
+        assert min(wide) > 0.02

@@ -7,6 +7,7 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 import cmath
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from ilmek.elements.cabinet_devices import fuse_of, supply_for
 from ilmek.elements.columns import STEEL
@@ -37,6 +38,9 @@ RAIL_ENDS = 50 * mm
 
 _MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
 """Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
+
+SPINDLE_PLAY = 2 * mm
+"""Of the hole in a foot over the spindle that is screwed up into it [m]; assumed by this project."""
 
 _ANCHORED = 60 * mm
 """Of the cabinet's anchors from its sides [m]; assumed by this project."""
@@ -181,11 +185,16 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     stations = tuple(_both(frame.beside(made.face)))
     rear, front = foot_reach(loom, frame)
     lengths = (
-        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
-        ("front-foot", "front foot of the frame", front, side.column + edge),
+        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear, edge),
+        ("front-foot", "front foot of the frame", front, side.column + edge, front - edge),
     )
-    for name, title, long, start in lengths:
-        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
+    for name, title, long, start, spindle in lengths:
+        foot = member(name, title, base, long)
+        mouth = placement(0.0, -base.side / 2, spindle, about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+        hole = Drilling(mouth, ((frame.foot.screw + SPINDLE_PLAY, base.wall),), through=True)
+        assert isinstance(foot.shape, Prism)
+        foot = replace(foot, shape=replace(foot.shape, drilled=(hole,)))
+        yield _placed(foot, (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
     for part, y in (
         (frame.foot.part(LEVELLING_FOOT), side.floor),
