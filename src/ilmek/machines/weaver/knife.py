@@ -69,8 +69,12 @@ def eye_at(weaver: Weaver) -> complex:
 
 
 def eye_diameter(weaver: Weaver) -> float:
-    """Outer diameter of the eye [m]; its bore is as wide as the blade's stroke."""
-    return LAP * weaver.params.yarn + 2 * WALL
+    """Outer diameter of the eye [m], of stock reamers; its bore is as wide as the blade's stroke."""
+    return math.ceil((_eye_bore(weaver) + 2 * WALL) / (mm / 2)) * mm / 2
+
+
+def _eye_bore(weaver: Weaver) -> float:
+    return LAP * weaver.params.yarn
 
 
 def shaft_at(weaver: Weaver) -> complex:
@@ -111,7 +115,8 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     """The eye in the face, the guides on it, the motor behind it."""
     eye, front, wall = eye_at(weaver), weaver.shape.body.real, _wall(weaver)
     outer = eye_diameter(weaver)
-    bush = Part(EYE, "eye of the pile yarn", "pin or bush", in_mm(outer), tube(outer, WALL, wall), STEEL)
+    sleeve = tube(outer, (outer - _eye_bore(weaver)) / 2, wall)
+    bush = Part(EYE, "eye of the pile yarn", "pin or bush", in_mm(outer), sleeve, STEEL)
     yield Occurrence(bush, (placement(eye.real, eye.imag, front),))
     axis, (half, low, high) = shaft_at(weaver), _outline(weaver)
     strip = Placed(box(STRIP, high - low, BLADE + LIP), (placement(half + STRIP / 2),))
