@@ -167,7 +167,7 @@ def _guides(by: ToolBodies) -> Iterator[GuideHole]:
         rod = complex(hand * grippers.axis, by.tied + hand * grippers.lift / 2)
         yield GuideHole(rod - finger, rod + finger, round=True)
     centre = 1j * (by.tied + grippers.height)
-    yield GuideHole(centre - finger, centre + finger)
+    yield GuideHole(centre - finger, centre + finger, round=True)
 
 
 def _of_the_knife(weaver: Weaver) -> Iterator[GuideHole]:

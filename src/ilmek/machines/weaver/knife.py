@@ -14,6 +14,7 @@ import numpy as np
 from ilmek.cams.hertz import line_contact
 from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
+from ilmek.elements.fits import tolerance_zone
 from ilmek.machines.weaver.cutter import LAP, cut, eccentricity
 from ilmek.machines.weaver.cutter_motor import (
     BLADE,
@@ -150,9 +151,16 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 def _eccentric(weaver: Weaver) -> Part:
     params, size = weaver.params, f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-    return Part(
-        ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=(Sentence("sheet.bonded"),)
-    )
+    ring = Sentence("sheet.eccentric", **_limited(eccentric_diameter(params), "h7"))
+    notes = (Sentence("sheet.bonded"), ring)
+    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=notes)
+
+
+def _limited(size: float, zone: str) -> dict[str, str]:
+    """A size with its class and limits [mm], for a note."""
+    own = tolerance_zone(zone, size)
+    least, most = size + own.lower, size + own.upper
+    return {"size": f"{size / mm:.3f} {zone}", "least": f"{least / mm:.3f}", "most": f"{most / mm:.3f}"}
 
 
 def _blade(weaver: Weaver) -> Part:
@@ -162,9 +170,10 @@ def _blade(weaver: Weaver) -> Part:
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
     size = f"{in_mm(2 * half)} x {in_mm(high - low)} x {in_mm(BLADE)}"
-    note = Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg"))
+    window = Sentence("sheet.window", **_limited(wide, "H8"))
+    notes = (Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg")), window)
     shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
-    return Part(KNIFE, "knife", "machined link", size, shape, STEEL, notes=(note,))
+    return Part(KNIFE, "knife", "machined link", size, shape, STEEL, notes=notes)
 
 
 EDGE_ANGLE = 25 * deg
