@@ -43,7 +43,11 @@ from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBod
 from ilmek.plane.contours import bounds, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
+<<<<<<< HEAD
 from ilmek.units import format_quantity, in_mm, mm
+=======
+from ilmek.units import mm
+>>>>>>> main
 
 HANDLER_SHAFT = 4 * mm
 """Diameter of the pile handler's shaft [m]; assumed by this project."""
@@ -157,8 +161,13 @@ class ToolBodies:
             members.append(_moved(hinge.lugs, placement(root + hinge.root, half / 2)))
             pin = hinge.pin(part_id("side-finger-pin"), "pin of the side jaws' finger")
             pinned = (Occurrence(pin, (placement(root + hinge.root, half / 2, -half),)),)
+<<<<<<< HEAD
         arm = (Occurrence(_brazed("side", SIDE_GRIPPER, members)),) if members else ()
         own = Occurrence(_capillary(SIDE_GRIPPER, "side gripper", rod)), *arm, *pinned
+=======
+        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)))
+        own = Occurrence(replace(part, machined=True)), *pinned
+>>>>>>> main
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
@@ -173,10 +182,18 @@ class ToolBodies:
         """A tube to its carriage; brazed to its tip a head, half as thick beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length, hinge = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE), JawHinge(JAW, by.finger)
+<<<<<<< HEAD
         rod = Placed(tube(by.finger, wall_of(self.params), length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
         at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
         head = _brazed("centre", CENTRE_GRIPPER, (jaw, _moved(hinge.lugs, at)))
+=======
+        section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
+        rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
+        jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
+        at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
+        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))))
+>>>>>>> main
         pin = hinge.pin(part_id("centre-finger-pin"), "pin of the centre jaws' finger")
         own = Occurrence(_capillary(CENTRE_GRIPPER, "centre gripper", rod)), Occurrence(head)
         parts = *own, Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
@@ -191,7 +208,6 @@ class ToolBodies:
             "plate of the warp opener",
             "machined link",
             Sum((Placed(Prism(self._comb(low), thick)), *self._feet(low))),
-            f"{in_mm(thick)} thick",
         )
         over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
         return (Occurrence(part, (_upright(low), over)),)
@@ -246,9 +262,8 @@ class ToolBodies:
         inner = outer - SLEY_ARM
         end = deep + SLEY_LUG[1]
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, end - 1j * inner, end - 1j * outer, -1j * outer]
-        size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
-        part = _made(SLEY_BAR, "sley", "machined link", shape, size)
+        part = _made(SLEY_BAR, "sley", "machined link", shape)
         return Occurrence(part, (_upright(tool),))
 
     @property
@@ -276,7 +291,7 @@ class ToolBodies:
 
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
-    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{in_mm(shape.length)} thick")
+    return _made(PILE_HANDLER, "pile handler", "machined link", shape)
 
 
 def _moved(member: Placed, position: Placement) -> Placed:
@@ -320,6 +335,7 @@ def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:
     return placement(0.0, tool.corner.imag, tool.corner.real + shift).after(UPRIGHT)
 
 
+<<<<<<< HEAD
 def _capillary(name: str, title: str, rod: Placed) -> Part:
     """The tube of a gripper, drawn; a sum, of which the slot of its wire makes more members."""
     return Part(name, title, "steel tube", "", Sum((rod,)), HARD_DRAWN, machined=True)
@@ -333,3 +349,7 @@ def _brazed(kind: str, tube: str, members: Sequence[Placed]) -> Part:
 
 def _made(name: str, title: str, process: str, shape: Shape, size: str) -> Part:
     return Part(name, title, process, size, shape, STEEL)
+=======
+def _made(name: str, title: str, process: str, shape: Shape) -> Part:
+    return Part(name, title, process, shape, STEEL)
+>>>>>>> main
