@@ -39,12 +39,5 @@ def anchors(name: str, title: str, thick: float, positions: tuple[Placement, ...
     """Anchors in holes of what is so thick on the floor [m]; their z upwards from it."""
     shape = stepped((ANCHOR, thick), _WASHER, _NUT, (ANCHOR, _OUT))
     row = Bought(f"wedge anchor M{ANCHOR / mm:.0f} x 75 EN 1992-4", 0.04)
-<<<<<<< HEAD
-    anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, "", shape, purchase=row, envelope=True)
-    return Occurrence(anchor, positions)
-=======
     anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, shape, purchase=row, envelope=True)
-    yield Occurrence(
-        anchor, tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
-    )
->>>>>>> main
+    return Occurrence(anchor, positions)

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator
 
 from ilmek.elements.columns import STEEL
 from ilmek.elements.tubes import TUBES, Tube
-from ilmek.machines.automated_loom.anchors import HOLE, anchors
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
 from ilmek.machines.automated_loom.cabinet import ControlNeeds, control_parts
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -20,34 +19,12 @@ from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_sectio
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
 from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
-<<<<<<< HEAD
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Drilling, Placed, Prism, Sum, box, rectangle, tube
-=======
 from ilmek.part.shapes import box, tube
->>>>>>> main
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import mm
 
-<<<<<<< HEAD
-CABINET, WALL = (0.8, (1.0, 1.2, 1.4, 1.6, 1.8, 2.0), 0.3), 2 * mm
-"""Least width, heights and depth of the control's cabinet, and its wall [m]; assumed by this project."""
-
-RAIL_ENDS = 50 * mm
-"""Of the cabinet's height above and below a mounting rail [m]; assumed by this project."""
-
-_MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
-"""Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
-
-_ANCHORED = 60 * mm
-"""Of the cabinet's anchors from its sides [m]; assumed by this project."""
-
-AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
-"""Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
-=======
 LEVELLING_FOOT = part_id("levelling-foot")
 """Id of the feet on the floor."""
->>>>>>> main
 
 _PACKED, _PAST = 30 * mm, 12 * mm
 """Spacers that are shorter are plates: the welds at both ends of a tube have no room beside each other; how far such a
@@ -218,56 +195,6 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
         yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
 
 
-<<<<<<< HEAD
-def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) -> Iterator[Occurrence]:
-    """The cabinet on the floor behind a rear foot, anchored there, with the amplifiers row by row on its wall there.
-
-    right, rear  outer side of the column, and end of its rear foot [m]      needs  of the control
-    """
-    axes, (across, upwards), (least, heights, deep) = needs.axes, _MODULE_PITCH, CABINET
-    columns = -(-axes // _MODULE_ROWS)
-    high = next((high for high in heights if 2 * (high - 2 * RAIL_ENDS) >= needs.rail), heights[-1])
-    wide = max(least, columns * across + 2 * WALL)
-    inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
-    feet = [
-        placement(x, -high / 2, z).after(UPRIGHT)
-        for x in (_ANCHORED - wide / 2, wide / 2 - _ANCHORED)
-        for z in (_ANCHORED, deep - _ANCHORED)
-    ]
-    sides = Prism(
-        Profile(rectangle(wide, high), (inside,)),
-        deep,
-        tuple(Drilling(foot, ((HOLE, WALL),), through=True) for foot in feet),
-    )
-    shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
-    named = "cabinet " + " x ".join(f"{size / mm:.0f}" for size in (wide, high, deep)) + " mm, sheet steel"
-    control = bought_part(part_id("control"), "control", "control", shape, Bought(named, shape.volume * STEEL.density))
-    module = bought_part(
-        AMPLIFIER,
-        "axis of the control",
-        "axis of the control",
-        box(*_MODULE),
-        Bought("amplifier"),
-        size="amplifier, cable, switch",
-    )
-    x, y = right - wide / 2, floor + high / 2
-    stands = placement(x, y, rear - deep)
-    yield Occurrence(control, (stands,))
-    yield anchors("control", "cabinet", WALL, tuple(stands.after(foot) for foot in feet))
-    if axes:
-        positions = tuple(
-            placement(
-                x + (number % columns - (columns - 1) / 2) * across,
-                y + (number // columns - (_MODULE_ROWS - 1) / 2) * upwards,
-                rear - WALL - _MODULE[2],
-            )
-            for number in range(axes)
-        )
-        yield Occurrence(module, positions)
-
-
-=======
->>>>>>> main
 def _both(sides: Iterable[float]) -> Iterator[float]:
     """Distances from the middle to both sides [m]."""
     return (x for side in sides for x in (-side, side))

@@ -151,10 +151,9 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 def _eccentric(weaver: Weaver) -> Part:
     params = weaver.params
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-<<<<<<< HEAD
     ring = Sentence("sheet.eccentric", **_limited(eccentric_diameter(params), "h7"))
     notes = (Sentence("sheet.bonded"), ring)
-    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=notes)
+    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=notes)
 
 
 def _limited(size: float, zone: str) -> dict[str, str]:
@@ -162,9 +161,6 @@ def _limited(size: float, zone: str) -> dict[str, str]:
     own = tolerance_zone(zone, size)
     least, most = size + own.lower, size + own.upper
     return {"size": f"{size / mm:.3f} {zone}", "least": f"{least / mm:.3f}", "most": f"{most / mm:.3f}"}
-=======
-    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=(Sentence("sheet.bonded"),))
->>>>>>> main
 
 
 def _blade(weaver: Weaver) -> Part:
@@ -173,17 +169,10 @@ def _blade(weaver: Weaver) -> Part:
     wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
-<<<<<<< HEAD
-    size = f"{in_mm(2 * half)} x {in_mm(high - low)} x {in_mm(BLADE)}"
     window = Sentence("sheet.window", **_limited(wide, "H8"))
     notes = (Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg")), window)
     shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
-    return Part(KNIFE, "knife", "machined link", size, shape, STEEL, notes=notes)
-=======
-    note = Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg"))
-    shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
-    return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=(note,))
->>>>>>> main
+    return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=notes)
 
 
 EDGE_ANGLE = 25 * deg

@@ -83,12 +83,7 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
     yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
-<<<<<<< HEAD
-    size = f"{in_mm(FLAG[1])} thick"
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, SHEET_STEEL, joins=(TUBE_AXLE,))
-=======
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", strip, STEEL, joins=(TUBE_AXLE,))
->>>>>>> main
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", strip, SHEET_STEEL, joins=(TUBE_AXLE,))
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
 
@@ -106,13 +101,7 @@ def _axle(weaver: Weaver, kind: str, length: float) -> tuple[Part, float]:
         spigot = 0.0
     steps = (outer, length), *(((spigot, CARRIER),) if spigot > 0 else ())
     shape, notes = (stepped(*steps), ()) if beside else (bored(bore, *steps), (Sentence("sheet.bonded"),))
-<<<<<<< HEAD
-    return Part(
-        TUBE_AXLE, f"axle of the {kind}", "turned part", round_size(outer), shape, UNHARDENED, notes=notes
-    ), spigot
-=======
-    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", shape, STEEL, notes=notes), spigot
->>>>>>> main
+    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", shape, UNHARDENED, notes=notes), spigot
 
 
 def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:

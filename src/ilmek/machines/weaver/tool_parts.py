@@ -43,11 +43,7 @@ from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBod
 from ilmek.plane.contours import bounds, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-<<<<<<< HEAD
-from ilmek.units import format_quantity, in_mm, mm
-=======
 from ilmek.units import mm
->>>>>>> main
 
 HANDLER_SHAFT = 4 * mm
 """Diameter of the pile handler's shaft [m]; assumed by this project."""
@@ -161,13 +157,8 @@ class ToolBodies:
             members.append(_moved(hinge.lugs, placement(root + hinge.root, half / 2)))
             pin = hinge.pin(part_id("side-finger-pin"), "pin of the side jaws' finger")
             pinned = (Occurrence(pin, (placement(root + hinge.root, half / 2, -half),)),)
-<<<<<<< HEAD
         arm = (Occurrence(_brazed("side", SIDE_GRIPPER, members)),) if members else ()
         own = Occurrence(_capillary(SIDE_GRIPPER, "side gripper", rod)), *arm, *pinned
-=======
-        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)))
-        own = Occurrence(replace(part, machined=True)), *pinned
->>>>>>> main
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
@@ -182,18 +173,10 @@ class ToolBodies:
         """A tube to its carriage; brazed to its tip a head, half as thick beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length, hinge = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE), JawHinge(JAW, by.finger)
-<<<<<<< HEAD
         rod = Placed(tube(by.finger, wall_of(self.params), length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
         at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
         head = _brazed("centre", CENTRE_GRIPPER, (jaw, _moved(hinge.lugs, at)))
-=======
-        section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
-        rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
-        jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
-        at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))))
->>>>>>> main
         pin = hinge.pin(part_id("centre-finger-pin"), "pin of the centre jaws' finger")
         own = Occurrence(_capillary(CENTRE_GRIPPER, "centre gripper", rod)), Occurrence(head)
         parts = *own, Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
@@ -335,21 +318,16 @@ def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:
     return placement(0.0, tool.corner.imag, tool.corner.real + shift).after(UPRIGHT)
 
 
-<<<<<<< HEAD
 def _capillary(name: str, title: str, rod: Placed) -> Part:
     """The tube of a gripper, drawn; a sum, of which the slot of its wire makes more members."""
-    return Part(name, title, "steel tube", "", Sum((rod,)), HARD_DRAWN, machined=True)
+    return Part(name, title, "steel tube", Sum((rod,)), HARD_DRAWN, machined=True)
 
 
 def _brazed(kind: str, tube: str, members: Sequence[Placed]) -> Part:
     """The head of a gripper, brazed to its tube."""
     shape, title = Sum(tuple(members)), f"head of the {kind} gripper"
-    return Part(part_id(f"{kind}-head"), title, "machined link", "", shape, STEEL, joins=(tube,), throat=BRAZED)
+    return Part(part_id(f"{kind}-head"), title, "machined link", shape, STEEL, joins=(tube,), throat=BRAZED)
 
 
-def _made(name: str, title: str, process: str, shape: Shape, size: str) -> Part:
-    return Part(name, title, process, size, shape, STEEL)
-=======
 def _made(name: str, title: str, process: str, shape: Shape) -> Part:
     return Part(name, title, process, shape, STEEL)
->>>>>>> main
