@@ -10,14 +10,14 @@ from ilmek.elements.machine_screws import screw_of
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.part.bolting import bolted
 from ilmek.part.contacts import joined_by
+from ilmek.part.features import drillings
 from ilmek.part.insertion_units import StandingPart, is_screw, standing_parts
+from ilmek.part.part import WELDED
 from ilmek.part.poses import chains
+from ilmek.part.welds import welded_together
 
 KEY = 0.06
 """Length of a key over the head [m]."""
-
-FROM_THE_SIDE = {"weaver/bracket"}
-"""A hollow section, in which an angled key turns the screws of what stands on it, through its open end."""
 
 
 def hits(start: np.ndarray, towards: np.ndarray, corners: np.ndarray) -> bool:
@@ -72,6 +72,67 @@ def test_a_straight_key_reaches_every_screw(share: int) -> None:
                 apart = (piece.box[0] > screw.box[1] + 1e-3) | (piece.box[1] < screw.box[0] - 1e-3)
                 if not apart.any():
                     seen += 1
-                    if name not in FROM_THE_SIDE:
-                        assert not blocked(screw, piece, mesh.points[mesh.triangles]), (screw.part.id, name)
+                    assert not blocked(screw, piece, mesh.points[mesh.triangles]), (screw.part.id, name)
     assert seen > 10
+
+
+def test_no_head_is_in_stock_that_is_closed_round_it() -> None:
+    """Rays across the axis over a head all meet the wall of one part: a tube that is welded over it."""
+    tree = bolted(loom_tree(default_design("automated-loom")))
+    pieces = [piece for links in chains(tree) for piece in standing_parts(links)]
+    parts = {piece.part.id: piece.part for piece in pieces}
+    stock = [piece for piece in pieces if piece.part.process == WELDED]
+    boxes = np.array([piece.box for piece in stock])
+    for screw in (piece for piece in pieces if is_screw(piece.part)):
+        over = screw.position.points(np.array([0.0, 0.0, -8e-3]))  # z is along the screw, from under its head
+        near = np.flatnonzero(((boxes[:, 0] < over) & (over < boxes[:, 1])).all(1))
+        for piece in (stock[number] for number in near):
+            if not any(welded_together(piece.part, parts[name]) for name in screw.part.joins):
+                continue
+            mesh = piece.part.shape.mesh()  # type: ignore[union-attr]
+            own = piece.position.inverse
+            across = (
+                screw.position.rotation @ np.array([np.cos(angle), np.sin(angle), 0.0])
+                for angle in np.linspace(0.1, 2 * np.pi + 0.1, 8, endpoint=False)
+            )
+            start, corners = own.points(over), mesh.points[mesh.triangles]
+            assert not all(hits(start, own.rotation @ ray, corners) for ray in across), (screw.part.id, piece.part.id)
+
+
+def test_no_bearing_that_is_mounted_before_covers_a_head() -> None:
+    """Shafts come with their bearings, before what drives them: a key reaches past the housings to every head."""
+    tree = bolted(loom_tree(default_design("automated-loom")))
+    pieces = [piece for links in chains(tree) for piece in standing_parts(links)]
+    housings = [piece for piece in pieces if piece.part.process == "bearing"]
+    driven = ("reducer", "servo", "stepper")
+    parts = {piece.part.id: piece.part for piece in pieces}
+    seen = 0
+    for screw in (piece for piece in pieces if is_screw(piece.part)):
+        if any(parts[name].process in driven for name in screw.part.joins):
+            start = screw.position.points(np.array([0.0, 0.0, -1e-3]))
+            box = np.stack([np.minimum(screw.box[0], start) - KEY, np.maximum(screw.box[1], start) + KEY])
+            for piece in housings:
+                if ((piece.box[0] < box[1]) & (box[0] < piece.box[1])).all():
+                    seen += 1
+                    mesh = piece.part.shape.mesh()  # type: ignore[union-attr]
+                    assert not blocked(screw, piece, mesh.points[mesh.triangles]), (screw.part.id, piece.part.id)
+    assert seen > 5
+
+
+def test_a_levelling_foot_has_its_way_up() -> None:
+    """Over the end of each spindle the foot of the frame has a hole that is wider than it."""
+    tree = loom_tree(default_design("automated-loom"))
+    pieces = [piece for links in chains(tree) for piece in standing_parts(links)]
+    feet = [piece for piece in pieces if piece.part.process == "levelling foot"]
+    holes = [
+        (piece.position.after(hole.position), hole.steps[0][0])
+        for piece in pieces
+        if piece.part.process == WELDED
+        for hole in drillings(piece.part.shape)
+    ]
+    assert len(feet) == 4
+    for foot in feet:
+        top = np.array([*foot.position.origin[:1], foot.box[1][1], foot.position.origin[2]])
+        wide = [size for mouth, size in holes if np.abs(mouth.origin - top).max() < 1e-6]
+        assert wide
+        assert min(wide) > 0.02

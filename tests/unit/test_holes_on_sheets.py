@@ -19,7 +19,8 @@ from ilmek.io.step import part_solid
 from ilmek.part.blanks import MILLED, blanks_of, size_of, sold_as
 from ilmek.part.bolt_holes import _with_threads
 from ilmek.part.bolting import bolted
-from ilmek.part.features import drillings
+from ilmek.part.features import drillings, features_of_size
+from ilmek.part.guided_widths import guided_widths
 from ilmek.part.hole_kinds import hole_kinds
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -48,7 +49,7 @@ def rows_of(file: Path) -> tuple[list[tuple[str, ...]], list[str]]:
     for words in lines.values():
         for start, word in enumerate(words):
             if (
-                re.fullmatch(r"[A-W]{1,2}\d*", word)
+                re.fullmatch(r"H\d+", word)
                 and len(words) > start + 5
                 and words[start + 4][1:] in ("X", "Y", "Z")
             ):
@@ -89,6 +90,26 @@ def test_every_drilled_hole_has_its_row_and_its_name_in_a_view(tmp_path: Path) -
         assert any(all(lies_on(row, datum, inner) for row in rows) for datum in corners), drawn.number
         seen += len(rows)
     assert seen > 250
+
+
+def test_no_hole_is_drilled_deeper_than_a_drill_reaches() -> None:
+    """Longer bores are those of tubes; a counterbore is no deeper than six of its diameters."""
+    for _, part in parts():
+        for feature in features_of_size(part.shape):
+            drilled = feature.inside and not feature.square and part.process not in {"steel tube", "welded frame"}
+            assert not drilled or feature.length <= 20 * feature.size, (part.id, feature.size)
+        sunk = (hole.steps[0] for hole in drillings(part.shape) if len(hole.steps) > 1)
+        assert all(deep <= 6 * wide for wide, deep in sunk), part.id
+
+
+def test_slots_and_what_slides_in_them_have_one_size_and_a_fit() -> None:
+    widths = {source.id: [*guided_widths(drawn.features)] for drawn, source in parts()}
+    slots = {zone.nominal for zone in (zone for own in widths.values() for slot, zone in own if slot)}
+    followers = {name: own for name, own in widths.items() if name.endswith("-follower")}
+    assert len(followers) == 6
+    for name, own in followers.items():
+        assert [slot for slot, _ in own] == [False], name
+        assert {zone.nominal for _, zone in own} <= slots, name
 
 
 def test_the_same_part_with_a_hole_elsewhere_is_seen(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.holding_brakes import brake_for
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.locknuts import Locknut
-from ilmek.elements.machine_screws import MachineScrew
+from ilmek.elements.machine_screws import SOCKET_SCREWS, MachineScrew
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
@@ -33,10 +33,13 @@ SPECIAL_FACE = 80 * mm
 """Flange of a motor that is in no table [m]; assumed by this project."""
 
 REDUCER_LENGTH = 1.2
-"""Length of a reducer over its flange, that of its motor; assumed by this project."""
+"""Length of a reducer over its flange; assumed by this project."""
 
 HOLLOW, WALL = 0.5 * mm, 10 * mm
 """Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
+
+_REDUCER_FLANGE = 2.2
+"""Thickness of a coaxial reducer's flanges over its screws' diameter: their heads are sunk in it; assumed."""
 
 ADAPTER, _ADAPTER_FILLED = 0.3, 0.5
 """Length of a motor's adapter, with its coupling, over its face, and share of its room that is aluminium; assumed by
@@ -164,18 +167,27 @@ def reducer(  # noqa: PLR0917
     """
     given = row.torque * by.ratio * by.efficiency if row else 0.0
     motor_face = row.face if row else SPECIAL_FACE
-    shaft, long, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", REDUCER_LENGTH * motor_face, 0.0
+    shaft, least, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", 0.0, 0.0
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
-        hollow, long = abs(corner) + HOLLOW, max(long, BEFORE_KEY + end.length)
+        hollow, least = abs(corner) + HOLLOW, BEFORE_KEY + end.length
         shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
     flange = flange_for(given, 2 * (hollow + WALL) if hollow else 0.0)
     face, across = max(motor_face, flange.face), output is not None
-    long = REDUCER_LENGTH * face if across else long
-    pitch, (motor_holes,) = flange.circle / math.sqrt(2), flange_holes(row)
-    holes = HolePattern(pitch, pitch, flange.thread, tapped=True, faces=(0,) if across else (1,))
-    square = Profile(rectangle(face, face), (circle(0j, hollow),) if hollow else ())
-    room: Shape = Prism(square, long)
+    long = max(REDUCER_LENGTH * face, least)
+    pitch, (motor_holes,), row_of = flange.circle / math.sqrt(2), flange_holes(row), SOCKET_SCREWS[flange.thread]
+    holes = HolePattern(pitch, pitch, flange.thread, tapped=across, faces=(0,) if across else (1,))
+    bores = (circle(0j, hollow),) if hollow else ()
+    room: Shape = Prism(Profile(rectangle(face, face), bores), long)
+    if not across:  # screws from behind a flange at its output
+        thick, waist = _REDUCER_FLANGE * row_of.diameter, flange.circle - row_of.sink - WALL / 5
+        room = Sum(
+            (
+                Placed(Prism(Profile(rectangle(motor_face, motor_face), bores), thick)),
+                Placed(Prism(Profile(circle(0j, waist / 2), bores), long - 2 * thick), (placement(z=thick),)),
+                Placed(Prism(Profile(rectangle(face, face), bores), thick), (placement(z=long - thick),)),
+            )
+        )
     motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
     data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}, {_holes_text(holes)}", *motors))
     kind = f"right-angle {by.kind}" if across else by.kind
@@ -299,9 +311,9 @@ def locked(name: str, title: str, row: Locknut, *, washer: bool = False) -> Part
 
 
 def length_of(part: Part) -> float:
-    """Length along its axis of a bought part whose room is one prism [m]."""
-    assert isinstance(part.shape, Prism)
-    return part.shape.length
+    """Length along its axis of a bought part whose room begins at z = 0 [m]."""
+    assert part.shape is not None
+    return float(shape_box(part.shape)[1][2])
 
 
 def face_of(part: Part) -> float:

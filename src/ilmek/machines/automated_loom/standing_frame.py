@@ -5,7 +5,9 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 """
 
 import cmath
+import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from ilmek.elements.columns import STEEL
 from ilmek.elements.tubes import TUBES, Tube
@@ -19,9 +21,12 @@ from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_sectio
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
 from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
-from ilmek.part.shapes import box, tube
+from ilmek.part.shapes import Drilling, Prism, box, tube
 from ilmek.part.tree import Occurrence, RigidBody
 from ilmek.units import mm
+
+SPINDLE_PLAY = 2 * mm
+"""Of the hole in a foot over the spindle that is screwed up into it [m]; assumed by this project."""
 
 LEVELLING_FOOT = part_id("levelling-foot")
 """Id of the feet on the floor."""
@@ -138,11 +143,16 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
     stations = tuple(_both(frame.beside(made.face)))
     rear, front = foot_reach(loom, frame)
     lengths = (
-        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear),
-        ("front-foot", "front foot of the frame", front, side.column + edge),
+        ("rear-foot", "rear foot of the frame", rear, side.column - edge - rear, edge),
+        ("front-foot", "front foot of the frame", front, side.column + edge, front - edge),
     )
-    for name, title, long, start in lengths:
-        yield _placed(member(name, title, base, long), (placement(x, low, start) for x in stations))
+    for name, title, long, start, spindle in lengths:
+        foot = member(name, title, base, long)
+        mouth = placement(0.0, -base.side / 2, spindle, about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
+        hole = Drilling(mouth, ((frame.foot.screw + SPINDLE_PLAY, base.wall),), through=True)
+        assert isinstance(foot.shape, Prism)
+        foot = replace(foot, shape=replace(foot.shape, drilled=(hole,)))
+        yield _placed(foot, (placement(x, low, start) for x in stations))
     ends = (side.column - rear, side.column + front)
     for part, y in (
         (frame.foot.part(LEVELLING_FOOT), side.floor),

@@ -36,8 +36,10 @@ from ilmek.report.scene import SceneMotion
 from ilmek.sentences import Sentence
 from ilmek.units import in_mm, mm, turn
 
-_INSIDE = 2 * mm
-"""By how much the square ends inside of the rings, so that the nuts press these [m]."""
+_INSIDE, _LOOSE = 1 * mm, 0.25 * mm
+"""By how much the square ends inside of the cams, so that the nuts press the rings on these, and play of a ring about
+the thread [m]; assumed by this project.
+"""
 
 _CUT, _ALONG = "laser-cut part", (0.0, 0.0, 1.0)
 
@@ -134,7 +136,9 @@ def _on_the_bar(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
 def _clamped(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     """Pressure ring, tab washer and nut at both ends of the cams."""
     nut, (low, high) = design.shafts[index].nut, stack_ends(design, index)
-    ring = _disc(design, index, ("pressure-ring", "pressure ring of the cams"), design.shafts[index].shaft.bar, RING)
+    radius, bore = design.shafts[index].shaft.bar, circle(0j, nut.thread / 2 + _LOOSE)
+    shape = Prism(Profile(circle(0j, radius), (bore,)), RING)
+    ring = _made(design, index, "pressure-ring", "pressure ring of the cams", shape, _CUT)
     named = ("tab-washer", "tab washer of the cams"), ("locknut", "locknut of the cams")
     washer, locknut = (
         catalogue.locked(part_id(name, index), _numbered(design, index, title), nut, washer=name == "tab-washer")
@@ -211,9 +215,9 @@ def _bar(design: SheddingDesign, index: int) -> Part:
     """
     shaft = design.shafts[index]
     bar, nut, beyond, end = shaft.shaft.bar, shaft.nut, shaft.seat.journal, shaft.driven_end
-    inner, (low, high), over = bearing_inner(design, index), stack_ends(design, index), RING - _INSIDE
-    begin, last, long = inner - high - over, inner - low + over, 2 * inner
-    threaded = RING - over + nut.washer + nut.width + nut.pitch
+    inner, (low, high) = bearing_inner(design, index), stack_ends(design, index)
+    begin, last, long = inner - high + _INSIDE, inner - low - _INSIDE, 2 * inner
+    threaded = RING + _INSIDE + nut.washer + nut.width + nut.pitch
     thread = Prism(Profile(keyed_bore(nut.thread / 2, nut.tab, nut.groove - nut.thread / 2)), threaded)
     slim = max(min(math.floor((nut.thread - 1.2268 * nut.pitch) / mm) * mm, shaft.screws_inside), mm)
     necks = ((z, length) for z, length in ((0.0, begin - threaded), (last + threaded, long - last - threaded)))

@@ -97,7 +97,8 @@ def _bodies(
     far, inside = params.span / 2 + params.stub, params.span / 2 - _spigot(cylinder)[1]
     left, right = _side(z=inside, flipped=True), placement(z=inside)
     shape = _end_shape(params, cylinder)
-    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, STUB)
+    title = f"shaft end of the {name} cylinder"
+    end = replace(_made(f"{name}-end", title, "turned part", shape, STUB), machined=True)  # after it is welded
     ends = (
         (*_driven_end(cylinder, shape, right), Occurrence(end, (left,)))
         if driven
@@ -145,7 +146,8 @@ def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple
     """The shaft end that goes on into the reducer, and its key."""
     name, keyed, outer = cylinder.name, cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
     grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
-    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, STUB)
+    title = f"driven shaft end of the {name} cylinder"
+    driven = replace(_made(f"{name}-driven-end", title, "turned part", grooved, STUB), machined=True)
     own = part_id(f"{name}-key"), f"key of the {name} cylinder"
     return Occurrence(driven, (position,)), catalogue.keys(*own, keyed, position.after(placement(z=outer)))
 

@@ -197,8 +197,7 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
         *(complex(right, shoulder), complex(HIGH, shoulder), complex(HIGH, top), complex(-HIGH, top)),
         *(complex(-HIGH, shoulder), complex(left, shoulder), complex(left, bottom), complex(inner, bottom)),
     ]
-    finger = weaver.params.finger
-    bore = polygon(rectangle(finger, finger).points + 1j * height)
+    bore = circle(1j * height, weaver.params.finger / 2)
     section = Profile(polygon(np.array(corners)), (bore,))
     block = _plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR)
     cheeks, pin = drawbar(weaver, CENTRE_MOTION, front)
@@ -245,7 +244,7 @@ def _nut(weaver: Weaver) -> Occurrence:
     ears = (
         Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2)
     )
-    part = _made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears)))
+    part = replace(_made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears))), process="machined link")
     return _at(part, 0j, weaver.shape.partition + PARTITION)
 
 
@@ -278,7 +277,7 @@ def _partition(weaver: Weaver) -> Occurrence:
             GuideHole(
                 complex(-by.axis - room, tied - by.lift / 2 - room), complex(by.axis + room, tied + by.lift / 2 + room)
             ),
-            _around(1j * height, weaver.params.finger / 2),
+            _around(1j * height, weaver.params.finger / 2, round_=True),
             _around(1j * (height + ABOVE_CENTRE), (SPIGOT if _has_seat(weaver) else ROD) / 2, round_=True),
         ]
     plate = GuideHole(complex(beside, low), complex(inner, top))

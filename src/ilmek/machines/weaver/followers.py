@@ -8,6 +8,7 @@ A follower ends where it drives: with cheeks about the pin of a lever, with a ra
 runs wherever its carriage is, or with a rack.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import lru_cache
@@ -40,8 +41,10 @@ FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam
 LEVER_PIN = part_id("lever-pin")
 """Ids of the parts."""
 
-PIN_SHARE = 0.34
-"""Pin over roller; assumed by this project, the fork's stress is checked."""
+PIN_SHARE, PIN_STEP = 0.34, 0.5 * mm
+"""Pin over roller, and step of its diameters, of stock reamers [m]; assumed by this project, the fork's stress is
+checked.
+"""
 
 FOLLOWER_STEEL, PIN_STEEL = MATERIALS["heat-treatable steel"], MATERIALS["induction-hardened steel"]
 """Of followers: their cheeks are too thin for a hardened surface. The pins in them are hardened."""
@@ -88,7 +91,7 @@ def _sizes(weaver: Weaver) -> tuple[float, float]:
     params = weaver.params
     wide = params.cam_thickness + 2 * fork_beside(params)
     free = wide - roller_width(params) - side_play(roller_width(params))
-    return free / 2, 2 * PIN_SHARE * params.roller_radius
+    return free / 2, math.ceil(2 * PIN_SHARE * params.roller_radius / PIN_STEP) * PIN_STEP
 
 
 def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:

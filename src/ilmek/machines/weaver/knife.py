@@ -14,6 +14,7 @@ import numpy as np
 from ilmek.cams.hertz import line_contact
 from ilmek.cams.loaded_plate_cam import MODULUS, PRESSURE_LIMIT, STEEL
 from ilmek.elements.duty import MARGIN
+from ilmek.elements.fits import tolerance_zone
 from ilmek.machines.weaver.cutter import LAP, cut, eccentricity
 from ilmek.machines.weaver.cutter_motor import (
     BLADE,
@@ -69,8 +70,12 @@ def eye_at(weaver: Weaver) -> complex:
 
 
 def eye_diameter(weaver: Weaver) -> float:
-    """Outer diameter of the eye [m]; its bore is as wide as the blade's stroke."""
-    return LAP * weaver.params.yarn + 2 * WALL
+    """Outer diameter of the eye [m], of stock reamers; its bore is as wide as the blade's stroke."""
+    return math.ceil((_eye_bore(weaver) + 2 * WALL) / (mm / 2)) * mm / 2
+
+
+def _eye_bore(weaver: Weaver) -> float:
+    return LAP * weaver.params.yarn
 
 
 def shaft_at(weaver: Weaver) -> complex:
@@ -111,7 +116,8 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     """The eye in the face, the guides on it, the motor behind it."""
     eye, front, wall = eye_at(weaver), weaver.shape.body.real, _wall(weaver)
     outer = eye_diameter(weaver)
-    bush = Part(EYE, "eye of the pile yarn", "pin or bush", tube(outer, WALL, wall), STEEL)
+    sleeve = tube(outer, (outer - _eye_bore(weaver)) / 2, wall)
+    bush = Part(EYE, "eye of the pile yarn", "pin or bush", sleeve, STEEL)
     yield Occurrence(bush, (placement(eye.real, eye.imag, front),))
     axis, (half, low, high) = shaft_at(weaver), _outline(weaver)
     strip = Placed(box(STRIP, high - low, BLADE + LIP), (placement(half + STRIP / 2),))
@@ -150,7 +156,16 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 def _eccentric(weaver: Weaver) -> Part:
     params = weaver.params
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=(Sentence("sheet.bonded"),))
+    ring = Sentence("sheet.eccentric", **_limited(eccentric_diameter(params), "h7"))
+    notes = (Sentence("sheet.bonded"), ring)
+    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=notes)
+
+
+def _limited(size: float, zone: str) -> dict[str, str]:
+    """A size with its class and limits [mm], for a note."""
+    own = tolerance_zone(zone, size)
+    least, most = size + own.lower, size + own.upper
+    return {"size": f"{size / mm:.3f} {zone}", "least": f"{least / mm:.3f}", "most": f"{most / mm:.3f}"}
 
 
 def _blade(weaver: Weaver) -> Part:
@@ -159,9 +174,10 @@ def _blade(weaver: Weaver) -> Part:
     wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
-    note = Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg"))
+    window = Sentence("sheet.window", **_limited(wide, "H8"))
+    notes = (Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg")), window)
     shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
-    return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=(note,))
+    return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=notes)
 
 
 EDGE_ANGLE = 25 * deg

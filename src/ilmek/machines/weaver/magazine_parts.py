@@ -7,8 +7,8 @@ import cmath
 from collections.abc import Iterator
 from dataclasses import replace
 
-from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.elements.field_devices import INDUCTIVE
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.weaver.carriage_drive import PLATE_BEGIN
 from ilmek.machines.weaver.case import BRACKET_ENDS
 from ilmek.machines.weaver.design import Weaver
@@ -27,6 +27,9 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.sentences import Sentence
 from ilmek.units import mm, turn
+
+UNHARDENED, SHEET_STEEL = MATERIALS["heat-treatable steel"], MATERIALS["structural steel"]
+"""Of the carrier's axle, to which the flag is welded, and of the flag."""
 
 TUBE_CARRIER, TUBE_AXLE, TUBE_FLAG = part_id("tube-carrier"), part_id("tube-axle"), part_id("tube-flag")
 INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
@@ -80,7 +83,7 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
     yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", strip, STEEL, joins=(TUBE_AXLE,))
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", strip, SHEET_STEEL, joins=(TUBE_AXLE,))
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
 
@@ -98,7 +101,7 @@ def _axle(weaver: Weaver, kind: str, length: float) -> tuple[Part, float]:
         spigot = 0.0
     steps = (outer, length), *(((spigot, CARRIER),) if spigot > 0 else ())
     shape, notes = (stepped(*steps), ()) if beside else (bored(bore, *steps), (Sentence("sheet.bonded"),))
-    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", shape, STEEL, notes=notes), spigot
+    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", shape, UNHARDENED, notes=notes), spigot
 
 
 def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
