@@ -57,8 +57,8 @@ def test_small_holes_of_a_plate_have_a_detail(tmp_path: Path) -> None:
     corners = np.array([0, 1000, 1000 + 600j, 600j]) * mm
     holes = tuple(circle(at * mm, 1.5 * mm) for at in (200 + 200j, 230 + 200j))
     sheet = written(Prism(Profile(polygon(corners), holes), 10 * mm), tmp_path / "out", "machined link")
-    (title,) = (text for text in words(sheet) if text.startswith("Z ("))
-    assert words(sheet).count("Z") == 1
+    (title,) = (text for text in words(sheet) if text.startswith("W ("))
+    assert words(sheet).count("W") == 1
     circles = sorted(diameter for _, diameter in rings(sheet, "DIMENSION"))
     assert len(circles) == 2
     assert circles[1] / circles[0] > 2
@@ -72,7 +72,7 @@ def test_small_holes_of_a_plate_have_a_detail(tmp_path: Path) -> None:
 def test_a_narrow_groove_of_a_long_shaft_has_a_detail_with_its_width_and_depth(tmp_path: Path) -> None:
     shaft = stepped((0.02, 0.3), (0.019, 0.0011), (0.02, 0.02))
     sheet = written(shaft, tmp_path / "out", "turned part")
-    (title,) = (text for text in words(sheet) if text.startswith("Z ("))
+    (title,) = (text for text in words(sheet) if text.startswith("W ("))
     lengths = [e.dxf.actual_measurement for e in sheet.modelspace().query("DIMENSION") if e.dimtype == 0]
     assert any(abs(length - 1.1) < 1e-9 for length in lengths)
     assert any(abs(length - 0.5) < 1e-9 for length in lengths)
@@ -81,7 +81,7 @@ def test_a_narrow_groove_of_a_long_shaft_has_a_detail_with_its_width_and_depth(t
 
 def test_what_is_large_enough_has_none(tmp_path: Path) -> None:
     sheet = written(stepped((0.02, 0.03), (0.03, 0.05)), tmp_path / "out", "turned part")
-    assert not any(text.startswith("Z") for text in words(sheet))
+    assert not any(text.startswith("W") for text in words(sheet))
 
 
 def test_an_item_of_several_has_its_outline_with_every_corner(tmp_path: Path) -> None:

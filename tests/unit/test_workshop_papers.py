@@ -922,6 +922,14 @@ def test_a_cylinder_in_closed_bores_fails_the_check_of_the_assembly() -> None:
         assert ("warp-tension/lower cylinder" in held or "warp-tension/lower bearings" in held) is not ends
 
 
+def test_all_of_the_frame_is_welded_before_cabinet_and_feet_come() -> None:
+    frame = part_id("frame")
+    tree = Tree(tuple(own for own in loom_tree(default_design("automated-loom")).bodies if own.id == frame))
+    stock = [unit.is_stock for step in insertions(tree, UP, frozenset((frame,))) for unit in step.units]
+    assert stock == sorted(stock, reverse=True)
+    assert 10 < sum(stock) < len(stock) - 10
+
+
 def test_the_frame_has_its_eyes_before_anything_else_comes() -> None:
     manual = next(paper for paper in papers().pages if paper.name == "assembly-manual")
     tables = (section.table for section in manual.sections)

@@ -121,9 +121,8 @@ class _Plan:
         while len(self.standing) > 1:
             steps = self._next()
             if steps[0].blocking:
-                own = self.standing | set(steps[0].units)
+                own, near = self.standing | set(steps[0].units), (*steps[0].units, *steps[0].blocking)
                 beside = (unit for unit in self.units if unit.name == steps[0].units[0].name)
-                near = (*steps[0].units, *steps[0].blocking)
                 every = [unit for unit in (*near, *beside, *self.units) if unit.inner and unit in own]
                 built = [unit for unit in every if unit.fastens or not self.welded or unit in near]
                 if built:  # it is put together in its place
@@ -144,7 +143,9 @@ class _Plan:
                 return steps
         last = all(name in self.welded for name in bodies)
         leaving = [units for name, units in bodies.items() if last or name not in self.welded]
-        tries = (search(units) for search in (self._single, self._group, self._by_moves) for units in leaving)
+        apart = ([[unit for unit in units if unit.is_stock is own] for units in leaving] for own in (False, True))
+        searches, parted = (self._single, self._group, self._by_moves), apart if last else (leaving,)
+        tries = (search(units) for some in parted for search in searches for units in some)
         step = next(filter(None, tries), None) or self._held()
         self.standing -= set(step.units)
         return [step]

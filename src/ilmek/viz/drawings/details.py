@@ -24,7 +24,8 @@ LEAST, CLEAR, WIDEST = 2.0, 5.0, 90.0
 _NEAR, _AROUND = 20.0, 5.0
 """Distance of features that share a detail, and room about them, on the main view [mm]."""
 
-_LETTERS = "ZYXWVUTS"
+_LETTERS = "WVUTSRQP"
+"""Of details: X, Y and Z are axes, the first ones datums."""
 
 
 @record

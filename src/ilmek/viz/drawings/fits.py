@@ -89,8 +89,8 @@ class Fits:
                 yield kind, size, least, greatest, duty
         for slot, zone in guided_widths(self.features):
             kind = Sentence("sheet.kind-slot" if slot else "sheet.kind-tongue")
-            ends = millimetres(zone.nominal + zone.lower), millimetres(zone.nominal + zone.upper)
-            yield kind, f"{millimetres(zone.nominal)} {zone.name}", *ends, Sentence("sheet.duty-sliding")
+            least, greatest = (millimetres(zone.nominal + own) for own in (zone.lower, zone.upper))
+            yield kind, f"{millimetres(zone.nominal)} {zone.name}", least, greatest, Sentence("sheet.duty-sliding")
 
 
 def named_feature(feature: ToleratedFeature) -> tuple[str, str, str]:
