@@ -128,7 +128,7 @@ def test_the_checks_of_the_compensator_name_parts_that_it_has() -> None:
 
 
 def test_the_moving_mass_is_that_of_the_parts_about_the_pivot() -> None:
-    """By the mesh of each part, counted by its positions, and a third of the springs."""
+    """By the mesh of each part, counted by its positions, the eyes with their sleeves at the springs, a third of these."""
     made = design(TensionCompensatorParams())
     moment = 0.0
     for occurrence in sprung_bar(made.parts, "any", None).occurrences:
@@ -142,9 +142,12 @@ def test_the_moving_mass_is_that_of_the_parts_about_the_pivot() -> None:
             sums = corners.sum(axis=1)
             second = np.einsum("t,tci->i", sixth, corners**2) + np.einsum("t,ti->i", sixth, sums**2)
             moment += density * float(second[0] + second[1]) / 20
-    one, params = made.one, made.params
+    one, params, strut = made.one, made.params, made.parts.struts
     assert one.spring is not None
-    moment += params.levers * one.springs * one.spring.mass / 3 * params.spring_arm**2
+    assert strut.eye is not None
+    assert strut.sleeve is not None
+    each = one.spring.mass / 3 + strut.eye.mass + strut.sleeve.mass
+    moment += params.levers * one.springs * each * params.spring_arm**2
     assert made.moving_mass == pytest.approx(moment / params.bar_arm**2, rel=1e-4)
 
 

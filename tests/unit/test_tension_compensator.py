@@ -22,6 +22,8 @@ from ilmek.machines.tension_compensator.members import STEEL, bar_checks
 from ilmek.machines.tension_compensator.tree import lever_motion, tree
 from ilmek.part.clearances import approaches
 from ilmek.part.contacts import contacts
+from ilmek.part.shapes import shape_box
+from ilmek.part.welds import welds_of
 from ilmek.units import deg, mm
 from ilmek.weaving.shed import shed_lengthening
 
@@ -239,3 +241,50 @@ def test_a_lever_passes_the_rod_before_it() -> None:
     made = design(TensionCompensatorParams.read(heavy))
     assert made.one.lever.path.half > max(4 * made.radius, 0.55 * made.params.bar_arm)
     assert "room between lever and rod" not in {check.name for check in MACHINE.report(made).failed}
+
+
+@pytest.mark.parametrize("name", HEAVY)
+def test_a_spring_is_guided_over_its_length(name: str) -> None:
+    """Between turning ends it would buckle; the bare coils between collar and sleeve are shorter than its diameter."""
+    made = design(TensionCompensatorParams.read(HEAVY[name]))
+    spring, parts = made.one.spring, made.parts.struts
+    assert spring is not None
+    assert parts.strut is not None
+    assert parts.rod is not None
+    assert parts.sleeve is not None
+    rest = made.params.strut - 2 * parts.strut.seat
+    high = float(shape_box(parts.sleeve.shape)[1][2])
+    assert rest - parts.strut.collar - (high - parts.strut.socket) < spring.diameter
+    tail = float(shape_box(parts.rod.shape)[1][2]) - parts.strut.socket - parts.strut.collar
+    assert tail - (rest - parts.strut.collar - (high - parts.strut.socket)) == pytest.approx(parts.strut.engaged)
+    assert parts.strut.guide < spring.diameter - spring.wire_diameter
+
+
+def test_saddles_are_welded_with_the_throat_that_their_load_needs() -> None:
+    """Greatest force on a length of two seams by an elastic sum over their points, at the saddle's own size."""
+    made = design(TensionCompensatorParams())
+    loads, params, members = made.loads, made.params, made.members
+    wide = 2 * made.parts.supports.strip
+    force = loads.line * params.cloth.width / params.levers
+    along = np.linspace(-wide / 2, wide / 2, 2001)
+    points = np.concatenate([along + 0.5j * wide, along - 0.5j * wide])
+    length = wide / 2000
+    bent = loads.torque / params.bar_arm * (made.radius + 1.25 * members.roller.outer)
+    inside = np.abs(points) * bent / (np.sum(np.abs(points) ** 2) * length) + force / (2 * wide)
+    lifted = np.abs(points.real) * force * params.lever_thickness / (np.sum(points.real**2) * length)
+    stress = float(np.hypot(inside, lifted).max()) / members.throat
+    assert 0.2 * 208e6 < stress < 208e6
+    welds = welds_of(tree(made))[made.parts.saddle.id]
+    for other, share in ((made.parts.lever.id, 1.0), (made.parts.cross_piece.id, 0.5)):  # a rod bears half of a bar
+        own = [weld for weld in welds if weld.other == other]
+        assert own
+        assert all(weld.throat == members.throat and sum(weld.lengths) >= share * 2 * wide for weld in own)
+
+
+def test_no_pin_nor_roller_bears_more_than_it_may() -> None:
+    made = design(TensionCompensatorParams())
+    members, one = made.members, made.one
+    moment = sum(one.force * one.pitch * (k + 0.5) for k in range(math.ceil(one.springs / 2)))
+    assert moment / (math.pi / 32 * members.spring_pin**3) < 750e6 / made.params.safety
+    force = made.loads.line * made.params.cloth.width / made.params.levers / math.sqrt(2)
+    assert members.roller.static > 1.25 * force

@@ -20,7 +20,7 @@ from ilmek.units import mm, um
 BOLTED = frozenset(
     {
         "stepper", "servo", "reducer", "linear guide", "guide carriage", "linear axis", "sensor", "load cell",
-        "light barrier", "yarn sensor", "yarn brake", "interlock", "actuator", "emergency stop", "button", "control",
+        "light barrier", "yarn sensor", "yarn brake", "interlock", "actuator", "emergency stop", "button",
         "tool", "duct", "input module", "motor adapter",
     }
 )  # fmt: skip

@@ -16,7 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.arrays import ComplexArray, Float
+from ilmek.arrays import BoolArray, ComplexArray, Float
 from ilmek.elements.machine_screws import SOCKET_LENGTHS, SOCKET_SCREWS, MachineScrew
 from ilmek.part import catalogue
 from ilmek.part.bolt_contacts import (
@@ -35,6 +35,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.seat_faces import Depth, seat_faces
 from ilmek.part.shapes import Drilling, Prism
 from ilmek.part.tree import Occurrence, Tree
+from ilmek.part.welds import welded_together
 from ilmek.units import mm, um
 
 _CLAMPED = (2.0, 1.0)
@@ -42,6 +43,9 @@ _CLAMPED = (2.0, 1.0)
 
 _LONGEST = 10.0
 """Length of a screw under its head that is not in the thread over its diameter, at most: the head is sunk deeper."""
+
+_DEEPEST = 6.0
+"""Depth of a counterbore over its diameter, at most; assumed by this project."""
 
 _PLAY = 0.1 * mm
 """Of a head in the notch of a bought flange [m]."""
@@ -58,6 +62,9 @@ _FLOOR = 1.5 * mm
 _LARGEST, _BOUGHT = 12 * mm, 8 * mm
 """Largest diameters of screws in made parts and in bought ones [m]; assumed by this project."""
 
+_SEAM = 3 * mm
+"""Between a head and stock that is welded to the part under it, for the seam [m]; assumed by this project."""
+
 _TRIED, _BETWEEN = 8, 3.0
 """Points that are tried for a screw, and the distance of two over their diameter, at least."""
 
@@ -73,7 +80,7 @@ class _Screwed:
     """The screws of a contact: `head` is under their heads, `thread` has their threads.
 
     points  in the face under the heads [m]      clamped, engaged  lengths of a screw before and in the thread [m]
-    deep, below  of the parts there [m]          sink  diameter of the counterbore [m]
+    deep, below  of the parts there          sink  diameter of the counterbore [m]
     """
 
     head: FaceSide
@@ -82,7 +89,7 @@ class _Screwed:
     points: tuple[complex, ...]
     clamped: float
     engaged: float
-    deep: float
+    deep: Depth
     sink: float
     below: Depth
 
@@ -91,16 +98,19 @@ class _Screwed:
         """Length of a screw [m]."""
         return self.clamped + self.engaged
 
-    def holes(self, point: complex) -> tuple[tuple[FaceSide, Drilling], tuple[FaceSide, Drilling]]:
-        """The holes of a screw in both parts, in their axes."""
-        row, head, thread = self.screw, self.head, self.thread
-        mouth = head.face.position.after(placement(point.real, point.imag, -self.deep))
-        steps = (self.sink, self.deep - self.clamped), (row.hole, self.clamped)
+    def holes(self, point: complex) -> Iterator[tuple[FaceSide, Drilling]]:
+        """The holes of a screw in both parts, in their axes; to a head in a hollow the key comes through its wall."""
+        row, head, thread, deep = self.screw, self.head, self.thread, self.deep.length
+        mouth = head.face.position.after(placement(point.real, point.imag, -deep))
+        sunk = ((self.sink, deep - self.clamped),) if deep > self.clamped + um else ()
+        yield head, Drilling(mouth, (*sunk, (row.hole, self.clamped)), through=True)
+        if self.deep.wall:
+            outside = mouth.after(placement(z=-self.deep.free - self.deep.wall))
+            yield head, Drilling(outside, ((self.sink, self.deep.wall),), through=True)
         there = thread.piece.lies.inverse.after(head.frame).after(placement(point.real, point.imag))
         long = self.engaged + _TIP * row.diameter
         through = self.below.flat and self.below.length - long < _FLOOR
-        tapped = Drilling(there, ((row.diameter, self.below.length if through else long),), through=through)
-        return (head, Drilling(mouth, steps, through=True)), (thread, tapped)
+        yield thread, Drilling(there, ((row.diameter, self.below.length if through else long),), through=through)
 
 
 _Key = tuple[str, str, str, float]
@@ -192,7 +202,11 @@ def _options(
     if head.face.turned or head.part.process == WELDED:
         return
     made: _Screwed | None = None
-    for screw, points, fixed in _offered(head, thread):
+    around = [own for own in group if own is not head.piece and welded_together(own.part, head.part)]
+    for screw, offered, fixed in _offered(head, thread):
+        points = offered[~_closed(head, offered, _sink(head.part, screw) / 2 + _SEAM, around)]
+        if fixed and len(points) < len(offered):
+            continue
         tried = _of_size((head, thread), screw, points, worked, fixed=fixed)
         if tried is not None and (made is None or len(tried.points) > 1):
             made = tried
@@ -210,13 +224,34 @@ def _options(
 
 def _covers(piece: StandingPiece, points: Float[np.ndarray, "n 3"]) -> bool:
     """Whether the box of a piece holds any of some points."""
-    near = ((piece.box[0] < points) & (points < piece.box[1])).all(1)
+    near = _boxed(piece, points)
     if not near.any() or not isinstance(piece.part.shape, Prism):
         return bool(near.any())
     own = piece.lies.inverse.points(points[near])
     section = seat_faces(piece.part.shape)[1]
     within = (own[:, 2] > 0) & (own[:, 2] < piece.part.shape.length)
     return bool((within & (section.room(own[:, 0] + 1j * own[:, 1], mm) > 0)).any())
+
+
+def _closed(head: FaceSide, points: ComplexArray, radius: float, around: Sequence[StandingPiece]) -> BoolArray:
+    """Whether stock that is welded to the part under the heads closes round heads of a radius at points [m]."""
+    closed = np.zeros(len(points), bool)
+    if not around or not len(points):
+        return closed
+    deep = head.depth(complex(points[0]), 0.0).length + mm
+    mouths = head.frame.points(np.stack([points.real, points.imag, np.full(len(points), -deep)], axis=1))
+    for piece in around:
+        if isinstance(piece.part.shape, Prism) and _boxed(piece, mouths, radius).any():
+            own, section = piece.lies.inverse.points(mouths), seat_faces(piece.part.shape)[1]
+            outline = replace(section, loops=section.loops[:1])
+            within = (own[:, 2] > 0) & (own[:, 2] < piece.part.shape.length)
+            closed |= within & (outline.room(own[:, 0] + 1j * own[:, 1], 2 * radius) > -radius)
+    return closed
+
+
+def _boxed(piece: StandingPiece, points: Float[np.ndarray, "n 3"], apart: float = 0.0) -> BoolArray:
+    """Which points are in the box of a piece, or so far about it [m]."""
+    return np.asarray(((piece.box[0] - apart < points) & (points < piece.box[1] + apart)).all(1))
 
 
 def _offered(head: FaceSide, thread: FaceSide) -> Iterator[tuple[MachineScrew, ComplexArray, bool]]:
@@ -294,27 +329,31 @@ def _at_point(
     if thread.part.purchase is not None:
         most = min(most, 2 * screw.diameter)
     if made is not None:
-        alike = abs(made.deep - deep.length) < um and most >= made.engaged - um
-        return replace(made, below=below, points=()) if alike else None
-    lengths = _lengths(screw, deep.length, least, most, made_part=head.part.purchase is None)
-    return None if lengths is None else _Screwed(head, thread, screw, (), *lengths, deep.length, sink, below)
+        alike = abs(made.deep.length - deep.length) < um and most >= made.engaged - um
+        return replace(made, deep=deep, below=below, points=()) if alike else None
+    made_part = head.part.purchase is None
+    lengths = _lengths(screw, deep, least, most, made_part=made_part)
+    if lengths is None or (made_part and deep.length - lengths[0] > _DEEPEST * sink):
+        return None
+    return _Screwed(head, thread, screw, (), *lengths, deep, sink, below)
 
 
 def _lengths(
-    screw: MachineScrew, deep: float, least: float, most: float, *, made_part: bool
+    screw: MachineScrew, deep: Depth, least: float, most: float, *, made_part: bool
 ) -> tuple[float, float] | None:
     """Lengths of a screw before the thread and in it [m]: of those that are sold with enough thread the one whose head
-    is sunk least in a made part; in the flange of a bought one, the shortest.
+    is sunk least in a made part, in a hollow not at all; in the flange of a bought one, the shortest.
 
     deep  of the part under the head      least, most  of the thread
     """
     if most < least - um:
         return None
+    sunk = deep.length if deep.wall else deep.length - screw.head
     if made_part:
-        longest = min(deep - screw.head, _LONGEST * screw.diameter)
+        longest = min(sunk, _LONGEST * screw.diameter)
         shortest = min(0.5 * screw.diameter, longest)
     else:
-        longest, shortest = (min(share * screw.diameter, deep - screw.head) for share in _CLAMPED)
+        longest, shortest = (min(share * screw.diameter, sunk) for share in _CLAMPED)
     if shortest <= 0:
         return None
     engaged = {length: min(max(length - longest, least), most) for length in SOCKET_LENGTHS}

@@ -143,13 +143,14 @@ def _of_prism(shape: Prism, position: Placement, member: int) -> Iterator[SeatFa
 
 @record
 class Depth:
-    """Of a hole from a point of a face: its length in the material [m], whether it ends at a plane face, and how far it
-    is in the open behind that [m].
+    """Of a hole from a point of a face: its length in the material [m], whether it ends at a plane face, how far it is
+    in the open behind that, and the thickness of the wall that ends this hollow; 0: none [m].
     """
 
     length: float
     flat: bool
     free: float
+    wall: float = 0.0
 
 
 def depth_below(shape: Shape, face: SeatFace, point: complex, radius: float) -> Depth:
@@ -175,7 +176,8 @@ def depth_below(shape: Shape, face: SeatFace, point: complex, radius: float) -> 
     free = min((float(line[1, 0] - line[0, 0]) if len(line) > 1 else math.inf) for line in lines)
     if any(line[0, 1] for line in lines) and prism.length > _REACH * free:
         free = 0.0
-    return Depth(min(first), max(first) - min(first) < _ROUNDING, free)
+    wall = max((float(line[2, 0] - line[1, 0]) if len(line) > 2 else 0.0) for line in lines)
+    return Depth(min(first), max(first) - min(first) < _ROUNDING, free, wall)
 
 
 def prism_of(shape: Shape, member: int) -> tuple[Prism, Placement]:

@@ -31,9 +31,13 @@ def anchored(
     section = Profile(rectangle(wide, deep), tuple(circle(hole, HOLE / 2) for hole in middles))
     plate = Part(part_id(name), title, LASER_CUT, "", Prism(section, thick), STEEL)
     yield Occurrence(plate, places)
+    feet = tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
+    yield anchors(name, title, thick, feet)
+
+
+def anchors(name: str, title: str, thick: float, positions: tuple[Placement, ...]) -> Occurrence:
+    """Anchors in holes of what is so thick on the floor [m]; their z upwards from it."""
     shape = stepped((ANCHOR, thick), _WASHER, _NUT, (ANCHOR, _OUT))
     row = Bought(f"wedge anchor M{ANCHOR / mm:.0f} x 75 EN 1992-4", 0.04)
     anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, "", shape, purchase=row, envelope=True)
-    yield Occurrence(
-        anchor, tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
-    )
+    return Occurrence(anchor, positions)

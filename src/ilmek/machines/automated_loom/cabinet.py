@@ -13,11 +13,12 @@ from ilmek.elements.cabinet_devices import fuse_of, supply_for
 from ilmek.elements.columns import STEEL
 from ilmek.elements.field_devices import TERMINAL
 from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
+from ilmek.machines.automated_loom.anchors import HOLE, anchors
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import Placement, placement
+from ilmek.part.placement import UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle
+from ilmek.part.shapes import Drilling, Placed, Prism, Sum, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.records import record
 from ilmek.units import mm
@@ -30,6 +31,9 @@ WALL, PLATE = 2 * mm, 3 * mm
 
 RAIL_ENDS, FOOT_ROOM, RAIL_PITCH = 20 * mm, 60 * mm, 190 * mm
 """From the wall to the plate's edge and a rail's end; below the lowest row, for the bar; of two rails [m]; assumed."""
+
+_ANCHORED = 60 * mm
+"""Of the cabinet's anchors from its sides [m]; assumed by this project."""
 
 _MODULE, _MODULE_PITCH = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm)
 """Width, height and depth of an amplifier [m], and the distances of neighbours; assumed by this project."""
@@ -116,13 +120,15 @@ _LEFT = 50 * mm
 
 
 def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) -> Iterator[Occurrence]:
-    """The cabinet on the floor behind a rear foot, bolted to it, its mounting plate, and the amplifiers on that.
+    """The cabinet on the floor behind a rear foot, anchored there, its mounting plate, and the amplifiers on that.
 
     right, rear  outer side of the column, and end of its rear foot [m]      needs  of the control
     """
     size = cabinet_for(needs)
     x, y = right - size.wide / 2, floor + size.high / 2
-    yield Occurrence(_cabinet(size), (placement(x, y, rear - _DEEP),))
+    stands, feet = placement(x, y, rear - _DEEP), _feet(size)
+    yield Occurrence(_cabinet(size, feet), (stands,))
+    yield anchors("control", "cabinet", WALL, tuple(stands.after(foot) for foot in feet))
     yield Occurrence(_plate(size), (placement(x, y, rear - WALL - PLATE),))
     if needs.axes:
         module = bought_part(
@@ -145,9 +151,19 @@ def _amplifiers(size: CabinetSize, x: float, top: float, wall: float) -> Iterato
         yield placement(x + beside, top - (row + 0.5) * upwards, wall - _MODULE[2])
 
 
-def _cabinet(size: CabinetSize) -> Part:
+def _feet(size: CabinetSize) -> tuple[Placement, ...]:
+    """The anchors in the cabinet's axes."""
+    return tuple(
+        placement(x, -size.high / 2, z).after(UPRIGHT)
+        for x in (_ANCHORED - size.wide / 2, size.wide / 2 - _ANCHORED)
+        for z in (_ANCHORED, _DEEP - _ANCHORED)
+    )
+
+
+def _cabinet(size: CabinetSize, feet: tuple[Placement, ...]) -> Part:
     inside = rectangle(size.wide - 2 * WALL, size.high - 2 * WALL)
-    sides = Prism(Profile(rectangle(size.wide, size.high), (inside,)), _DEEP)
+    holes = tuple(Drilling(foot, ((HOLE, WALL),), through=True) for foot in feet)
+    sides = Prism(Profile(rectangle(size.wide, size.high), (inside,)), _DEEP, holes)
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=_DEEP - WALL),))))
     named = "cabinet " + " x ".join(f"{own / mm:.0f}" for own in (size.wide, size.high, _DEEP)) + " mm, sheet steel"
     return bought_part(CONTROL, "control", "control", shape, Bought(named, shape.volume * STEEL.density))

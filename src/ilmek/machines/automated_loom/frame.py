@@ -64,9 +64,14 @@ END_PLATE = 10 * mm
 """Thickness of the plate that is welded before the end of a hollow section and has the threads there [m]; assumed."""
 
 
-def end_plate(name: str, title: str, section: HollowSquare) -> Part:
-    """The plate before the end of a section, as large as that, from z = 0."""
-    return Part(part_id(name), title, LASER_CUT, shape=box(section.side, section.side, END_PLATE), material=STEEL)
+EAR = 20 * mm
+"""Of an end plate beyond its section on both sides, where screws are reached beside it [m]; assumed by this project."""
+
+
+def end_plate(name: str, title: str, section: HollowSquare, ear: float = 0.0) -> Part:
+    """The plate before the end of a section, as large as that, along x with ears [m], from z = 0."""
+    shape = box(section.side + 2 * ear, section.side, END_PLATE)
+    return Part(part_id(name), title, LASER_CUT, shape=shape, material=STEEL)
 
 
 _COLUMN = (part_id("column"),)

@@ -16,6 +16,8 @@ import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
+import numpy as np
+
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
 from ilmek.elements.materials import GRAVITY
 from ilmek.machines.arrangement.side_view import RETREAT
@@ -23,6 +25,7 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import (
+    EAR,
     END_PLATE,
     RAIL_POST,
     LoomFrame,
@@ -235,8 +238,10 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
             at = placement(0.0, own.axis.imag, own.axis.real).after(ALONG_WIDTH)
             arm = member(own.arm_name, "arm of the rail's axes", own.arm, long)
             yield Occurrence(arm, tuple(placement(x).after(at) for x in (first + END_PLATE, -first - own.reach)))
-            plate = end_plate("rail-arm-plate", "plate of an arm for its axis", own.arm)
-            yield Occurrence(plate, tuple(placement(x).after(at) for x in (first, -first - END_PLATE)))
+            plate = end_plate("rail-arm-plate", "plate of an arm for its axis", own.arm, EAR)
+            along = at.rotation.T @ np.array([0.0, RETREAT.imag, RETREAT.real])
+            turned = at.after(placement(about=(0.0, 0.0, 1.0), angle=math.atan2(along[1], along[0])))
+            yield Occurrence(plate, tuple(placement(x).after(turned) for x in (first, -first - END_PLATE)))
 
 
 def rail_brackets(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:

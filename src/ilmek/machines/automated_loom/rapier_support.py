@@ -16,7 +16,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.anchors import anchored
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
+from ilmek.machines.automated_loom.frame import EAR, END_PLATE, end_plate, member, part_id
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.weft.carriers import AXIS
@@ -166,8 +166,8 @@ def rapier_supports(support: RapierSupport) -> Iterator[Occurrence]:
     low, x = middle.imag + rapier.low - support.height, rapier.run[0] + POST_INSET
     foot = placement(x, low, middle.real).after(UPRIGHT)
     yield Occurrence(post, (foot,))
-    plate = end_plate("weft-post-plate", "plate of the post for the rapier's axis", support.section)
-    yield Occurrence(plate, (foot.after(placement(z=long)),))
+    plate = end_plate("weft-post-plate", "plate of the post for the rapier's axis", support.section, EAR)
+    yield Occurrence(plate, (foot.after(placement(z=long, about=(0.0, 0.0, 1.0), angle=math.pi / 2)),))
     title, on_floor, half = "plate under the post of the rapier's axis", foot.after(placement(z=-SOLE[1])), SOLE[0] / 3
     holes = [complex(across, along) for across in (-half, half) for along in (-half, half)]
     yield from anchored("weft-sole", title, (SOLE[0], SOLE[0], SOLE[1]), holes, (on_floor,))

@@ -8,7 +8,8 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.tubes import Tube
 from ilmek.machines.tension_compensator.members import Loads, Members, bar_checks, bar_tubes, members_for, pick
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
-from ilmek.machines.tension_compensator.parts import BarSupports, CompensatorParts, parts_of, sprung_bar
+from ilmek.machines.tension_compensator.parts import CompensatorParts, parts_of, sprung_bar
+from ilmek.machines.tension_compensator.supports import BarSupports
 from ilmek.machines.tension_compensator.synthesis import BarTask, SprungLever, synthesise
 from ilmek.records import computed, record, result
 from ilmek.report import Check, Choice, at_least, at_most
@@ -261,7 +262,8 @@ def _loads(params: TensionCompensatorParams, one: SprungLever) -> Loads:
         along = turned - complex(lever.anchor)
         pivot = max(pivot, abs(pull + one.springs * spring * along / abs(along)))
         line = max(line, abs(pull) * params.levers / params.cloth.width)
-    return Loads(line, torque, pivot, 2 * lever.path.half)
+    overhung = one.force * one.pitch * math.ceil(one.springs / 2) ** 2 / 2
+    return Loads(line, torque, pivot, 2 * lever.path.half, overhung)
 
 
 def equilibrium_tension(one: SprungLever, angle: FloatArray) -> FloatArray:
@@ -288,9 +290,12 @@ def torque(one: SprungLever, angle: float, about: float) -> float:
 
 
 def moving_mass(parts: CompensatorParts) -> float:
-    """Moment of inertia of a bar with its levers and a third of its springs over the square of its arm [kg]."""
+    """Moment of inertia of a bar, levers, springs' ends and a third of these over the square of its arm [kg]."""
     supports = parts.supports
     params, sprung = supports.params, supports.sprung
     body = sprung_bar(parts, "sprung", None).moments
-    springs = params.levers * sprung.springs * (sprung.spring.mass if sprung.spring else 0.0) / 3
+    strut = parts.struts
+    ends = sum(part.mass for part in (strut.eye, strut.sleeve) if part is not None)
+    wound = sprung.spring.mass if sprung.spring else 0.0
+    springs = params.levers * sprung.springs * (wound / 3 + ends)
     return float((body.second[0, 0] + body.second[1, 1] + springs * params.spring_arm**2) / params.bar_arm**2)

@@ -12,9 +12,11 @@ from typing import TypeVar
 
 from ilmek.elements.beam import uniform
 from ilmek.elements.bearing_table import DEEP_GROOVE, RollingBearing
-from ilmek.elements.bearings import ROLLING_BEARINGS, smallest_bearing
+from ilmek.elements.bearings import ROLLING_BEARINGS, life
 from ilmek.elements.columns import SECTIONS, HollowSquare
-from ilmek.elements.pin_joints import mean_pressure, pin_shear
+from ilmek.elements.fillet_welds import STRENGTH, TwoSeams, throat_for
+from ilmek.elements.materials import MATERIALS
+from ilmek.elements.pin_joints import mean_pressure, pin_bending, pin_shear
 from ilmek.elements.tubes import TUBES, Tube, find_tube
 from ilmek.machines.tension_compensator.params import STEEL, TensionCompensatorParams
 from ilmek.records import record
@@ -38,8 +40,17 @@ WIDEST_BORE = 0.6
 SADDLE = 45 * deg
 """Angle of each roller to the middle of the two that carry a bar; assumed by this project."""
 
-ROLLER_TURNS = 1e7
-"""Turns that a roller lives; assumed by this project."""
+ROLLER_TURNS, ROLLER_STATIC = 1e7, 1.25
+"""Turns that a roller lives, and least C0 / P0 of one whose ring no housing holds; assumed by this project."""
+
+TOUGH = MATERIALS["alloy heat-treatable steel"]
+"""Of the pins that springs bend."""
+
+STRIP, CORNER = 0.8, 1.25
+"""Half of a saddle's width over its roller's bore, and from its bar to its corner over the roller; assumed."""
+
+ROLLER_PLAY = 1 * mm
+"""Play of a roller beside its saddle [m]; assumed by this project."""
 
 PRESSURE = 20 * MPa
 """Allowed pressure of a pin in its bush, twice its diameter long; bronze, assumed by this project."""
@@ -61,26 +72,30 @@ class Loads:
     """Loads in the open shed: of a bar [N/m], torque of the warps on a lever [N m], force on its pivot [N].
 
     spread  distance of the two rods that bear the bar's load too [m]
+    overhung  moment of the springs on one side of a lever about its face [N m]
     """
 
     line: float
     torque: float
     pivot: float
     spread: float
+    overhung: float
 
 
 @record
 class Members:
-    """What was chosen: tube of bars and rods, height of a lever [m], its pin [m], beam, roller, height of a
-    cross-piece [m]; and the choices.
+    """What was chosen: tube of bars and rods, height of a lever [m], its pin and that of its springs [m], beam, roller,
+    height of a cross-piece [m], throat of a saddle's weld [m]; and the choices.
     """
 
     tube: Tube
     lever: float
     pin: float
+    spring_pin: float
     beam: HollowSquare
     roller: RollingBearing
     cross: float
+    throat: float
     choices: tuple[Choice, ...]
 
 
@@ -101,8 +116,48 @@ def members_for(params: TensionCompensatorParams, tube: tuple[Tube, Choice], loa
     beam, of_beam = pick("beam", sections, lambda one: one.name, lambda one: beam_checks(params, one, loads))
     given = () if params.bar_tube else (tube[1],)
     roller = roller_for(params, loads.line)
-    cross = max(math.ceil(cross_height(params, loads) / mm) * mm, 1.6 * roller.bore)
-    return Members(tube[0], lever, pin, beam, roller, cross, (*given, of_lever, of_pin, of_beam))
+    cross = max(math.ceil(cross_height(params, loads) / mm) * mm, 2 * STRIP * roller.bore)
+    springs = next((one for one in PINS if spring_pin_check(params, one, loads).ok), PINS[-1])
+    seams = saddle_seams(params, tube[0].outer_radius, roller, loads)
+    throat = throat_for(seams, params.lever_thickness, params.lever_thickness)
+    return Members(tube[0], lever, pin, springs, beam, roller, cross, throat, (*given, of_lever, of_pin, of_beam))
+
+
+def saddle_seams(params: TensionCompensatorParams, radius: float, roller: RollingBearing, loads: Loads) -> float:
+    """Greatest force on a length of the seams of a bar's saddle on its lever [N/m].
+
+    radius  of the bar [m]. The bar's force lies a thickness beside the lever, its part across the arm at the saddle's
+    corner as far as the bar; the seams are as long, and as far from each other, as the saddle is wide.
+    """
+    force, wide = loads.line * params.cloth.width / params.levers, 2 * STRIP * roller.bore
+    moment = loads.torque / params.bar_arm * (radius + CORNER * roller.outer)
+    return TwoSeams(wide, wide).force(force, moment, force * params.lever_thickness)
+
+
+def saddle_checks(
+    params: TensionCompensatorParams, radius: float, members: Members, loads: Loads
+) -> tuple[Check, Check]:
+    """The seams of a saddle, and the pin of its roller, that stands out of it; radius  of the bar [m]."""
+    roller, seams = members.roller, saddle_seams(params, radius, members.roller, loads)
+    bent = _roller_force(params, loads.line) * (ROLLER_PLAY + roller.width / 2)
+    source = "fillet welds of S235 [EN 1993-1-8, 4.5.3.3]"
+    return (
+        at_most("stress of the weld of a saddle", seams / members.throat, STRENGTH, "MPa", source).with_cure(
+            CURE, part_id("saddle")
+        ),
+        at_most("bending of the pin of a roller", 32 * bent / (math.pi * roller.bore**3), *_limit(params)).with_cure(
+            CURE, part_id("roller-pin"), part_id("roller")
+        ),
+    )
+
+
+def spring_pin_check(params: TensionCompensatorParams, pin: float, loads: Loads) -> Check:
+    """Bending of the pin that carries springs on both sides of a lever, or of their lug, at its face."""
+    stress = 32 * loads.overhung / (math.pi * pin**3)
+    source = f"yield of {TOUGH.designation} over the parameter safety"
+    return at_most("bending of a pin of the springs", stress, TOUGH.strength / params.safety, "MPa", source).with_cure(
+        "set a smaller width, or more levers: a shorter support_span", part_id("spring-pin")
+    )
 
 
 def cross_height(params: TensionCompensatorParams, loads: Loads) -> float:
@@ -126,13 +181,19 @@ def _cross_moment(params: TensionCompensatorParams, loads: Loads) -> float:
 
 
 def roller_for(params: TensionCompensatorParams, line: float) -> RollingBearing:
-    """The lightest ball bearing that lives as the roller of bars and rods, else that of the largest load.
+    """The smallest ball bearing that lives as the roller of bars and rods, else that of the largest load.
 
     line  load of a bar [N/m]; two rollers carry it at a lever
     """
-    force = line * params.cloth.width / params.levers / (2 * math.cos(SADDLE))
-    balls = [row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE]
-    return smallest_bearing(force, ROLLER_TURNS) or max(balls, key=lambda row: row.static)
+    force = _roller_force(params, line)
+    balls = sorted((row for row in ROLLING_BEARINGS.values() if row.kind == DEEP_GROOVE), key=lambda row: row.outer)
+    lasting = (row for row in balls if row.static >= ROLLER_STATIC * force)
+    living = (row for row in lasting if life(row.dynamic, force, row.kind) >= ROLLER_TURNS)
+    return next(living, max(balls, key=lambda row: row.static))
+
+
+def _roller_force(params: TensionCompensatorParams, line: float) -> float:
+    return line * params.cloth.width / params.levers / (2 * math.cos(SADDLE))
 
 
 def pick(
@@ -174,13 +235,15 @@ def lever_checks(params: TensionCompensatorParams, height: float, pin: float, lo
 
 
 def pin_checks(params: TensionCompensatorParams, pin: float, loads: Loads) -> tuple[Check, ...]:
-    """Shear of a pin of a diameter [m] in two sections, and its pressure in the bush."""
+    """Shear of a pin of a diameter [m] in two sections, its bending between the lugs, and its pressure in the bush."""
     shear, pressure = pin_shear(loads.pivot, pin), mean_pressure(loads.pivot, pin, 2 * pin)
+    bent = pin_bending(loads.pivot, pin, 2 * pin, params.lever_thickness)
     cure, source = "set a longer spring_arm", "bronze, assumed by this project"
     return (
         at_most("shear of a pivot pin", shear, SHEAR * params.strength / params.safety, "MPa", "yield").with_cure(
             cure, part_id("pin")
         ),
+        at_most("bending of a pivot pin", bent, *_limit(params)).with_cure(cure, part_id("pin")),
         at_most("pressure of a pivot pin", pressure, PRESSURE, "MPa", source).with_cure(cure, part_id("pin")),
     )
 

@@ -10,8 +10,11 @@ from ilmek.machines.tension_compensator.members import (
     lever_checks,
     part_id,
     pin_checks,
+    saddle_checks,
+    spring_pin_check,
 )
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
+from ilmek.machines.tension_compensator.struts import strut_checks
 from ilmek.machines.tension_compensator.synthesis import SEATS, SPRINGS, SprungLever, shared, spring_room, wires
 from ilmek.report import Alternative, Check, Choice, Table, at_least, at_most, choose, columns, must
 from ilmek.units import deg, turn
@@ -37,6 +40,9 @@ def checks(found: CompensatorAnalysis) -> tuple[Check, ...]:
         *bar_checks(params, members.tube, loads.line),
         *lever_checks(params, members.lever, members.pin, loads),
         *pin_checks(params, members.pin, loads),
+        *saddle_checks(params, design.radius, members, loads),
+        spring_pin_check(params, members.spring_pin, loads),
+        *strut_checks(design.parts.supports),
         *beam_checks(params, members.beam, loads),
         cross_check(params, members.cross, loads),
     )

@@ -10,6 +10,7 @@ from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.members import part_id
 from ilmek.machines.tension_compensator.params import STEEL
 from ilmek.machines.tension_compensator.parts import CUT, sprung_bar, standing
+from ilmek.machines.tension_compensator.struts import strut_bodies
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -35,7 +36,9 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
     bodies: list[RigidBody] = []
     for parity in (EVEN, ODD)[: design.bars]:
         stand = standing(parts, parity, turned[parity])
-        bodies += (stand, replace(sprung_bar(parts, parity, (motions or {}).get(parity)), parent=stand.id))
+        motion = (motions or {}).get(parity)
+        bar = replace(sprung_bar(parts, parity, motion), parent=stand.id)
+        bodies += (stand, bar, *strut_bodies(parts.supports, parts.struts, parity, (stand.id, bar.id), motion))
     return Tree(tuple(bodies))
 
 

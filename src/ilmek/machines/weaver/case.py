@@ -25,7 +25,7 @@ from ilmek.part.placement import UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, box, rectangle
 from ilmek.part.tree import Occurrence
-from ilmek.plane.contours import circle, polygon
+from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.report import Contour, Hole
 from ilmek.units import format_quantity, mm
 
@@ -42,8 +42,10 @@ FACE, CROSS_PLATE, TOP_PLATE, BRACKET = (
 EDGE, WEB = 6 * mm, 0.3 * mm
 """From a guide to the edge of the face, and between two guides, at least [m]; assumed by this project."""
 
-BRACKET_WALL = 5 * mm
-"""Wall of the bracket [m]; assumed by this project."""
+BRACKET_WALL, BRACKET_CORNER = 3 * mm, 6 * mm
+"""Wall of the bracket, which leaves room for the heads of its carriage's screws, and radius of its hollow's corners,
+milled from its open end [m]; assumed by this project.
+"""
 
 BRACKET_ENDS = (20 * mm, 6 * mm, 8 * mm)
 """Height and thickness of the bracket's flange on the side plates, thickness of its plate on the carriage [m]; assumed
@@ -69,7 +71,8 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
     wide = case_width(weaver.params)
     wall = min(BRACKET_WALL, wide / 4)
-    inner = rectangle(wide - 2 * wall, RAIL_AXIS - 2 * wall)
+    rounded = wall + BRACKET_CORNER
+    inner = rounded_hull(rectangle(wide - 2 * rounded, RAIL_AXIS - 2 * rounded).points, BRACKET_CORNER)
     long, (up, flange, end) = shape.front - high.real, BRACKET_ENDS
     section = Profile(rectangle(wide, RAIL_AXIS), (inner,))
     members = (

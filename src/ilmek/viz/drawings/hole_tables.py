@@ -1,13 +1,13 @@
 """The table of a part's round holes from one datum, and views of the faces in which they have their mouths.
 
-Alike holes share a letter. What is seen from the front has its name in the front view; of each other direction stands
-a view along it.
+Holes have numbers, H1, H2 and so on, alike ones in a row: letters are of datums. What is seen from the front has its
+name in the front view; of each other direction stands a view along it.
 """
 
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from itertools import product
+from itertools import chain, product
 from string import ascii_lowercase
 
 import numpy as np
@@ -31,9 +31,6 @@ from ilmek.viz.drawings.paper import SCALES, scale_words, table
 from ilmek.viz.drawings.picture import SheetPicture, millimetres
 from ilmek.viz.drawings.projector import Projector
 from ilmek.viz.drawings.view import NO_NOTE, DrawnView
-
-_LETTERS = "ABCDEFGHJKLMNPQRSTUVW"
-"""Letters of holes; X, Y and Z are axes and details."""
 
 MOST_ROWS = 30
 """Rows of a table of holes; more stand beside it."""
@@ -69,14 +66,10 @@ def named_holes(shape: Shape, flat: FlatPart | None, fits: Fits, kinds: HoleKind
         has = () if kinds is None or len(kinds.holes[number]) == len(kinds.pieces) else kinds.holes[number]
         threaded, note = _note(hole, fits)
         words = hole_words(hole, note, threaded=threaded)
-        own = NamedHole("", hole, words, note, " ".join(ascii_lowercase[kind] for kind in has), threaded)
-        alike[not own.is_in_front, tuple(np.round(own.into, 3) + 0.0), words, own.kinds, note].append(own)
-    names = (*_LETTERS, *map("".join, product(_LETTERS, repeat=2)))
-    return tuple(
-        replace(own, tag=f"{letter}{k}" if len(group) > 1 else letter)
-        for letter, (_, group) in zip(names, sorted(alike.items(), key=lambda each: str(each[0])), strict=False)
-        for k, own in enumerate(sorted(group, key=_order), 1)
-    )
+        own = NamedHole(0, hole, words, note, " ".join(ascii_lowercase[kind] for kind in has), threaded)
+        alike[not own.is_in_front, tuple(np.round(own.into, 3) + 0.0), words, note, own.kinds].append(own)
+    groups = (sorted(group, key=_order) for _, group in sorted(alike.items(), key=lambda each: str(each[0])))
+    return tuple(replace(own, number=number) for number, own in enumerate(chain.from_iterable(groups), 1))
 
 
 def _order(own: NamedHole) -> tuple[float, ...]:

@@ -1,5 +1,6 @@
 """Round holes as a sheet names and draws them; threads by ISO 6410-1: core wide, three quarters of a thin circle."""
 
+from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
@@ -20,17 +21,22 @@ _ALONG = 1e-9
 
 @record
 class NamedHole:
-    """A hole: its name on the sheet, what it is, and which kinds of pieces have it; "": all.
+    """A hole: its number on the sheet, what it is, and which kinds of pieces have it; "": all.
 
     threaded  its last step is a thread
     """
 
-    tag: str
+    number: int
     hole: Drilling
     words: str
     note: FeatureNote = NO_NOTE
     kinds: str = ""
     threaded: bool = False
+
+    @property
+    def tag(self) -> str:
+        """Its name on the sheet."""
+        return f"H{self.number}"
 
     @property
     def into(self) -> Direction:
@@ -91,12 +97,16 @@ def thread_words(size: float, words: str, deep: float = 0.0) -> str:
 
 def mark_holes(view: DrawnView, named: Sequence[NamedHole], origin: complex = 0j) -> None:
     """Names beside holes that are seen in a view along z about an origin [m], what they must hold at the last alike."""
+    alike = defaultdict[tuple[str, FeatureNote], list[NamedHole]](list)
     for own in named:
         at = own.centre - origin
         view.tag(own.tag, at * view.scale, own.radius * view.scale)
-    for own in {(hole.words, hole.note): hole for hole in named if not hole.note.is_bare}.values():
-        at = (own.centre - origin) * view.scale
-        view.leader(own.tag, at, own.radius * view.scale, kind=None, note=own.note)
+        alike[own.words, own.note].append(own)
+    for (_, note), (first, *others) in alike.items():
+        if not note.is_bare:
+            last = others[-1] if others else first
+            words = f"{first.tag}–{last.tag}" if others else first.tag
+            view.leader(words, (last.centre - origin) * view.scale, last.radius * view.scale, kind=None, note=note)
 
 
 def draw_hole(view: DrawnView, at: complex, diameters: Sequence[float], *, threaded: bool = False) -> None:

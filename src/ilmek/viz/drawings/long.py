@@ -252,38 +252,35 @@ def _diameters(  # noqa: PLR0917
     radii = distinct([start.imag for start, _ in stretches])
     if len(radii) > MOST_DIAMETERS:
         radii = [radii[0], radii[-1]]
-    for radius in radii:
+    labels: dict[tuple[float, bool, str, FeatureNote], list[Span]] = {}
+    for start, end in stretches:
+        radius = next((size for size in radii if abs(start.imag - size) < 2 * SAME), None)
+        if radius is None:
+            continue
+        inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
         square = any(abs(radius - side) < SAME for side in squares)
-        alike: dict[tuple[bool, FeatureNote], list[Span]] = {}
-        for start, end in (own for own in stretches if abs(own[0].imag - radius) < 2 * SAME):
-            inner = start.real < end.real  # the profile runs counter-clockwise: bores to the right
-            kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
-            own = (min(start.real, end.real), max(start.real, end.real))
-            threads = fits.along(2 * radius, FeatureKind.THREAD if inner else FeatureKind.OUTER_THREAD)
-            there = {
-                note: [span for span in spans if own[0] - SAME < sum(span) / 2 < own[1] + SAME]
-                for note, spans in (threads or fits.along(2 * radius, kind)).items()
-            }
-            for note, spans in there.items() if any(there.values()) else [(NO_NOTE, [own])]:
-                if spans:
-                    alike.setdefault((inner, note), []).extend(spans)
-        for (_, note), spans in alike.items():
-            if square:
-                _flats(view, cut, radius, spans[0])
-            if len(radii) == len(alike) == 1 and features.fully and note.is_bare:
-                foot = float(cut.drawn(bounds(contour)[0].real))
-                ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
-                view.rows([MeasuredLength(*ends, 2 * radius, "⌀", note.words)], across=True)
-            else:
-                _diameter(
-                    view,
-                    cut,
-                    radius,
-                    spans,
-                    note,
-                    "□" if square else "M" if threads else "⌀",
-                    None if radius == radii[-1] else bounds(contour)[0].real,
-                )
+        kind = FeatureKind.SQUARE if square else FeatureKind.BORE if inner else FeatureKind.JOURNAL
+        own = (min(start.real, end.real), max(start.real, end.real))
+        threads = fits.along(2 * radius, FeatureKind.THREAD if inner else FeatureKind.OUTER_THREAD)
+        there = {
+            note: [span for span in spans if own[0] - SAME < sum(span) / 2 < own[1] + SAME]
+            for note, spans in (threads or fits.along(2 * radius, kind)).items()
+        }
+        sign = "□" if square else "M" if threads and any(there.values()) else "⌀"
+        for note, spans in there.items() if any(there.values()) else [(NO_NOTE, [own])]:
+            if spans:
+                labels.setdefault((radius, inner, sign, note), []).extend(spans)
+    for (radius, _, sign, _), spans in labels.items():
+        if sign == "□":  # before any label, which keeps off lines
+            _flats(view, cut, radius, spans[0])
+    for (radius, _, sign, note), spans in sorted(labels.items(), key=lambda own: own[0][0]):
+        if len(labels) == 1 and features.fully and note.is_bare:
+            foot = float(cut.drawn(bounds(contour)[0].real))
+            ends = complex(foot, -radius) * view.scale, complex(foot, radius) * view.scale
+            view.rows([MeasuredLength(*ends, 2 * radius, "⌀", note.words)], across=True)
+        else:
+            low = None if radius == radii[-1] else bounds(contour)[0].real
+            _diameter(view, cut, radius, spans, note, sign, low)
 
 
 def _flats(view: DrawnView, cut: Shortening, half: float, span: Span) -> None:
