@@ -55,6 +55,7 @@ from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
 from ilmek.part.part_lists import SAW, bars_for, distinct_titles
 from ilmek.part.placement import placement
+from ilmek.part.plates import of_tree
 from ilmek.part.poses import chains, moments_at_rest
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box
@@ -732,6 +733,15 @@ def test_safety_functions_reach_what_their_hazards_require() -> None:
     assert stop.ok
     assert door.limit == 1e-6  # PL d
     assert {door.name, stop.name} <= {check.name for check in papers().checks}
+
+
+def test_contours_and_solids_are_listed_with_all_pieces_of_the_loom() -> None:
+    """As many as the list of parts has: a plate of a head as often as all heads need it."""
+    report, tree, rows = default_report("automated-loom"), papers().tree, {row["id"]: row for row in listed("parts")}
+    made = [of_tree(own, tree) for own in (*report.all_plates, *report.all_pieces)]
+    numbers = {own.part.id: own.number for own in made if isinstance(own.part, Part) and own.part.id in rows}
+    assert len(numbers) > 100
+    assert numbers == {name: int(rows[name]["quantity"]) for name in numbers}
 
 
 def test_doors_are_as_far_as_a_body_comes_until_what_moves_stands() -> None:

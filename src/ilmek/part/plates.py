@@ -49,12 +49,12 @@ def of_tree(made: View, tree: object) -> View:
     """A plate or piece of a part as that is in a tree: its pieces there, its holes for what it meets there."""
     if not isinstance(made.part, Part) or not isinstance(tree, Tree):
         return made
-    part, number = _parts(tree).get(made.part.id, (made.part, made.number))
-    made = replace(made, number=number)
-    if part is made.part or made.part.drawing is not None:
-        return made
-    own = _plate(part, made.number, tree) if isinstance(made, Plate) else _piece(part, made.number, tree)
-    return replace(made, **{name: getattr(own, name) for name in _HOLED[type(made)]})
+    bare = made.part
+    part, number = _parts(tree).get(bare.id, (bare, made.number))
+    if part is bare or bare.drawing is not None:
+        return replace(made, number=number)
+    own = _plate(part, number, tree) if isinstance(made, Plate) else _piece(part, number, tree)
+    return replace(made, number=number, **{name: getattr(own, name) for name in _HOLED[type(made)]})
 
 
 _HOLED: dict[type, tuple[str, ...]] = {
