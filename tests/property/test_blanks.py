@@ -10,7 +10,7 @@ from default_machines import default_design
 from ilmek.elements.columns import SECTIONS
 from ilmek.elements.fits import tolerance_grade
 from ilmek.elements.making import DRAWN, FINEST, GRINDING, MILLING, TURNING
-from ilmek.elements.stock_sizes import PLATES, ROUNDS, SQUARES
+from ilmek.elements.stock_sizes import CAPILLARIES, PLATES, ROUNDS, SQUARES
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
@@ -85,7 +85,7 @@ def sold(blank: Blank, part: Part) -> bool:
     if blank.form in {PLATE, BAR}:
         return among(section[0], PLATES)
     if blank.form == TUBE:
-        stock = [(tube.outer, tube.wall) for tube in TUBES.values()]
+        stock = [*((tube.outer, tube.wall) for tube in TUBES.values()), *CAPILLARIES]
         return section[0] > ROUNDS[-1] or any(np.allclose(section, one, atol=NEAR) for one in stock)
     assert blank.form == HOLLOW
     listed = (*SECTIONS, (100 * mm, 6 * mm))

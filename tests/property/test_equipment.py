@@ -208,7 +208,7 @@ def test_boxes_of_copies_contain_their_own_points(origins, turned: bool, carried
     swing, still = 0.4 * np.sin(angle), np.zeros(13)
     slide = SceneMotion(ROW, angle, np.stack([0.3 * np.sin(angle), still, still], 1), swing if carried else still)
     positions = tuple(placement(*at, about=(0.0, 0.0, 1.0), angle=0.5 * k * turned) for k, at in enumerate(origins))
-    bar = Part("bar", "bar", "welded frame", "", box(0.1, 0.2, 0.5), MATERIALS["structural steel"])
+    bar = Part("bar", "bar", "welded frame", box(0.1, 0.2, 0.5), MATERIALS["structural steel"])
     own = (Occurrence(bar, (placement(0.1, 0.0, 0.2),)),)
     tilted = (placement(about=(1.0, 0.0, 0.0), angle=0.3),)
     tree = Tree(

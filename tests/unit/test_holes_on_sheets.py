@@ -19,7 +19,8 @@ from ilmek.io.step import part_solid
 from ilmek.part.blanks import MILLED, blanks_of, size_of, sold_as
 from ilmek.part.bolt_holes import _with_threads
 from ilmek.part.bolting import bolted
-from ilmek.part.features import drillings
+from ilmek.part.features import drillings, features_of_size
+from ilmek.part.guided_widths import guided_widths
 from ilmek.part.hole_kinds import hole_kinds
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -48,7 +49,7 @@ def rows_of(file: Path) -> tuple[list[tuple[str, ...]], list[str]]:
     for words in lines.values():
         for start, word in enumerate(words):
             if (
-                re.fullmatch(r"[A-W]{1,2}\d*", word)
+                re.fullmatch(r"H\d+", word)
                 and len(words) > start + 5
                 and words[start + 4][1:] in ("X", "Y", "Z")
             ):
@@ -91,6 +92,26 @@ def test_every_drilled_hole_has_its_row_and_its_name_in_a_view(tmp_path: Path) -
     assert seen > 250
 
 
+def test_no_hole_is_drilled_deeper_than_a_drill_reaches() -> None:
+    """Longer bores are those of tubes; a counterbore is no deeper than six of its diameters."""
+    for _, part in parts():
+        for feature in features_of_size(part.shape):
+            drilled = feature.inside and not feature.square and part.process not in {"steel tube", "welded frame"}
+            assert not drilled or feature.length <= 20 * feature.size, (part.id, feature.size)
+        sunk = (hole.steps[0] for hole in drillings(part.shape) if len(hole.steps) > 1)
+        assert all(deep <= 6 * wide for wide, deep in sunk), part.id
+
+
+def test_slots_and_what_slides_in_them_have_one_size_and_a_fit() -> None:
+    widths = {source.id: [*guided_widths(drawn.features)] for drawn, source in parts()}
+    slots = {zone.nominal for zone in (zone for own in widths.values() for slot, zone in own if slot)}
+    followers = {name: own for name, own in widths.items() if name.endswith("-follower")}
+    assert len(followers) == 6
+    for name, own in followers.items():
+        assert [slot for slot, _ in own] == [False], name
+        assert {zone.nominal for _, zone in own} <= slots, name
+
+
 def test_the_same_part_with_a_hole_elsewhere_is_seen(tmp_path: Path) -> None:
     drawn, source = next(own for own in parts() if own[0].number == "automated-loom/guide-bar")
     write_sheet_dxf(tmp_path / "bar.dxf", drawn_sheet(drawn))
@@ -117,8 +138,8 @@ def test_threads_are_called_with_their_depth_and_core(tmp_path: Path) -> None:
 def test_a_hole_is_in_the_pieces_that_have_its_screw() -> None:
     """Two bars, and a plate on one of them alone."""
     steel = find_material("structural steel")
-    post = Part("probe/post", "post", "machined link", "", box(30 * mm, 30 * mm, 200 * mm), steel)
-    plate = Part("probe/plate", "plate", "machined link", "", box(30 * mm, 60 * mm, 8 * mm), steel)
+    post = Part("probe/post", "post", "machined link", box(30 * mm, 30 * mm, 200 * mm), steel)
+    plate = Part("probe/plate", "plate", "machined link", box(30 * mm, 60 * mm, 8 * mm), steel)
     both = Occurrence(post, (placement(), placement(x=0.5)))
     on_first = Occurrence(plate, (placement(z=200 * mm),))
     (kinds,) = hole_kinds(bolted(Tree((RigidBody("frame", (both, on_first)),)))).values()
@@ -154,7 +175,7 @@ def test_a_pin_is_cut_from_its_bar_bored_or_not(bored: bool) -> None:
     hole = Drilling(placement(), ((3 * mm, 6 * mm),))
     pin = bar(8 * mm, 50 * mm)
     shape = pin if not bored else with_bore(hole)
-    part = Part("probe/pin", "pin", "turned part", "", shape, find_material("heat-treatable steel"))
+    part = Part("probe/pin", "pin", "turned part", shape, find_material("heat-treatable steel"))
     assert size_of(part) == "round 8 mm, 52 mm"
 
 

@@ -225,9 +225,10 @@ def test_a_gripper_s_rod_vibrates_as_a_cantilever_with_a_mass_at_its_end() -> No
     """Rao, 1.5 and table of equivalent masses: f = sqrt(3 E I / (l³ (M + 0.236 m))) / 2π, M the arm."""
     weaver = design(WeaverParams())
     params, by = weaver.params, weaver.grippers
-    length, area = params.opening + by.crossing, math.pi * params.finger**2 / 4
-    mass, inertia = 7850 * area, math.pi * params.finger**4 / 64
-    expected = math.sqrt(3 * 210e9 * inertia / (length**3 * mass * (by.arm + 0.236 * length)))
+    outer, bore = params.finger, params.finger / 2
+    length, area = params.opening + by.crossing, math.pi * (outer**2 - bore**2) / 4
+    mass, inertia = 7900 * area, math.pi * (outer**4 - bore**4) / 64
+    expected = math.sqrt(3 * 200e9 * inertia / (length**3 * mass * (by.arm + 0.236 * length)))
     assert rod_frequency(params, by) == pytest.approx(expected, rel=0.01)
     thin = {check.name for check in MACHINE.report_for({"finger": "0.5mm"}).failed}
     assert "stress of a side gripper's rod" in thin

@@ -933,6 +933,14 @@ def test_a_cylinder_in_closed_bores_fails_the_check_of_the_assembly() -> None:
         assert ("warp-tension/lower cylinder" in held or "warp-tension/lower bearings" in held) is not ends
 
 
+def test_the_frame_has_its_eyes_before_anything_else_comes() -> None:
+    manual = next(paper for paper in papers().pages if paper.name == "assembly-manual")
+    tables = (section.table for section in manual.sections)
+    rows = [row for table in tables if table is not None and table.name == "steps" for row in table.rows]
+    eyes = next(number for number, row in enumerate(rows) if "DIN 580" in str(row[6]))
+    assert {str(row[1]) for row in rows[:eyes]} == {"frame", "lifting-eyes"}
+
+
 def test_pages_are_in_two_languages(tmp_path: Path) -> None:
     list(write_papers(papers(), default_report("automated-loom"), tmp_path, UNDATED))
     for paper in papers().pages:

@@ -76,6 +76,9 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     "--steps", type=click.IntRange(1, MOST_NUMBERS), default=STEPS, show_default=True, help="Steps of the range."
 )
 @text_option(
+    "--balance", "FLUCTUATION", "Find the best counterweight on the crank, and the flywheel for a fluctuation, like 2%."
+)
+@text_option(
     "--csv", "-|FILE", "Write motion and forces as CSV, SI and radians; - writes to standard output.", "csv_to"
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
@@ -97,6 +100,7 @@ def command(
     over: str,
     speed: str,
     steps: int,
+    balance: str | None,
     csv_to: str | None,
     page_to: Path | None,
     animation_to: Path | None,
@@ -124,7 +128,7 @@ def command(
     order = None if parts_to is None else WorkshopOrder(parts_to, tolerance, issue_of(issued))
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         write_parts = workshop_writer(order, call.outputs)
-        request = MotionRequest(_fixed(fixed), over, speed, steps)
+        request = MotionRequest(_fixed(fixed), over, speed, steps, balance or "")
         moved = run(read_mechanism(file, read_settings(values)), request, call.progress)
         drawn = not (page_to is None and animation_to is None)
         if order is None and space_to is None:

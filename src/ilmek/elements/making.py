@@ -42,6 +42,7 @@ RATES = (
     Rate("case-hardened steel", "per kg", 2.0, (1.2, 3.5)),
     Rate("bearing steel", "per kg", 3.0, (1.8, 5.0)),
     Rate("stainless steel", "per kg", 4.5, (3.0, 7.0)),
+    Rate("hard-drawn stainless steel", "per kg", 60.0, (30.0, 120.0)),
     Rate("grey cast iron", "per kg", 2.5, (1.5, 4.0)),
     Rate("nodular cast iron", "per kg", 3.0, (1.8, 5.0)),
     Rate("aluminium alloy", "per kg", 6.0, (4.0, 10.0)),

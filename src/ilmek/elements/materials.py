@@ -154,6 +154,12 @@ MATERIALS: dict[str, Material] = {
             modulus=200, density=7900, strength=210, tensile=520, hardness=170, fatigue=0.40,
         ),
         _material(
+            "hard-drawn stainless steel",
+            "X5CrNi18-10 EN 10217-7",
+            "EN 10088-1; strengths of capillary tube are typical, assumed by this project",
+            modulus=200, density=7900, strength=600, tensile=900, hardness=280, fatigue=0.40,
+        ),
+        _material(
             "grey cast iron",
             "EN-GJL-250 EN 1561",
             "its standard; modulus 103 to 118 GPa",

@@ -53,7 +53,7 @@ from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import Reader, Schema, SourceText, Table
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import Mechanism
+from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
 
@@ -178,7 +178,7 @@ def _machine(data: Table, source: SourceText) -> OwnMachine:
         paths_of(data.get("paths", ()), mechanism, source),
         transmission_of(data.get("transmission", ()), parts, source),
         {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
-        frozenset(name for name in mechanism.moving if not data["bodies"][name].keys() & STATED),
+        frozenset(name for name, table in data["bodies"].items() if name != GROUND and not table.keys() & STATED),
         actuators,
     )
 

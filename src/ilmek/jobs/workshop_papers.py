@@ -46,7 +46,7 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
 def _io_list(loom: LoomDesign) -> Table:
     """The list that `ilmek plc` writes, the same for each carpet of a loom, with the parts and sensors of this loom."""
     any_time = ScanLimits(0, 1)  # the list has no times
-    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS)))
+    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS), any_time))
     rows = io_rows(program, placed=numbers_of(loom), read=read_signals(loom))
     return Table("io", Sentence("paper.io"), tuple(map(Column, HEADER)), tuple(rows))
 

@@ -190,9 +190,10 @@ def with_screws(
 
 def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblyStep]:
     """The rows with the welds of a tree, each with the second of its parts."""
-    pairs = dict[tuple[str, str], str]()
+    pairs, hot = dict[tuple[str, str], str](), set[tuple[str, str]]()
     for name, weld in ((name, weld) for name, own in welds_of(tree).items() for weld in own if weld.other):
         known = pairs.setdefault((name, weld.other), weld.mark)
+        hot |= set() if weld.brazed else {(name, weld.other)}
         if weld.mark not in known.split(", "):
             pairs[name, weld.other] = f"{known}, {weld.mark}"
     welded, boxes = frozenset(chain(*pairs)), defaultdict[str, list[Box]](list)
@@ -209,7 +210,9 @@ def with_welds(steps: Iterable[AssemblyStep], tree: Tree) -> Iterator[AssemblySt
             for other in boxes[pair[pair[0] == piece.part.id]]
             if _touch(piece.box, other)
         )
-        yield replace(step, welds=tuple((*pair, pairs[pair]) for pair in joined_now))
+        words = ("manual.weld" if pair in hot else "manual.braze" for pair in joined_now)
+        seams = ((*pair, Sentence(key, size=pairs[pair])) for key, pair in zip(words, joined_now, strict=True))
+        yield replace(step, welds=tuple(seams))
 
 
 def _touch(first: Box, second: Box) -> bool:
@@ -305,7 +308,7 @@ def _row(
     parts = {} if step.built else step.parts
     fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
     fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
-    fastened += [(Sentence("manual.weld", size=size), pair) for *pair, size in step.welds]
+    fastened += [(seam, pair) for *pair, seam in step.welds]
     named = [f"{parts[part]} × {titles[part.id]}" for part in parts if part.process != FASTENER]
     tools = step_tools({**parts, **fasteners}, step.lifted, moving=not moving.isdisjoint(step.bodies))
     return (
@@ -343,14 +346,29 @@ def _tightened(part: Part, number: int) -> str:
 
 
 def _picture(seen: Sequence[PieceOutline], standing: set[str], coming: set[str], caption: str) -> Drawing:
-    """What stands, dashed, and what comes, in bold lines: the largest outlines of both."""
-    shown = sorted((own for own in seen if own.body in standing | coming), key=_extent, reverse=True)[:MOST_CURVES]
+    """What comes, in bold lines, and what stands about it, dashed: the largest outlines of both."""
+    drawn = [own for own in seen if own.body in coming] or seen  # what comes may have no shape
+    points = np.concatenate([curve for own in drawn for curve in own.curves])
+    low, high = (complex(end(points.real), end(points.imag)) for end in (np.min, np.max))
+    middle, half = (low + high) / 2, (high - low) * _ABOUT / 2
+    near = (own for own in seen if own.body in coming or (own.body in standing and _within(own, middle, half)))
+    shown = sorted(near, key=_extent, reverse=True)[:MOST_CURVES]
     strokes = [
         Stroke(curve, "outline" if own.body in coming else "construction", closed=True)
         for own in sorted(shown, key=lambda own: own.body in coming)
         for curve in own.curves
     ]
     return Drawing("assembly", caption, tuple(strokes), unit="mm")
+
+
+_ABOUT = 1.5
+"""Width and height of a picture over those of what comes."""
+
+
+def _within(outline: PieceOutline, middle: complex, half: complex) -> bool:
+    """Whether all of an outline is in a window about its middle."""
+    away = np.concatenate(outline.curves) - middle
+    return bool((np.abs(away.real) <= half.real).all() and (np.abs(away.imag) <= half.imag).all())
 
 
 def _extent(outline: PieceOutline) -> float:

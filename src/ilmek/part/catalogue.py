@@ -350,7 +350,12 @@ def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
     holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True, faces=(0,))
     bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=(holes,))
     return Part(
-        name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
+        name,
+        title,
+        "linear guide",
+        Prism(Profile(section), length),
+        purchase=bought,
+        size=format_quantity(length, "mm", 4),
     )
 
 

@@ -49,12 +49,13 @@ def of_tree(made: View, tree: object) -> View:
     """A plate or piece of a part as that is in a tree: its pieces there, its holes for what it meets there."""
     if not isinstance(made.part, Part) or not isinstance(tree, Tree):
         return made
-    bare = made.part
-    part, number = _parts(tree).get(bare.id, (bare, made.number))
-    if part is bare or bare.drawing is not None:
-        return replace(made, number=number)
-    own = _plate(part, number, tree) if isinstance(made, Plate) else _piece(part, number, tree)
-    return replace(made, number=number, **{name: getattr(own, name) for name in _HOLED[type(made)]})
+    own_part = made.part
+    part, number = _parts(tree).get(own_part.id, (own_part, made.number))
+    made = replace(made, number=number)
+    if part is own_part or own_part.drawing is not None:
+        return made
+    own = _plate(part, made.number, tree) if isinstance(made, Plate) else _piece(part, made.number, tree)
+    return replace(made, **{name: getattr(own, name) for name in _HOLED[type(made)]})
 
 
 _HOLED: dict[type, tuple[str, ...]] = {

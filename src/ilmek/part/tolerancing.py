@@ -32,7 +32,7 @@ from ilmek.elements.keyways import Keyway
 from ilmek.elements.locknuts import Locknut, locknut_of
 from ilmek.elements.making import DRAWN, FINEST, LASER
 from ilmek.errors import ParameterError
-from ilmek.part.blanks import SHEET
+from ilmek.part.blanks import SHEET, STOCK
 from ilmek.part.datums import related
 from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
@@ -181,7 +181,8 @@ def _journal(one: _Met, met: Mapping[_Key, _Met]) -> str:
     if one.duty in {FitDuty.KEYED, FitDuty.ROLLING}:
         return "h6"
     own = (other for (part, _), other in met.items() if part == one.seat.part.id)
-    return "s6" if any(other.seat.feature.inside and other.has(FitDuty.RUNNING) for other in own) else "m6"
+    bush = any(other.seat.feature.inside and other.has(FitDuty.RUNNING) for other in own)
+    return "s6" if bush and one.seat.part.process not in STOCK else "m6"
 
 
 def _bearing_shaft(other: SeatFeature, meeting: Meeting) -> str:

@@ -46,6 +46,9 @@ distance of their beginnings [m]: EN 1993-1-8, 4.5.1 and 4.3.2.2; assumed by thi
 _SHORTEST = 6.0
 """Length of a seam over its throat, at least [EN 1993-1-8, 4.5.1]."""
 
+_THIN_WALL = 3 * mm
+"""Wall below which an arc without a melting electrode welds it [m]; assumed by this project."""
+
 _AT_END = 1 * mm
 """Distance from the end of a part within which a contact is one of its end."""
 
@@ -81,15 +84,24 @@ class Weld:
         return f"{'s' if self.bevel else 'a'}{format_number(self.throat / mm)}"
 
     @property
+    def brazed(self) -> bool:
+        """Whether it is brazed: thinner than a fillet."""
+        return self.throat < THROATS[0] - um
+
+    @property
+    def process(self) -> str:
+        """Number of its process, ISO 4063: torch brazing, tungsten inert gas on thin walls, metal active gas."""
+        return "912" if self.brazed else "141" if self.walls[0] < _THIN_WALL - um else "135"
+
+    @property
     def preheat(self) -> float:
         """Temperature to which its parts are preheated [degrees Celsius]; 0: they are not."""
         return preheating(self.walls[0] if self.bevel else self.throat, *self.walls, self.carbon)
 
     @property
     def too_thick(self) -> bool:
-        """Whether a fillet burns through the thinner wall; what is thinner than a fillet is brazed."""
-        arc = not self.bevel and self.throat > THROATS[0] - um
-        return arc and self.throat > largest_throat(self.walls[0]) + um
+        """Whether a fillet burns through the thinner wall."""
+        return not (self.bevel or self.brazed) and self.throat > largest_throat(self.walls[0]) + um
 
     @property
     def middle(self) -> Float[np.ndarray, " 3"]:
@@ -182,7 +194,7 @@ def _welds(pair: tuple[Touch, Touch], parts: Mapping[str, Part]) -> Iterator[tup
     assert other.shape is not None
     thinner, thicker = sorted((wall_of(own), wall_of(other)))
     walls = thinner, thicker
-    if own.process == TUBE:  # on the flange of a spigot, round its end
+    if own.process == TUBE and own.throat:  # on the flange of a spigot, round its end
         box, along = touch.box.copy(), np.array(shape_box(own.shape))[:, 2]
         box[:, 2] = along[np.argmin(np.abs(along - box[:, 2].mean()))]
         yield own.id, Weld(other.id, own.throat, box, _ROUND, True, walls)
@@ -242,7 +254,7 @@ def _is_whole(part: Part, box: Float[np.ndarray, "2 3"]) -> bool:
 def _is_end(part: Part, middle: Float[np.ndarray, " 3"]) -> bool:
     """Whether a contact is at an end of stock."""
     if part.process != WELDED or part.shape is None:
-        return part.process == TUBE
+        return part.process == TUBE and part.throat > 0
     low, high = shape_box(part.shape)
     return bool(min(abs(middle[2] - low[2]), abs(middle[2] - high[2])) < _AT_END)
 

@@ -52,7 +52,7 @@ ELECTRIC = {
     "electric.volts": "voltage [V]",
     "electric.all-power": "power of all",
     "electric.fed-by": "fed by",
-    "electric.source": "{sign}, {row}: loaded with {load} of {rated}; its bars of + and - have {bar} mm² at least.",
+    "electric.source": "{sign}, {row}: loaded with {load} of {rated}; bars have at least {bar} mm² of copper.",
     "electric.braking": "The braking module R1 on the bars of 48 V burns what steppers give back while they brake.",
     "electric.braking-title": "Braking",
     "electric.braking-how": "What a motor gives back, with its rotor and without friction: the capacitors of its "

@@ -52,7 +52,7 @@ ELECTRIC = {
     "electric.volts": "gerilim [V]",
     "electric.all-power": "hepsinin gücü",
     "electric.fed-by": "besleyen",
-    "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklüdür; + ve - baraları en az {bar} mm².",
+    "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklü; + ve - baraları en az {bar} mm² bakır.",
     "electric.braking": "48 V baralarındaki frenleme modülü R1, adım motorlarının frenlerken geri verdiğini yakar.",
     "electric.braking-title": "Frenleme",
     "electric.braking-how": "Bir motorun rotoruyla ve sürtünmesiz geri verdiği: sürücüsünün kondansatörleri bunu "

@@ -301,6 +301,7 @@ PAPERS = {
     "manual.mass": "mass",
     "manual.tighten": "screws, keys and welds",
     "manual.weld": "weld {size}",
+    "manual.braze": "braze {size}",
     "manual.tools": "tools and agents",
     "manual.tools-title": "Tools",
     "manual.for-screws": "screws",

@@ -301,6 +301,7 @@ PAPERS = {
     "manual.mass": "kütle",
     "manual.tighten": "vida, kama ve kaynaklar",
     "manual.weld": "kaynak {size}",
+    "manual.braze": "sert lehim {size}",
     "manual.tools": "takım ve gereç",
     "manual.tools-title": "Takımlar",
     "manual.for-screws": "vidalar",

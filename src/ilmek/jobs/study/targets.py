@@ -57,7 +57,8 @@ class MachineTarget:
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """The design's results and checks. Raises any IlmekError."""
         machine, params = find_machine(self.machine).ordered({**self.settings, **values})
-        return numbers_of(machine.report(machine.designed(params), illustrated=False, drawn=False, assembled=False))
+        design = machine.designed(params)
+        return numbers_of(machine.report(design, illustrated=False, drawn=False, assembled=False, listed=False))
 
 
 @record

@@ -29,7 +29,7 @@ def anchored(
     """
     (wide, deep, thick), middles, places = size, tuple(holes), tuple(positions)
     section = Profile(rectangle(wide, deep), tuple(circle(hole, HOLE / 2) for hole in middles))
-    plate = Part(part_id(name), title, LASER_CUT, "", Prism(section, thick), STEEL)
+    plate = Part(part_id(name), title, LASER_CUT, Prism(section, thick), STEEL)
     yield Occurrence(plate, places)
     feet = tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
     yield anchors(name, title, thick, feet)
@@ -39,5 +39,5 @@ def anchors(name: str, title: str, thick: float, positions: tuple[Placement, ...
     """Anchors in holes of what is so thick on the floor [m]; their z upwards from it."""
     shape = stepped((ANCHOR, thick), _WASHER, _NUT, (ANCHOR, _OUT))
     row = Bought(f"wedge anchor M{ANCHOR / mm:.0f} x 75 EN 1992-4", 0.04)
-    anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, "", shape, purchase=row, envelope=True)
+    anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, shape, purchase=row, envelope=True)
     return Occurrence(anchor, positions)

@@ -56,7 +56,6 @@ def _caps(loom: LoomDesign) -> Iterator[Occurrence]:
                 part_id(f"{bracket.name}-cap"),
                 f"cap of the {bracket.title}",
                 LASER_CUT,
-                "",
                 shape,
                 STEEL,
                 machined=True,

@@ -21,7 +21,7 @@ from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
 from ilmek.part.shapes import box, tube
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 LEVELLING_FOOT = part_id("levelling-foot")
 """Id of the feet on the floor."""
@@ -153,8 +153,7 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
 
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
     """A bracket on both sides, and its spacers to the columns."""
-    size = f"plate {format_quantity(one.outer - one.inner, 'mm')}, {format_quantity(one.depth, 'mm')} high"
-    part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL, machined=True)
+    part = Part(part_id(one.name), one.title, "laser-cut part", one.plate, STEEL, machined=True)
     yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
     gap = made.face - one.outer
     section = welded_to(frame, one.depth)
@@ -178,7 +177,7 @@ def _carried(loom: LoomDesign, made: Brackets) -> Iterator[Occurrence]:
     inner, wide, rest = made.upper.inner, loom.task.width, loom.side.back_rest.at
     section = back_rest_tube(loom)
     shape = tube(section.outer, section.wall, wide)
-    roller = Part(part_id("back-rest"), "back rest", WELDED, f"tube {section.name} mm", shape, STEEL)
+    roller = Part(part_id("back-rest"), "back rest", WELDED, shape, STEEL)
     yield _placed(roller, (placement(-wide / 2, rest.imag, rest.real).after(ALONG_WIDTH),))
     beam = member("back-rest-beam", "beam of the back rest", made.beam, 2 * inner)
     yield _placed(beam, (placement(-inner, made.rest.imag, made.rest.real).after(ALONG_WIDTH),))

@@ -104,7 +104,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
         holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
     thickness = linkage.params.thickness
     shape = Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness)
-    return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
+    return Part(PLATE, "plate of crank and rocker", "laser-cut part", shape, STEEL, machined=True)
 
 
 def _teeth(linkage: BeatUp, shared: float) -> int:
@@ -166,7 +166,7 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> I
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage, end.shaft)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
     size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
-    shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
+    shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", shape, PIN_STEEL)
     teeth = _teeth(linkage, end.shaft)
     tips = BELT.tip_radius(teeth) + 0.05 * mm
     outer, inner = (rounded_hull(np.array([0, axis]), radius) for radius in (tips + BELT_BODY, tips))
@@ -199,16 +199,15 @@ def pivot_pin(linkage: BeatUp) -> Part:
 
 @lru_cache(maxsize=16)
 def _pivot_pin(diameter: float, thickness: float) -> Part:
-    size = round_size(diameter)
     shape = bar(diameter, layer("plate", thickness) + thickness)
-    return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", size, shape, PIN_STEEL)
+    return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", shape, PIN_STEEL)
 
 
 @lru_cache(maxsize=16)
 def _belted_pin(diameter: float, length: float) -> Part:
     """The crank's pin where a belt drives it: it reaches through the plate and the pulley."""
     title, shape = "pin of the crank, with its pulley", bar(diameter, length)
-    return Part("beat-up/crank-pin", title, "pin or bush", round_size(diameter), shape, PIN_STEEL)
+    return Part("beat-up/crank-pin", title, "pin or bush", shape, PIN_STEEL)
 
 
 def carried(linkage: BeatUp, plate: Part, station: float = 0.0, *, belted: bool = False) -> tuple[Occurrence, ...]:

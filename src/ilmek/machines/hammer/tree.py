@@ -32,7 +32,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm
+from ilmek.units import in_mm, mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
@@ -117,8 +117,7 @@ def _ballast(params: HammerParams, section: ComplexArray) -> Part:
     bars = (
         Placed(Prism(Profile(polygon(section)), high - low), (placement(z=-high),)) for low, high in _between(params)
     )
-    side = format_quantity(float(np.ptp(section.real)), "mm", 4)
-    return Part("hammer/ballast", "ballast of the comb", "steel bar", f"square {side}", Sum(tuple(bars)), STEEL)
+    return Part("hammer/ballast", "ballast of the comb", "steel bar", Sum(tuple(bars)), STEEL)
 
 
 def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:

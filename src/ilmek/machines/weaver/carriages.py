@@ -64,7 +64,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
 from ilmek.sentences import Sentence
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 ROD, COLLAR = 5 * mm, 4 * mm
 """Diameter of the carriages' rods, and length of their collars [m]; assumed by this project, as all sizes here."""
@@ -197,8 +197,7 @@ def _centre_carriage(weaver: Weaver) -> Iterator[Occurrence]:
         *(complex(right, shoulder), complex(HIGH, shoulder), complex(HIGH, top), complex(-HIGH, top)),
         *(complex(-HIGH, shoulder), complex(left, shoulder), complex(left, bottom), complex(inner, bottom)),
     ]
-    finger = weaver.params.finger
-    bore = polygon(rectangle(finger, finger).points + 1j * height)
+    bore = circle(1j * height, weaver.params.finger / 2)
     section = Profile(polygon(np.array(corners)), (bore,))
     block = _plate("centre-block", "carriage of the centre gripper", section, CENTRE_BAR)
     cheeks, pin = drawbar(weaver, CENTRE_MOTION, front)
@@ -226,7 +225,6 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
         screw_id(name),
         f"{'left' if hand < 0 else 'right'} side gripper's twisted bar",
         "machined link",
-        f"square {in_mm(SCREW)}",
         TwistedBar(SCREW, stations, (0.0, 0.0, -hand * by.turn, -hand * by.turn)),
         STEEL,
         joins=(SIDE_GRIPPER,),
@@ -246,7 +244,7 @@ def _nut(weaver: Weaver) -> Occurrence:
     ears = (
         Placed(box(wide, high, thick), (placement(x, tied + high / 4),)) for x in (-half - wide / 2, half + wide / 2)
     )
-    part = _made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears)))
+    part = replace(_made("nut", "nut of the twisted bars", Sum((Placed(plate), *ears))), process="machined link")
     return _at(part, 0j, weaver.shape.partition + PARTITION)
 
 
@@ -279,7 +277,7 @@ def _partition(weaver: Weaver) -> Occurrence:
             GuideHole(
                 complex(-by.axis - room, tied - by.lift / 2 - room), complex(by.axis + room, tied + by.lift / 2 + room)
             ),
-            _around(1j * height, weaver.params.finger / 2),
+            _around(1j * height, weaver.params.finger / 2, round_=True),
             _around(1j * (height + ABOVE_CENTRE), (SPIGOT if _has_seat(weaver) else ROD) / 2, round_=True),
         ]
     plate = GuideHole(complex(beside, low), complex(inner, top))
@@ -376,8 +374,8 @@ def _several(part: Part, places: tuple[complex, ...], depth: float) -> Occurrenc
 
 def _plate(name: str, title: str, section: Profile, thickness: float) -> Part:
     """A plate of aluminium."""
-    return Part(part_id(name), title, "machined link", in_mm(thickness), Prism(section, thickness), ALUMINIUM)
+    return Part(part_id(name), title, "machined link", Prism(section, thickness), ALUMINIUM)
 
 
 def _made(name: str, title: str, shape: Shape) -> Part:
-    return Part(part_id(name), title, "pin or bush", "", shape, STEEL)
+    return Part(part_id(name), title, "pin or bush", shape, STEEL)

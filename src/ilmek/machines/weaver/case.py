@@ -27,7 +27,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.report import Contour, Hole
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 ALUMINIUM = MATERIALS["aluminium alloy"]
 
@@ -60,13 +60,13 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
         return
     shape = weaver.shape
     low, high = shape.body, shape.body + shape.size
-    face = _made(FACE, "face of the head with the tools' guides", _face(weaver), thick)
+    face = _made(FACE, "face of the head with the tools' guides", _face(weaver))
     yield Occurrence(face, (placement(z=low.real),))
     flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
     heights = [low.imag + thick / 2, high.imag - thick / 2]
-    across = _made(CROSS_PLATE, "plate across the head", flat, thick)
+    across = _made(CROSS_PLATE, "plate across the head", flat)
     if weaver.params.with_arms and weaver.params.arms.servo_depth > 0:
-        over = _made(TOP_PLATE, "plate over the head", _bored(weaver, thick), thick)
+        over = _made(TOP_PLATE, "plate over the head", _bored(weaver, thick))
         yield Occurrence(over, (_level(heights.pop()),))
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
     wide = case_width(weaver.params)
@@ -80,7 +80,7 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
         Placed(box(wide, up, flange), (placement(y=(RAIL_AXIS + up) / 2),)),
         Placed(box(wide, RAIL_AXIS, end), (placement(z=long - end),)),
     )
-    bracket = _made(BRACKET, "bracket of the head on its carriage", Sum(members), wall)
+    bracket = _made(BRACKET, "bracket of the head on its carriage", Sum(members))
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
 
 
@@ -167,7 +167,7 @@ def _guides(by: ToolBodies) -> Iterator[GuideHole]:
         rod = complex(hand * grippers.axis, by.tied + hand * grippers.lift / 2)
         yield GuideHole(rod - finger, rod + finger, round=True)
     centre = 1j * (by.tied + grippers.height)
-    yield GuideHole(centre - finger, centre + finger)
+    yield GuideHole(centre - finger, centre + finger, round=True)
 
 
 def _of_the_knife(weaver: Weaver) -> Iterator[GuideHole]:
@@ -196,5 +196,5 @@ def apart(guides: Sequence[GuideHole]) -> tuple[GuideHole, ...]:
     return tuple(kept)
 
 
-def _made(name: str, title: str, shape: Shape, thick: float) -> Part:
-    return Part(name, title, "machined link", f"{format_quantity(thick, 'mm')} thick", shape, ALUMINIUM)
+def _made(name: str, title: str, shape: Shape) -> Part:
+    return Part(name, title, "machined link", shape, ALUMINIUM)

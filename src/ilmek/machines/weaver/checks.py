@@ -106,11 +106,12 @@ def _order_checks(weaver: Weaver) -> tuple[Check, ...]:
 def _rod_checks(weaver: Weaver) -> Iterator[Check]:
     """The side grippers' rods bear the yarn's pull, and their motion leaves little vibration."""
     by, params = weaver.grippers, weaver.params
-    source = "parameter clearance; pull of the yarn assumed by this project: parameter forces.yarn_pull"
+    pull = "pull of the yarn assumed by this project: parameter forces.yarn_pull"
+    source = f"parameter clearance; {pull}"
     yield at_most("bend of a side gripper by the yarn", rod_bend(params, by), params.clearance, "mm", source).with_cure(
         "set a thicker weaver.finger", SIDE_GRIPPER
     )
-    source = "C45 +QT, fatigue limit over 1.5; pull of the yarn assumed by this project: parameter forces.yarn_pull"
+    source = f"capillary tube, fatigue limit over 1.5; {pull}"
     yield at_most("stress of a side gripper's rod", rod_stress(params, by), ROD_STRESS, "MPa", source).with_cure(
         "set a thicker weaver.finger", SIDE_GRIPPER
     )

@@ -26,8 +26,10 @@ from ilmek.machines.weaver.motions import CENTRE_GRASP, SIDE_GRASP
 from ilmek.machines.weaver.opener import STEEL
 from ilmek.machines.weaver.outlines import hull_of_circles
 from ilmek.machines.weaver.return_springs import longest, shortest, spring_part, stroke_at
+from ilmek.machines.weaver.rods import wall_of
 from ilmek.machines.weaver.stations import station
 from ilmek.machines.weaver.tool_parts import (
+    BRAZED,
     CENTRE,
     CENTRE_GRIPPER,
     JAW,
@@ -42,12 +44,12 @@ from ilmek.machines.weaver.tool_parts import (
 from ilmek.part.part import Part
 from ilmek.part.placement import IN_SIDE_VIEW, UPRIGHT, placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, shape_box, stepped, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, shape_box, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import mm, turn
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
 """Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
@@ -62,8 +64,8 @@ PIN, PIN_HEAD, HEAD = 3 * mm, 5 * mm, 1 * mm
 APART = 0.3 * mm
 """From a spring, or a collar in the middle of its stroke, to what it must not touch [m]."""
 
-PLAY, BRAZED = 0.1 * mm, 0.1 * mm
-"""Room of a wire's peg in the gripper's slot, and throat of the peg's brazing [m]."""
+PLAY = 0.1 * mm
+"""Room of a wire's peg in the gripper's slot [m]."""
 
 HUB, FLANGE, GROOVE, WALL = 4 * mm, 7 * mm, 2.8 * mm, 0.8 * mm
 """Diameters of a collar's hub and flanges, width of its groove and thickness of its flanges [m]."""
@@ -198,13 +200,13 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     near, name = side + towards * FACE / 2, "side" if by.track == SIDE_GRASP else "centre"
     left, right = min(near, *(rod - 2 * ARM for rod in rods)), max(near, *(rod + 2 * ARM for rod in rods))
     title = f"axle of the {name} jaws' rocker"
-    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", in_mm(right - left), bar(AXLE, right - left), STEEL)
+    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", bar(AXLE, right - left), STEEL)
     yield Occurrence(axle, (placement(z=-right),))
     hole = (circle(0j, AXLE / 2),)
     eye = circle(complex(-arm), PIN / 2)
     level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), (*hole, eye)), ARM)
     title = f"roller's arm of the {name} jaws"
-    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
+    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_ROLLER_PART, (placement(-arm, 0.0, -side - (FACE - side_play(FACE)) / 2),), turning=True)
     head = placement(
@@ -215,7 +217,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
         long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
-        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", in_mm(long), shape, STEEL)
+        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", shape, STEEL)
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
 
 
@@ -223,7 +225,6 @@ _ROLLER_PART = Part(
     part_id("jaw-roller"),
     "roller of the jaws",
     "pin or bush",
-    in_mm(ROLLER),
     tube(ROLLER, (ROLLER - PIN) / 2, FACE - side_play(FACE)),
     STEEL,
 )
@@ -231,7 +232,6 @@ _PIN_PART = Part(
     part_id("jaw-roller-pin"),
     "pin of the jaws' roller",
     "turned part",
-    round_size(PIN_HEAD),
     stepped((PIN_HEAD, HEAD), (PIN, FACE + ARM)),
     STEEL,
 )
@@ -255,18 +255,18 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part, Part]:
     """The collar on a gripper, the wire that it pulls, from the gripper's tip to it, and the peg brazed to both."""
     params, side = weaver.params, track == SIDE_GRASP
     kind = "side" if side else "centre"
-    bore = circle(0j, params.finger / 2) if side else rectangle(params.finger, params.finger)
+    bore = circle(0j, params.finger / 2)
     flange, hub = (Profile(circle(0j, size / 2), (bore,)) for size in (FLANGE, HUB))
     flanges = Placed(Prism(flange, WALL), (placement(), placement(z=GROOVE + WALL)))
     ring = Sum((flanges, Placed(Prism(hub, GROOVE), (placement(z=WALL),))))
     begin = weaver.tool_bodies.tip(LEFT) if side else weaver.tool_bodies.tip(CENTRE) + JAW
     diameter, long = wire_of(params), rocker(weaver, track).axle.real + HUB / 2 - begin
-    collar = Part(part_id(f"{kind}-collar"), f"collar of the {kind} jaws", "turned part", in_mm(FLANGE), ring, STEEL)
+    collar = Part(part_id(f"{kind}-collar"), f"collar of the {kind} jaws", "turned part", ring, STEEL)
     title, shape = f"wire of the {kind} jaws", bar(diameter, long)
-    wire = Part(wire_id(track), title, "pin or bush", round_size(diameter), shape, STEEL)
+    wire = Part(wire_id(track), title, "pin or bush", shape, STEEL)
     title, shape = f"peg of the {kind} jaws' wire", bar(diameter - PLAY, (params.finger - diameter) / 2)
     joins = collar.id, wire.id
-    peg = Part(part_id(f"{kind}-peg"), title, "pin or bush", "", shape, STEEL, joins=joins, throat=BRAZED)
+    peg = Part(part_id(f"{kind}-peg"), title, "pin or bush", shape, STEEL, joins=joins, throat=BRAZED)
     return collar, peg, wire
 
 
@@ -278,37 +278,31 @@ def slotted(weaver: Weaver, gripper: Occurrence) -> Occurrence:
 
 @lru_cache(maxsize=8)
 def _slotted(weaver: Weaver, track: str, gripper: Part) -> Part:
-    """The bar, the first member, of three lengths, the second open above its bore over the collar's motion."""
+    """The tube in three lengths, the second open above its bore over the collar's motion."""
     names = (LEFT, RIGHT) if track == SIDE_GRASP else (CENTRE,)
-    middle, half, lifts = rocker(weaver, track).axle.real, wire_of(weaver.params) / 2, (0.0, weaver.cam(track).lift)
+    middle, half = rocker(weaver, track).axle.real, weaver.params.finger / 2 - wall_of(weaver.params)
     ends = [
         middle + float(drawn(weaver, track, number, lift)) - weaver.tool_bodies.tip(name)
         for number, name in enumerate(names)
-        for lift in lifts
+        for lift in (0.0, weaver.cam(track).lift)
     ]
     outer, shape = weaver.params.finger / 2, gripper.shape
     assert isinstance(shape, Sum)
-    rod, *others = shape.members
+    (rod,) = shape.members
     begin = float(rod.positions[0].origin[2])
     end = begin + float(shape_box(rod.shape)[1][2])
-    if track == SIDE_GRASP:
-        lean = math.asin(half / outer)
-        points = outer * np.exp(1j * np.array([turn / 4 + lean, turn / 2, -turn / 4, 0.0, turn / 4 - lean]))
-        rise, quarter = math.tan((turn / 4 - lean) / 4), math.tan(turn / 16)
-        bulges = [rise, quarter, quarter, rise]
-    else:
-        points = outer * np.array([1j - half / outer, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j, 1j + half / outer])
-        bulges = [0.0] * 5
+    lean = math.asin(half / outer)
+    points = outer * np.exp(1j * np.array([turn / 4 + lean, turn / 2, -turn / 4, 0.0, turn / 4 - lean]))
+    rise, quarter = math.tan((turn / 4 - lean) / 4), math.tan(turn / 16)
+    bulges = [rise, quarter, quarter, rise]
     below = half * np.array([1.0, -1j, -1.0])
     slot = Contour(np.concatenate([points, below]), np.array([*bulges, 0.0, *[-math.tan(turn / 16)] * 2, 0.0]))
     marks = [begin, min(ends) - half - PLAY, max(ends) + half + PLAY, end]
-    square = Profile(rectangle(2 * outer, 2 * outer), (circle(0j, half),))
     lengths = [high - low for low, high in pairwise(marks)]
-    round_ = track == SIDE_GRASP
-    bars = [tube(2 * outer, outer - half, long) if round_ else Prism(square, long) for long in lengths]
+    bars: list[Shape] = [tube(2 * outer, outer - half, long) for long in lengths]
     bars[1] = Prism(Profile(slot), lengths[1])
     placed = (Placed(own, (placement(z=low),)) for own, low in zip(bars, marks, strict=False))
-    return replace(gripper, shape=Sum((*placed, *others)))
+    return replace(gripper, shape=Sum(tuple(placed)))
 
 
 def opened(weaver: Weaver, track: str, lift: RealField) -> FloatArray:
@@ -345,8 +339,8 @@ def _finger(weaver: Weaver, name: str) -> RigidBody | None:
 @lru_cache(maxsize=8)
 def _finger_part(weaver: Weaver, side: bool) -> Part:
     kind, shape = "side" if side else "centre", _hinge(weaver, side).finger
-    title, size = f"finger of the {kind} jaws", in_mm(weaver.params.finger)
-    return Part(part_id(f"{kind}-finger"), title, "machined link", size, shape, STEEL)
+    title = f"finger of the {kind} jaws"
+    return Part(part_id(f"{kind}-finger"), title, "machined link", shape, STEEL)
 
 
 def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:

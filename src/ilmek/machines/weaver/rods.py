@@ -11,11 +11,9 @@ The rod is bent by F l and twisted by F rho, σv = sqrt(σ² + 3 τ²). It vibra
 its end; a motion of the time t from rest to rest leaves little of it where t f is large (`cams.vibration.least_ratio`).
 """
 
-import math
-
 from ilmek.elements.beam.model import Beam
 from ilmek.elements.materials import MATERIALS
-from ilmek.elements.sections import round_section
+from ilmek.elements.sections import Section, round_section
 from ilmek.elements.whirl import Mass, frequencies
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.motions import SIDE_MOTION
@@ -23,7 +21,7 @@ from ilmek.machines.weaver.params import WeaverParams
 from ilmek.timing.cyclogram import Cyclogram
 from ilmek.units import turn
 
-STEEL = MATERIALS["heat-treatable steel"]
+STEEL = MATERIALS["hard-drawn stainless steel"]
 ROD_STRESS = (STEEL.fatigue or 0.0) / 1.5
 """Allowed stress of the rods [Pa]: the fatigue limit over a safety of 1.5, assumed by this project."""
 
@@ -32,9 +30,18 @@ ROD_TIME = 5.0
 as vibration (`cams.vibration.least_ratio`); assumed by this project."""
 
 
+def wall_of(params: WeaverParams) -> float:
+    """Wall of a gripper's tube [m]: its bore is half as wide."""
+    return params.finger / 4
+
+
+def _section(params: WeaverParams) -> Section:
+    return round_section(params.finger, params.finger - 2 * wall_of(params))
+
+
 def rod_bend(params: WeaverParams, grippers: Grippers) -> float:
     """Greatest deflection of a side gripper's tip [m], with the rod out of its guide by the whole travel."""
-    length, inertia = params.opening + grippers.crossing, math.pi * params.finger**4 / 64
+    length, inertia = params.opening + grippers.crossing, _section(params).inertia
     modulus, shear = STEEL.modulus, STEEL.modulus / (2 * (1 + STEEL.poisson))
     bent = (length**3 + grippers.arm**3) / (3 * modulus * inertia)
     return params.forces.yarn_pull * (bent + grippers.arm**2 * length / (shear * 2 * inertia))
@@ -43,13 +50,13 @@ def rod_bend(params: WeaverParams, grippers: Grippers) -> float:
 def rod_stress(params: WeaverParams, grippers: Grippers) -> float:
     """Greatest equivalent stress of a side gripper's rod by the yarn [Pa], out of its guide by the whole travel."""
     pull, length = params.forces.yarn_pull, params.opening + grippers.crossing
-    section = round_section(params.finger)
+    section = _section(params)
     return float(section.equivalent_stress(pull * max(length, grippers.arm), pull * grippers.arm))
 
 
 def rod_frequency(params: WeaverParams, grippers: Grippers) -> float:
     """Lowest natural frequency of a side gripper's rod with its arm [rad/s], out of its guide by the whole travel."""
-    length, section = params.opening + grippers.crossing, round_section(params.finger)
+    length, section = params.opening + grippers.crossing, _section(params)
     line_mass = section.area * STEEL.density
     beam, arm = Beam(length, (0.0,), clamped=(0.0,)), [Mass(length, line_mass * grippers.arm)]
     return float(frequencies(beam, STEEL.modulus * section.inertia, line_mass, arm, count=1)[0])

@@ -9,13 +9,14 @@ to where the tools work (`opener`); beyond it teeth of the width of `wall` hold 
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from ilmek.elements.materials import MATERIALS
 from ilmek.machines.weaver.grippers import Grippers
 from ilmek.machines.weaver.head_shape import (
     BAR,
@@ -32,16 +33,17 @@ from ilmek.machines.weaver.jaw_hinge import JawHinge
 from ilmek.machines.weaver.motions import CENTRE_MOTION, HANDLER, OPENER, SIDE_MOTION, SLEY
 from ilmek.machines.weaver.opener import STEEL, Opener
 from ilmek.machines.weaver.params import WeaverParams
+from ilmek.machines.weaver.rods import wall_of
 from ilmek.machines.weaver.widths import stack_width
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, rectangle, tube
+from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, box, tube
 from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBody
-from ilmek.plane.contours import bounds, circle, polygon, rounded_hull
+from ilmek.plane.contours import bounds, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.units import format_quantity, in_mm, mm, round_size
+from ilmek.units import mm
 
 HANDLER_SHAFT = 4 * mm
 """Diameter of the pile handler's shaft [m]; assumed by this project."""
@@ -64,6 +66,9 @@ CARRIED = 0.1
 CENTRE_BAR, WINDOW = 8 * mm, 4 * mm
 """Thickness of the centre gripper's carriage, and room about the jaws' collars in the opener's plates [m]; assumed by
 this project."""
+
+HARD_DRAWN, BRAZED = MATERIALS["hard-drawn stainless steel"], 0.1 * mm
+"""Capillary tube, and throat of what is brazed to it [m]."""
 
 _ALONG = (0.0, 0.0, 1.0)
 
@@ -135,14 +140,14 @@ class ToolBodies:
         return min(JAW, 0.6 * max(self.grippers.arm - self.grippers.finger / 2, 0.0))
 
     def _side_grippers(self) -> tuple[tuple[str, RigidBody], ...]:
-        """Two alike, one turned half round: a tube to the front from its tip, and an arm across it to the outside.
+        """Two alike, one turned half round: a tube to the front from its tip, an arm brazed across it to the outside.
 
         They turn in the carriage of the opener. The arm's end is half as thick, beside the jaws' finger.
         """
         by, half, jaw = self.grippers, self.grippers.finger / 2, self.jaw
         length = self.tools.carriage + BAR - self.tip(LEFT)
-        rod = Placed(tube(by.finger, half - wire_of(self.params) / 2, length + half), (placement(z=-half),))
-        members = [rod]
+        rod = Placed(tube(by.finger, wall_of(self.params), length + half), (placement(z=-half),))
+        members: list[Placed] = []
         if by.arm - jaw > half:
             members.append(Placed(bar(by.finger, by.arm - jaw - half), (placement(half).after(ALONG_WIDTH),)))
         pinned: tuple[Occurrence, ...] = ()
@@ -152,8 +157,8 @@ class ToolBodies:
             members.append(_moved(hinge.lugs, placement(root + hinge.root, half / 2)))
             pin = hinge.pin(part_id("side-finger-pin"), "pin of the side jaws' finger")
             pinned = (Occurrence(pin, (placement(root + hinge.root, half / 2, -half),)),)
-        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), round_size(by.finger))
-        own = Occurrence(replace(part, machined=True)), *pinned
+        arm = (Occurrence(_brazed("side", SIDE_GRIPPER, members)),) if members else ()
+        own = Occurrence(_capillary(SIDE_GRIPPER, "side gripper", rod)), *arm, *pinned
         joint = Joint(JointKind.PIN, _ALONG)
 
         def body(name: str, hand: int) -> tuple[str, RigidBody]:
@@ -165,17 +170,16 @@ class ToolBodies:
         return body(LEFT, -1), body(RIGHT, 1)
 
     def _centre(self, parent: str) -> tuple[str, RigidBody]:
-        """A square tube to its carriage, at its tip half as thick, beside the jaws' finger."""
+        """A tube to its carriage; brazed to its tip a head, half as thick beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length, hinge = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE), JawHinge(JAW, by.finger)
-        size = f"square {in_mm(by.finger)}"
-        section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
-        rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
+        rod = Placed(tube(by.finger, wall_of(self.params), length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
         at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))), size)
+        head = _brazed("centre", CENTRE_GRIPPER, (jaw, _moved(hinge.lugs, at)))
         pin = hinge.pin(part_id("centre-finger-pin"), "pin of the centre jaws' finger")
-        parts = Occurrence(part), Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
+        own = Occurrence(_capillary(CENTRE_GRIPPER, "centre gripper", rod)), Occurrence(head)
+        parts = *own, Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
         return CENTRE_MOTION, _sliding(CENTRE, parts, parent, origin)
 
     def _plates(self) -> tuple[Occurrence]:
@@ -187,7 +191,6 @@ class ToolBodies:
             "plate of the warp opener",
             "machined link",
             Sum((Placed(Prism(self._comb(low), thick)), *self._feet(low))),
-            f"{in_mm(thick)} thick",
         )
         over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
         return (Occurrence(part, (_upright(low), over)),)
@@ -242,9 +245,8 @@ class ToolBodies:
         inner = outer - SLEY_ARM
         end = deep + SLEY_LUG[1]
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, end - 1j * inner, end - 1j * outer, -1j * outer]
-        size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
-        part = _made(SLEY_BAR, "sley", "machined link", shape, size)
+        part = _made(SLEY_BAR, "sley", "machined link", shape)
         return Occurrence(part, (_upright(tool),))
 
     @property
@@ -272,7 +274,7 @@ class ToolBodies:
 
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
-    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{in_mm(shape.length)} thick")
+    return _made(PILE_HANDLER, "pile handler", "machined link", shape)
 
 
 def _moved(member: Placed, position: Placement) -> Placed:
@@ -281,7 +283,7 @@ def _moved(member: Placed, position: Placement) -> Placed:
 
 
 def wire_of(params: WeaverParams) -> float:
-    """Diameter of the jaws' wires and of the grippers' bores [m]."""
+    """Diameter of the jaws' wires [m]."""
     return min(WIRE, 0.45 * params.finger)
 
 
@@ -316,5 +318,16 @@ def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:
     return placement(0.0, tool.corner.imag, tool.corner.real + shift).after(UPRIGHT)
 
 
-def _made(name: str, title: str, process: str, shape: Shape, size: str) -> Part:
-    return Part(name, title, process, size, shape, STEEL)
+def _capillary(name: str, title: str, rod: Placed) -> Part:
+    """The tube of a gripper, drawn; a sum, of which the slot of its wire makes more members."""
+    return Part(name, title, "steel tube", Sum((rod,)), HARD_DRAWN, machined=True)
+
+
+def _brazed(kind: str, tube: str, members: Sequence[Placed]) -> Part:
+    """The head of a gripper, brazed to its tube."""
+    shape, title = Sum(tuple(members)), f"head of the {kind} gripper"
+    return Part(part_id(f"{kind}-head"), title, "machined link", shape, STEEL, joins=(tube,), throat=BRAZED)
+
+
+def _made(name: str, title: str, process: str, shape: Shape) -> Part:
+    return Part(name, title, process, shape, STEEL)

@@ -189,7 +189,7 @@ class RapierSide:
         console = Prism(Profile(rectangle(face, face), (circle(0j, BOSS / 2),)), PLATE)
         steel = MATERIALS["structural steel"]
         name, title = part_id("edge-console"), "console of a motor at an edge"
-        carrier = Part(name, title, LASER_CUT, in_mm(PLATE), console, steel, joins=(EDGE_PLATE,))
+        carrier = Part(name, title, LASER_CUT, console, steel, joins=(EDGE_PLATE,))
         yield Occurrence(carrier, self._beside(*stations, high=under, depth=face))
         yield Occurrence(motor, self._beside(*stations, high=under, depth=face))
 
@@ -203,10 +203,9 @@ class RapierSide:
         low, high = self.low - SIDE, SIDE / 2
         wide = 3 * PITCH + SIDE
         title = "plate of the devices at an edge"
-        size = format_quantity(PLATE, "mm")
         shape = box(wide, high - low, PLATE)
         steel = MATERIALS["structural steel"]
-        part = Part(EDGE_PLATE, title, LASER_CUT, size, shape, steel, machined=True)
+        part = Part(EDGE_PLATE, title, LASER_CUT, shape, steel, machined=True)
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 

@@ -45,6 +45,7 @@ from ilmek.viz.drawings.paper import (
     TitleFacts,
     fitting,
     frame,
+    row_heights,
     table,
     title_block,
 )  # fmt: skip
@@ -209,8 +210,9 @@ def _papers_of_views(size: Size, rows: Sequence[Cells]) -> Iterator[tuple[str, f
 
 def _listed(rows: Sequence[Cells], paper: str) -> bool:
     """Whether the list has room on a paper, and on a small one each text in its column."""
-    tall = PAPERS[paper][1] - 2 * EDGE - BLOCK_HEIGHT - _PAD >= 5.0 * (len(rows) + 1)
     widths = WIDTHS.get(paper)
+    heights = row_heights(rows, widths or WIDE)
+    tall = PAPERS[paper][1] - 2 * EDGE - BLOCK_HEIGHT - _PAD >= math.fsum((5.0, *heights))
     cells = [] if widths is None else [pair for row in rows for pair in zip(row, widths, strict=True)]
     return tall and all(fitting(words, width - 2.9, 2.5)[0] == words for words, width in cells)
 

@@ -33,10 +33,10 @@ from ilmek.viz.drawings.paper import (
     PAPERS,
     SCALES,
     TitleFacts,
-    folded,
     frame,
     table,
     title_block,
+    wrapped,
 )
 from ilmek.viz.drawings.picture import Box, SheetPicture, joined_box, millimetres
 from ilmek.viz.drawings.prism import flat_foot, prism_views
@@ -255,7 +255,7 @@ def _notes(part: DrawnPart) -> SheetPicture | None:
     rows = [
         row
         for number, line in enumerate(lines, 1)
-        for row in folded(Sentence("sheet.note", number=number, line=line), 168.0, 2.5, 2.5)[0]
+        for row in wrapped(Sentence("sheet.note", number=number, line=line), 168.0, 2.5)
     ]
     return table((Sentence("sheet.notes"),), [(row,) for row in rows])
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from ilmek.part.guided_widths import guided_widths
 from ilmek.part.tolerances import FeatureKind, GeometricTolerance, ToleratedFeature
 from ilmek.records import record
 from ilmek.sentences import Sentence
@@ -86,6 +87,10 @@ class Fits:
                 least, greatest = map(millimetres, ends) if feature.lower or feature.upper else ("", "")
                 kind, size, duty = named_feature(feature)
                 yield kind, size, least, greatest, duty
+        for slot, zone in guided_widths(self.features):
+            kind = Sentence("sheet.kind-slot" if slot else "sheet.kind-tongue")
+            ends = millimetres(zone.nominal + zone.lower), millimetres(zone.nominal + zone.upper)
+            yield kind, f"{millimetres(zone.nominal)} {zone.name}", *ends, Sentence("sheet.duty-sliding")
 
 
 def named_feature(feature: ToleratedFeature) -> tuple[str, str, str]:

@@ -5,7 +5,6 @@ Where a design does not do its work, the reasons why nothing is released stand b
 
 import math
 from collections.abc import Sequence
-from itertools import pairwise
 
 from ilmek.records import record
 from ilmek.report import BillLine, Check, Report
@@ -14,11 +13,11 @@ from ilmek.sentences import Sentence
 from ilmek.units import format_quantity
 from ilmek.viz.drawings.compose import merged, status_of
 from ilmek.viz.drawings.drawn_part import DrawnPart
-from ilmek.viz.drawings.paper import PAPERS, TitleFacts, fitting, frame, table, title_block
+from ilmek.viz.drawings.paper import PAPERS, TitleFacts, fitting, frame, row_heights, table, title_block
 from ilmek.viz.drawings.picture import SheetPicture
 
-_LINES, _REASONS, _WIDTHS = 37, 8, (12.0, 66.0, 100.0, 14.0, 16.0, 76.0, 26.0, 26.0)
-"""Lines and reasons on a sheet, and widths of the columns [mm]."""
+_LINES, _REASONS, _WIDTHS = 37, 8, (12.0, 66.0, 86.0, 14.0, 16.0, 140.0, 22.0, 22.0)
+"""Lines of 5 mm and reasons on a sheet, and widths of the columns [mm]."""
 
 HEADER = tuple(
     map(
@@ -86,9 +85,14 @@ def _mass(mass: float) -> str:
 def index_sheets(report: Report, rows: Sequence[PartRow], issue: Issue) -> tuple[DrawingSheet, ...]:
     """The parts list of a machine on as many sheets as it needs."""
     reasons = report.reasons
-    first = _LINES - (min(len(reasons), _REASONS + 1) + 3 if reasons else 0)
-    cuts = [0, first, *range(first + _LINES, len(rows) + _LINES, _LINES)] if len(rows) > first else [0, len(rows)]
-    pages = [rows[start:end] for start, end in pairwise(cuts)]
+    taken = min(len(reasons), _REASONS + 1) + 3 if reasons else 0
+    pages, left = list[list[PartRow]]([[]]), 5.0 * (_LINES - taken)
+    for row, height in zip(rows, row_heights([row.cells for row in rows], _WIDTHS), strict=True):
+        if height > left:
+            pages.append([])
+            left = 5.0 * _LINES
+        pages[-1].append(row)
+        left -= height
     return tuple(
         _page(report, page, issue, number, len(pages), reasons if number == 1 else ())
         for number, page in enumerate(pages, 1)

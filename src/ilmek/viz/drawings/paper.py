@@ -85,21 +85,34 @@ def fitting(words: str, width: float, height: float, least: float = 1.8, *, bold
     return words, height
 
 
-_LINES = 0.35, -2.15
-"""Feet of two lines of 1.8 mm from the middle of a row [mm]."""
+_LETTER, _LINE, _ROW = 2.5, 4.0, 5.0
+"""Height of letters in tables, distance of lines in a cell, and height of a row of one line [mm]."""
 
 
-def folded(
-    words: str, width: float, height: float, least: float = 1.8, *, bold: bool = False
-) -> tuple[tuple[str, ...], float]:
-    """A text in one line, or in two of the least height where it does not fit a width [mm] in one; their height."""
-    line, fitted = fitting(words, width, height, least, bold=bold)
-    parts = words.split(" ")
-    if line == words or len(parts) == 1:
-        return (line,), fitted
-    cuts = ((" ".join(parts[:k]), " ".join(parts[k:])) for k in range(1, len(parts)))
-    halves = min(cuts, key=lambda own: max(words_width(part, least, bold=bold) for part in own))
-    return tuple(fitting(part, width, least, least, bold=bold)[0] for part in halves), least
+def wrapped(words: str, width: float, height: float, *, bold: bool = False) -> tuple[str, ...]:
+    """A text in as many lines as it needs in a width [mm]; one that fits as it is.
+
+    >>> wrapped("screw of the bracket", 100.0, 2.5), wrapped("screw of the bracket", 20.0, 2.5)
+    (('screw of the bracket',), ('screw of', 'the bracket'))
+    """
+    if words_width(words, height, bold=bold) <= width:
+        return (words,)
+    lines = [""]
+    for word in words.split(" "):
+        longer = f"{lines[-1]} {word}".lstrip()
+        if lines[-1] and words_width(longer, height, bold=bold) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return tuple(lines)
+
+
+def row_heights(rows: Sequence[Sequence[str]], widths: Sequence[float], least: float = _ROW) -> list[float]:
+    """Heights of the rows of a table with columns of widths [mm]; least  that of one line."""
+    lines = (
+        max(len(wrapped(words, wide - 2.9, _LETTER)) for words, wide in zip(row, widths, strict=True)) for row in rows
+    )
+    return [least + _LINE * (number - 1) for number in lines]
 
 
 def frame(paper: str) -> SheetPicture:
@@ -225,34 +238,36 @@ def table(
     header: Sequence[str],
     rows: Sequence[Sequence[str]],
     title: str = "",
-    row: float = 5.0,
+    row: float = _ROW,
     widths: Sequence[float] = (),
 ) -> SheetPicture:
-    """A table with its upper left corner at 0: columns of widths [mm]; default: as wide as their widest text."""
+    """A table with its upper left corner at 0: columns of widths [mm], in which texts are wrapped; default: as wide as
+    their widest text.
+    """
     columns = range(len(header))
     if not widths:
-        heads = [words_width(head, 2.5, bold=True) for head in header]
-        cells = [[words_width(line[k], 2.5) for line in rows] for k in columns]
+        heads = [words_width(head, _LETTER, bold=True) for head in header]
+        cells = [[words_width(line[k], _LETTER) for line in rows] for k in columns]
         widths = [max(heads[k], *cells[k], 0.0) + 3.0 for k in columns]
     ends = np.concatenate([[0.0], np.cumsum(widths)])
     top = -6.0 if title else 0.0
-    texts = [SheetText(complex(0.0, -4.0), title, 2.5, bold=True)] if title else []
-    lines = []
-    for number, line in enumerate((header, *rows)):
-        y = top - row * (number + 1)
+    texts = [SheetText(complex(0.0, -4.0), title, _LETTER, bold=True)] if title else []
+    levels = top - np.cumsum([row, *row_heights(rows, widths, row)])
+    for number, (line, y) in enumerate(zip((header, *rows), [top, *levels[:-1].tolist()], strict=True)):
         for k in columns:
-            if line[k]:
-                cell, height = folded(line[k], widths[k] - 2.9, 2.5, bold=number == 0)
-                x, feet = float(ends[k]) + 1.5, (-1.25,) if len(cell) == 1 else _LINES
-                texts += [
-                    SheetText(complex(x, y + row / 2 + foot), words, height, bold=number == 0)
-                    for words, foot in zip(cell, feet, strict=True)
-                ]
-    bottom = top - row * (len(rows) + 1)
-    for number in range(1, len(rows) + 1):
-        y = top - row * number
-        kind = LineKind.VISIBLE if number == 1 else LineKind.HATCH
-        lines.append(SheetLine(kind, np.array([complex(0, y), complex(float(ends[-1]), y)])))
+            head, wide = number == 0, widths[k] - 2.9
+            cell = (line[k],) if head else wrapped(line[k], wide, _LETTER)
+            for below, words in enumerate(cell if line[k] else ()):
+                fitted, height = fitting(words, wide, _LETTER, bold=head)
+                foot = complex(float(ends[k]) + 1.5, y - (row + _LETTER) / 2 - _LINE * below)
+                texts.append(SheetText(foot, fitted, height, bold=head))
+    bottom = float(levels[-1])
+    lines = [
+        SheetLine(
+            LineKind.HATCH if number else LineKind.VISIBLE, np.array([complex(0, y), complex(float(ends[-1]), y)])
+        )
+        for number, y in enumerate(levels[:-1].tolist())
+    ]
     lines += [SheetLine(LineKind.HATCH, np.array([complex(x, top), complex(x, bottom)])) for x in ends[1:-1].tolist()]
     lines.append(_rectangle(LineKind.VISIBLE, complex(0.0, bottom), complex(float(ends[-1]), top)))
     return SheetPicture(tuple(lines), tuple(texts), ())

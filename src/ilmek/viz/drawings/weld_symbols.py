@@ -77,12 +77,13 @@ def weld_table(welds: Sequence[Weld], low: Float[np.ndarray, " 3"], pieces: int)
         other = weld.other.rpartition("/")[2] or "—"
         hot = f"{weld.preheat:.0f}"
         mark = Sentence("sheet.preheated", weld=weld.mark, temperature=hot) if weld.preheat else weld.mark
-        rows.append((other, mark, seam, seam_lengths(weld), *ends, f"{min(weld.pieces, pieces)}/{pieces}"))
+        number = f"{min(weld.pieces, pieces)}/{pieces}"
+        rows.append((other, mark, weld.process, seam, seam_lengths(weld), *ends, number))
     return table(WELD_HEADER, rows, Sentence("sheet.welds"))
 
 
 WELD_HEADER = (
-    Sentence("sheet.weld-to"), "a, s", Sentence("sheet.seam"), Sentence("sheet.length"), "X", "Y", "Z",
+    Sentence("sheet.weld-to"), "a, s", "ISO 4063", Sentence("sheet.seam"), Sentence("sheet.length"), "X", "Y", "Z",
     Sentence("sheet.pieces"),
 )  # fmt: skip
 

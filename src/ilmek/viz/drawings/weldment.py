@@ -4,6 +4,7 @@ X runs to the right and Y upwards in the front view of its first sheet, Z toward
 """
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 import numpy as np
 
@@ -76,10 +77,12 @@ def positions(
 def _machined(
     tree: Tree, items: Sequence[AssemblyItem], welded: Sequence[tuple[AssembledPiece, Ends]]
 ) -> Iterator[tuple[str, ...]]:
-    """The seats of welded pieces, but their threads: what, size, form or position [mm], what for."""
+    """The seats of pieces that an arc welds, but their threads: what, size, form or position [mm], what for."""
     tolerances = tolerances_of(tree)
+    arcs = ((name, weld.other) for name, own in welds_of(tree).items() for weld in own if not weld.brazed)
+    hot = frozenset(chain.from_iterable(arcs))
     for piece, _ in welded:
-        for feature in tolerances.get(piece.part.id, ()) if piece.part.machined else ():
+        for feature in tolerances.get(piece.part.id, ()) if piece.part.machined and piece.part.id in hot else ():
             if feature.kind is not FeatureKind.THREAD:
                 kind, size, duty = named_feature(feature)
                 form = ", ".join(millimetres(limit.value) for limit in feature.geometric)

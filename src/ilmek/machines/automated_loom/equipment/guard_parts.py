@@ -227,7 +227,7 @@ def _panel(  # noqa: PLR0917
     wide, tall = (format_quantity(side, "mm", 4) for side in sides)
     bought = Bought(f"welded mesh {WIRE / mm:g} mm, {how}", shape.volume * STEEL.density)
     size = f"{wide} x {tall}, mesh {format_quantity(MESH, 'mm')}"
-    return Part(name, title, "guard mesh", size, shape, purchase=bought, fixing=fixing)
+    return Part(name, title, "guard mesh", shape, purchase=bought, fixing=fixing, size=size)
 
 
 def _mesh(wide: float, tall: float) -> tuple[Placed, Placed]:

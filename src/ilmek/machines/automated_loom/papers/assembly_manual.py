@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from ilmek.machines.automated_loom.design import LoomDesign
+from ilmek.machines.automated_loom.equipment.lifting_eyes import LIFTING_EYES
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, tree_manual, weld_check
@@ -16,11 +17,11 @@ from ilmek.sentences import Sentence
 def assembly_manual(loom: LoomDesign) -> tuple[Paper, tuple[Check, ...]]:
     """Its manual, and whether every part can reach its seat past what stands and is fastened there.
 
-    All other bodies come to the frame.
+    All other bodies come to the frame with the eyes in which it hangs.
     """
     tree = loom_tree(loom)
     whole = bolted(tree)
-    steps = insertions(tree, UP, frozenset((part_id("frame"),)))
+    steps = insertions(tree, UP, frozenset((part_id("frame"), LIFTING_EYES)))
     manual, then = (
         tree_manual(tree, steps, View.SIDE, whole),
         PaperSection(Sentence("manual.then"), (Sentence("manual.then-how"),)),
