@@ -510,12 +510,12 @@ def test_diagrams_have_the_devices_of_the_tables() -> None:
         def each(letter: str, sign: str = str(sign)[1:], number: int = int(number)) -> str:
             return f"{letter}{sign}" if number == 1 else f"{letter}{sign}.1 … {letter}{sign}.{number}"
 
-        row = [f"{each('M')}: {number} × {title}", f"{each('F')}: {number} × {fuse:g} A", f"{amplifier:g} A, STO"]
+        row = [f"{each('M')}: {number} × {title}", f"{each('F')}: {number} × {fuse:g} A", f"{amplifier:g} A, STO, SLS"]
         assert {*row, f"{wires} × {section:g} mm²", each("T")} <= {*drawn}
     circuit = figure_texts("electrical", 4)
     for sign, _, _, number, _ in rows_of("electrical", 4):
         letter = str(sign).rstrip("0123456789 …")
-        if letter in ("S", "B") and sign not in ("S0", "S9"):  # reset and enabling switch
+        if letter in ("S", "B") and sign not in ("S0", "S8", "S9"):  # reset, mode selector, enabling switch
             assert sorted(text for text in circuit if text[1:].isdigit() and text[0] == letter) == [
                 f"{letter}{index}" for index in range(1, int(number) + 1) for _ in "12"
             ]
