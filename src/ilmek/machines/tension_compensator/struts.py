@@ -23,7 +23,7 @@ from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Check, at_least
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm
+from ilmek.units import format_quantity, mm
 
 ENGAGED = 1.5
 """Least length of a rod in its sleeve over its diameter, and most of its shank in the eye; assumed by this project."""
@@ -124,9 +124,9 @@ def strut_parts(at: BarSupports) -> StrutParts:
     return StrutParts(
         strut,
         _spring(at, strut),
-        Part(part_id("eye"), "eye of a spring", "machined link", in_mm(strut.wide), _eye(at, strut), STEEL),
-        Part(part_id("guide-rod"), "guide rod of a spring", turned, "", _rod(strut), STEEL),
-        Part(part_id("guide-sleeve"), "guide sleeve of a spring", turned, "", _sleeve(strut), STEEL),
+        Part(part_id("eye"), "eye of a spring", "machined link", _eye(at, strut), STEEL),
+        Part(part_id("guide-rod"), "guide rod of a spring", turned, _rod(strut), STEEL),
+        Part(part_id("guide-sleeve"), "guide sleeve of a spring", turned, _sleeve(strut), STEEL),
     )
 
 
@@ -169,7 +169,7 @@ def _spring(at: BarSupports, strut: Strut) -> Part:
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, strut.length)
     room = Sum((Placed(coil, (placement(z=strut.seat),)),))
     bought = Bought(size, wound.mass, data=data)
-    return Part(part_id("spring"), _SPRING, "spring", size, room, purchase=bought, envelope=True)
+    return Part(part_id("spring"), _SPRING, "spring", room, purchase=bought, envelope=True, size=size)
 
 
 def strut_bodies(
