@@ -889,8 +889,8 @@ def screws_come_with_the_second_of_their_parts(tree: Tree, steps: Sequence[Inser
     rows = list(with_welds(with_screws(assembly_steps(steps), whole, joins), whole))
     welds = {(name, weld.other) for name, own in welds_of(whole).items() for weld in own if weld.other}
     assert {weld[:2] for row in rows for weld in row.welds} == welds
-    control = next(
-        number for number, row in enumerate(rows) if "automated-loom/control" in {own.id for own in row.parts}
+    control = next(  # the empty cabinet stands on its anchors before that
+        number for number, row in enumerate(rows) if "automated-loom/control-axis" in {own.id for own in row.parts}
     )
     assert any("automated-loom/beat-post" in weld for row in rows[:control] for weld in row.welds)
     for row in rows:
