@@ -83,6 +83,7 @@ def test_signals_and_devices_of_looms_of_all_kinds_name_each_other() -> None:
         signals.RESET,
         signals.ACTUATOR,
         signals.ENABLING,
+        signals.MODE,
         signals.TERMINAL,
         signals.MAINS_TERMINAL,
     }  # in the safety circuit, or between
@@ -111,7 +112,11 @@ def test_terminals_and_controller_are_enough_for_the_signals() -> None:
         for name, parts in signals.signals_of(loom.heads, loom.weavers):  # a wire to an input, or none at all
             assert (name in read) == (parts[0] != signals.CONTROLLER), name
         field = {level.part for level in levels if level.strip == "X1"}
-        inside = {signals.STRAIN_AMPLIFIER, signals.RELAY, signals.YARN_STOP}  # a yarn's sensor is at its head's module
+        inside = {
+            signals.STRAIN_AMPLIFIER,
+            *signals.IN_CABINET,
+            signals.YARN_STOP,
+        }  # a yarn's sensor is at its head's module
         assert field >= {own.part for own in read.values()} - inside
 
 

@@ -71,6 +71,12 @@ class AssemblyStep:
         every = (*self.parts.items(), *self.screws.items())
         return math.fsum(number * part.mass for part, number in every if not math.isnan(part.mass))
 
+    @property
+    def lifted(self) -> float:
+        """Mass of what comes at once [kg]: of several that are alike each comes by itself."""
+        counts = (number for part, number in self.parts.items() if part.process != FASTENER)
+        return self.mass / (self.built or math.gcd(*counts) or 1)
+
 
 def assembly_check(steps: Sequence[Insertion]) -> Check:
     """Whether all that comes can reach its seat past what stands, at the machine and on the bench."""
@@ -304,7 +310,7 @@ def _row(
     fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
     fastened += [(seam, pair) for *pair, seam in step.welds]
     named = [f"{parts[part]} × {titles[part.id]}" for part in parts if part.process != FASTENER]
-    tools = step_tools({**parts, **fasteners}, step.mass, moving=not moving.isdisjoint(step.bodies))
+    tools = step_tools({**parts, **fasteners}, step.lifted, moving=not moving.isdisjoint(step.bodies))
     return (
         number,
         ", ".join(body.rpartition("/")[2] for body in step.bodies),

@@ -62,7 +62,7 @@ _LOCKING = ((28 * mm, 27 * mm), (40 * mm, 25 * mm), (65 * mm, 30 * mm), (80 * mm
 """Largest shaft, and how much larger the bore about its locking assembly is [m]: makers' usual sizes."""
 
 FEEDBACK = "absolute multi-turn encoder"
-"""What a motor of an axis has, so that its zero is set once and no axis must look for it after a power failure."""
+"""What a motor of an axis has: its zero is set once, and the axis is homed without a switch of its own."""
 
 
 def stroke_of(travel: float) -> str:

@@ -106,7 +106,7 @@ PAPERS = {
     "setting.axes-how": "Jog each axis in the direction of increasing positions of its table. It moves, or turns "
     "by the right-hand rule about, the direction that is named, as the weaver sees it from the front. "
     "Then set the zero of its motor once, at the begin of its table: its encoder is absolute over many turns, so that "
-    "no axis looks for its zero at power on.",
+    "an axis is homed without a switch of its own.",
     "setting.body": "body",
     "setting.motor": "motor",
     "setting.direction": "direction",

@@ -106,7 +106,7 @@ PAPERS = {
     "setting.axes-how": "Her ekseni tablosundaki artan konumlar yönünde elle sürün. Eksen, adı verilen yönde "
     "ilerler ya da o yönün çevresinde sağ el kuralıyla döner; yönler önde duran dokuyucuya göredir. "
     "Sonra motorunun sıfırını tablosunun başında bir kez ayarlayın: kodlayıcısı çok turlu ve mutlaktır, "
-    "açılışta hiçbir eksen sıfır aramaz.",
+    "eksenin ayrı bir sıfır anahtarı yoktur.",
     "setting.body": "gövde",
     "setting.motor": "motor",
     "setting.direction": "yön",

@@ -103,14 +103,18 @@ class RapierSide:
         params, made = self.params, self.made
         far = -made.gripper - made.length
         gripper = box(max(made.gripper, made.tube[0]), max(made.gripper, made.tube[1]), made.gripper)
+        tall, wide, wall = map(in_mm, made.tube)
+        tube = f"{tall} x {wide} x {wall}"
         weighed = Bought("gripper", params.gripper_mass), Bought("carriage", params.carriage_mass)
         jaws = bought_part(
-            GRIPPER, "gripper of the rapier", "tool", gripper, weighed[0], size="two jaws",
+            GRIPPER, "gripper of the rapier", "tool", gripper, weighed[0],
+            size=f"two jaws, stub for the bore of a tube {tube}",
             fixing="its stub is bonded in the end of the rapier",
         )  # fmt: skip
         held = box(SIDE, SIDE, CLAMP)
         clamp = bought_part(
-            CARRIAGE, "carriage of the rapier", "tool", held, weighed[1], size="with clamp",
+            CARRIAGE, "carriage of the rapier", "tool", held, weighed[1],
+            size=f"{in_mm(SIDE)} wide, on the carriage of its axis, clamp for a tube {tube}",
             fixing="its clamp grips the end of the rapier with its own screws",
         )  # fmt: skip
         parts = (
@@ -147,20 +151,28 @@ class RapierSide:
 
     def _devices(self) -> Iterator[RigidBody]:
         """Cutters, tuck-in needles and selector before the plates, each moved by a motor below it."""
-        size = box(SIDE, SIDE, SIDE)
+        size, within = box(SIDE, SIDE, SIDE), " x ".join(3 * (in_mm(SIDE),))
+        hub = f"hub for a shaft of {in_mm(catalogue.motor_shaft(smallest_motor(AUXILIARY, 0.0, STEPPER)))}"
 
         def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *stations: Station) -> RigidBody:
             name, title, text = names
-            part = bought_part(name, title, "tool", size, Bought(title, mass), size=text)
+            part = bought_part(
+                name,
+                title,
+                "tool",
+                size,
+                Bought(title, mass),
+                size=f"{text}, within {within}",
+            )
             return RigidBody(part_id(body), (Occurrence(part),), joint=joint, positions=self._beside(*stations))
 
         shear = Joint(JointKind.PIN, motor=EDGE_MOTOR)
         along = Joint(JointKind.SLIDE, motor=EDGE_MOTOR)
         cutter, needle = (WEFT_CUTTER, "weft cutter"), (NEEDLE, "tuck-in needle")
         selector = part_id("selector"), "weft selector"
-        yield device("turning cutters", (*cutter, "one at each edge"), CUTTER, shear, (-1, 0), (1, 0))
-        yield device("needles at the edges", (*needle, "one at each edge"), TUCKER, along, (-1, 1), (1, 1))
-        yield device("fingers of the selector", (*selector, "two fingers"), SELECTOR, shear, (1, 3))
+        yield device("turning cutters", (*cutter, hub), CUTTER, shear, (-1, 0), (1, 0))
+        yield device("needles at the edges", (*needle, "on its slide"), TUCKER, along, (-1, 1), (1, 1))
+        yield device("fingers of the selector", (*selector, f"two fingers, {hub}"), SELECTOR, shear, (1, 3))
 
     def _standing(self) -> Iterator[Occurrence]:
         """The axes of the needles, and the motors of all devices, each under its console."""
