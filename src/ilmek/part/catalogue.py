@@ -11,7 +11,7 @@ from ilmek.elements.columns import STEEL
 from ilmek.elements.holding_brakes import brake_for
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.locknuts import Locknut
-from ilmek.elements.machine_screws import MachineScrew
+from ilmek.elements.machine_screws import SOCKET_SCREWS, MachineScrew
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
@@ -42,6 +42,9 @@ ADAPTER, _ADAPTER_FILLED = 0.3, 0.5
 """Length of a motor's adapter, with its coupling, over its face, and share of its room that is aluminium; assumed by
 this project.
 """
+
+_CORNERS = 4
+"""Screws of a flange that stand in the corners of a square."""
 
 BEFORE_KEY = 5 * mm
 """From the face that a reducer sits on to the key in its hollow shaft [m]; assumed by this project."""
@@ -139,24 +142,28 @@ def reducer(  # noqa: PLR0917
     row: Motor | None,
     end: KeyedEnd | None = None,
     output: tuple[float, Sum] | None = None,
+    *,
+    least: float = 0.0,
 ) -> Part:
     """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
 
     end  of the shaft that its hollow shaft takes: the room of both is open
     output  of an angle reducer: diameter of its own shaft, and the shape of that across its input
+    least  width of its flange [m]
     """
-    given = row.torque * by.ratio * by.efficiency if row else 0.0
+    given = max(by.output_torque(row.torque) if row else 0.0, end.torque if end else 0.0)
     motor_face = row.face if row else SPECIAL_FACE
     shaft, long, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", REDUCER_LENGTH * motor_face, 0.0
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
         hollow, long = abs(corner) + HOLLOW, max(long, BEFORE_KEY + end.length)
         shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
-    flange = flange_for(given, 2 * (hollow + WALL) if hollow else 0.0)
+    flange = flange_for(given, max(2 * (hollow + WALL) if hollow else 0.0, least))
     face, across = max(motor_face, flange.face), output is not None
     long = REDUCER_LENGTH * face if across else long
     pitch, (motor_holes,) = flange.circle / math.sqrt(2), flange_holes(row)
-    holes = HolePattern(pitch, pitch, flange.thread, tapped=True, faces=(0,) if across else (1,))
+    ring, faces = flange.number if flange.number > _CORNERS else 0, (0,) if across else (1,)
+    holes = HolePattern(pitch, pitch, flange.thread, ring=ring, tapped=True, faces=faces)
     square = Profile(rectangle(face, face), (circle(0j, hollow),) if hollow else ())
     room: Shape = Prism(square, long)
     motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
@@ -170,7 +177,14 @@ def reducer(  # noqa: PLR0917
 
 def reducer_face(by: Reducer, row: Motor) -> float:
     """Width of the reducer of a motor, if it has a shaft of its own [m]."""
-    return max(row.face, flange_for(row.torque * by.ratio * by.efficiency).face)
+    return max(row.face, flange_for(by.output_torque(row.torque)).face)
+
+
+def screwed_radius(driven: Part) -> float:
+    """Radius about the axis of a reducer that a plate needs for its screws with their heads [m]."""
+    assert driven.purchase is not None
+    holes = driven.purchase.holes[0]
+    return abs(complex(holes.across, holes.along)) / 2 + SOCKET_SCREWS[holes.thread].sink / 2 + mm
 
 
 def _holes_text(holes: HolePattern) -> str:

@@ -85,7 +85,7 @@ def magnet(params: WeftParams, size: BobbinSize) -> Part:
     """A magnet of a shuttle or of its carriage: along the width, up, and from z = 0 to the front."""
     long, tall, thick = magnet_sides(params, size.diameter)
     text = " x ".join(format_quantity(side / mm, "") for side in (long, tall, thick)) + " mm"
-    return Part(MAGNET, "magnet", "magnet", text, box(long, tall, thick), NEODYMIUM)
+    return Part(MAGNET, "magnet", "magnet", text, box(long, tall, thick), NEODYMIUM, fixing="bonded in its pocket")
 
 
 def magnet_positions(params: WeftParams, size: BobbinSize) -> tuple[float, float]:
