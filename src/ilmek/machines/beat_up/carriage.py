@@ -30,6 +30,7 @@ from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Prism, bar, box, stepped
 from ilmek.part.tree import Occurrence, in_line
 from ilmek.plane.contours import circle, polygon, rounded_hull
+from ilmek.plane.curves import hull
 from ilmek.report import Check, Hole, at_least, at_most
 from ilmek.units import in_mm, mm, round_size
 
@@ -51,6 +52,11 @@ SHARED_SHAFT = "beat-up/shared-shaft"
 BELT, BELT_BODY, BELT_WIDTH = BELTS["HTD 8M"], 2.5 * mm, 30 * mm
 """The belt from it to a crank, its thickness without teeth, and room for its pulleys along the pins [m]: assumed by
 this project."""
+
+DRIVE_PLATE, DRIVE_GAP, _DRIVE_BORE = "beat-up/drive-plate", 5 * mm, 0.3
+"""Id of the plate of the drive of a comb, its distance from the flywheel [m], radius of its bore over the face of what
+it carries; assumed by this project.
+"""
 
 NECK = 20 * mm
 """Length of the journal of that shaft before its drive [m]: assumed by this project."""
@@ -107,6 +113,27 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
 
 
+def drive_plate(linkage: BeatUp, beam: float, driven: Part, shared: float) -> Part:
+    """The plate on a beam of a side [m] that carries reducer and motor of the shared shaft, of a diameter [m]."""
+    corner, axis, face = beam_corner(linkage), shared_axis(linkage, shared), catalogue.face_of(driven)
+    foot, about = corner + 1j * beam, max(face / 2, catalogue.screwed_radius(driven)) + _AROUND
+    square = axis + about * np.array([1 + 1j, 1 - 1j, -1 + 1j, -1 - 1j])
+    outline = polygon(hull(in_links_axes(linkage, np.array([foot, foot + beam, *square]))))
+    hole = Hole(complex(in_links_axes(linkage, np.array([axis]))[0]), _DRIVE_BORE * face)
+    thickness = linkage.params.thickness
+    shape = Prism(drilled(outline, [hole]), thickness)
+    return Part(DRIVE_PLATE, "plate of the drive", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
+
+
+def drive_shaft(linkage: BeatUp, diameter: float) -> Part:
+    """The shaft of a diameter [m] from the flywheel through the plate of the drive to the reducer or motor."""
+    shape, held = bar(diameter, DRIVE_GAP + linkage.params.thickness), "locking assemblies in flywheel and reducer"
+    return Part(
+        *("beat-up/drive-shaft", "shaft of the drive", "turned part", round_size(diameter), shape, PIN_STEEL),
+        fixing=held,
+    )
+
+
 def _teeth(linkage: BeatUp, shared: float) -> int:
     """Teeth of the pulleys on a shaft of a diameter [m] and on the cranks."""
     radius = max(linkage.params.width / 2, shared / 2 + _AROUND)
@@ -159,13 +186,15 @@ def _shoulder_checks(end: Shoulder) -> tuple[Check, ...]:
     )
 
 
-def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> Iterator[Occurrence]:
-    """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
+def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float], neck: float) -> Iterator[Occurrence]:
+    """The shaft along z from the first station's plate to the last one's belt, with a neck of a length [m] beyond, and
+    a belt from it to each crank.
+    """
     end, thickness = shared_end(linkage, torque, len(stations)), linkage.params.thickness
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage, end.shaft)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
-    size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
+    size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, neck))
     shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
     teeth = _teeth(linkage, end.shaft)
     tips = BELT.tip_radius(teeth) + 0.05 * mm
