@@ -18,6 +18,7 @@ from ilmek.elements.belts import BELTS, belt_length
 from ilmek.elements.columns import STEEL
 from ilmek.elements.pin_joints import PIN_DIAMETERS
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
+from ilmek.machines.bearing_seats import CLEAR
 from ilmek.machines.beat_up.beam import BEFORE_PIVOT
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
@@ -125,8 +126,9 @@ def drive_plate(linkage: BeatUp, beam: float, driven: Part, shared: float) -> Pa
     return Part(DRIVE_PLATE, "plate of the drive", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
 
 
-def drive_shaft(linkage: BeatUp, diameter: float) -> Part:
-    """The shaft of a diameter [m] from the flywheel through the plate of the drive to the reducer or motor."""
+def drive_shaft(linkage: BeatUp, driven: Part) -> Part:
+    """The shaft from the flywheel through the plate of the drive to the reducer or motor, clear of the plate's bore."""
+    diameter = 2 * (_DRIVE_BORE * catalogue.face_of(driven) - CLEAR)
     shape, held = bar(diameter, DRIVE_GAP + linkage.params.thickness), "locking assemblies in flywheel and reducer"
     return Part(
         *("beat-up/drive-shaft", "shaft of the drive", "turned part", round_size(diameter), shape, PIN_STEEL),

@@ -52,8 +52,7 @@ from ilmek.part.extents import around, extents
 from ilmek.part.link_motion import carriers, closures
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
-from ilmek.part.shapes import shape_box
-from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of, in_line
 from ilmek.report.scene import SceneMotion
 
 CARRIAGE, RAIL = "beat-up/carriage", "beat-up/rail"
@@ -171,8 +170,7 @@ def loops(design: BeatUp) -> tuple[Closure, ...]:
 
 def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:
     """What stands of crank-rockers at stations along z [m]: the beam, a plate with its pins at each, and the drive."""
-    last = shared_end(design, start.start_torque, len(stations))
-    shared, coupled = last.shaft, coupled_parts(start)
+    shared, coupled = shared_end(design, start.start_torque, len(stations)).shaft, coupled_parts(start)
     geared, neck = start_parts(start)[len(coupled) :], NECK + (0.0 if coupled else design.params.thickness)
     plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
     parts: dict[str, Occurrence] = {}
@@ -182,10 +180,10 @@ def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Seq
     end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH + NECK
     axis = complex(in_links_axes(design, np.array([shared_axis(design, shared)]))[0])
     belts = shared_drive(design, start.start_torque, stations, neck)
-    beyond = end + math.fsum(float(np.ptp(np.array(shape_box(one.shape))[:, 2])) for one in coupled if one.shape)
-    drive = [*driving(coupled, end, axis)]
+    beyond = end + math.fsum(depth_of(one) for one in coupled)
+    drive = [*driving(start_parts(start), end, axis)[: len(coupled)]]
     if coupled:
-        drive.append(Occurrence(drive_shaft(design, last.journal), (placement(axis.real, axis.imag, beyond),)))
+        drive.append(Occurrence(drive_shaft(design, geared[0]), (placement(axis.real, axis.imag, beyond),)))
         beyond += DRIVE_GAP
     plate = drive_plate(design, beam.section.side, geared[0], shared)
     drive += [Occurrence(plate, (placement(z=beyond),)), *driving(geared, beyond + design.params.thickness, axis)]

@@ -89,6 +89,7 @@ def _carried(design: SheddingDesign) -> tuple[CarriedShaft, ...]:
             shaft.seat,
             bearing_inner(design, index),
             max(shaft.stack.guide_radius, front_of(design, index), catalogue.face_of(reducer(design, index)) / 2),
+            catalogue.screwed_radius(reducer(design, index)),
         )
         for index, shaft in enumerate(design.shafts)
     )

@@ -64,6 +64,7 @@ def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
             own.seat,
             far,
             max(own.flange, reach_of(drives[own.name][0]), wheel),
+            catalogue.screwed_radius(drives[own.name][0]),
         )
         for own in cylinders(design)
     )
@@ -222,8 +223,9 @@ def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
     rim_of_shaft = min(FLANGE, params.crank_shaft / 2)
     shaft = stepped((CRANK_SHAFT, params.crank_shaft - rim_of_shaft), (face, rim_of_shaft))
     handle = bar(HANDLE_SIZE, HANDLE)
+    turned = _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, round_size(CRANK_SHAFT), STUB)
     return (
-        _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, round_size(CRANK_SHAFT), STUB),
+        replace(turned, fixing="on the input shaft of its reducer, with the key of that"),
         _made("hand-wheel", "hand wheel of a cylinder", "laser-cut part", wheel, round_size(2 * rim), steel),
         _made("handle", "handle of a hand wheel", "turned part", handle, round_size(HANDLE_SIZE), steel),
     )
