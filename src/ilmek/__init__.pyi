@@ -31,6 +31,7 @@ from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
+from ilmek.api.studies import study as study
 from ilmek.cams.plate import PlateCam as PlateCam
 from ilmek.cams.programme import CamProgramme as CamProgramme
 from ilmek.carpet.chart import Chart as Chart

@@ -17,7 +17,7 @@ import numbers
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any, TypeAlias
 
 from ilmek.errors import UnitError
@@ -220,6 +220,7 @@ def _check_length(text: str, noun: str) -> None:
         raise UnitError(f"{text[:20]!r}... is too long for a {noun}", allowed=f"at most {LONGEST} characters")
 
 
+@cache
 def printed_unit(unit: str) -> str:
     """A unit with superscript powers and product dots, readable by `parse_unit`; "" for 1.
 

@@ -30,7 +30,7 @@ X, Z = (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)
 
 
 def cube(name, side=20 * mm):
-    return Part(name, name, "machined link", "", box(side, side, side), STEEL)
+    return Part(name, name, "machined link", box(side, side, side), STEEL)
 
 
 def body(name, part, *, at=(0.0, 0.0, 0.0), parent="", motion=None, axis=Z):
@@ -68,8 +68,8 @@ def test_a_cube_that_passes_another_comes_as_near_as_its_track(gap, run):
 def test_a_bar_that_turns_comes_as_near_as_its_end(gap):
     """The end of a bar of length L, turned about its other end, is at L from the axis."""
     length, half = 200 * mm, 5 * mm
-    lever = Part("a/lever", "lever", "machined link", "", box(2 * half, 2 * half, length), STEEL)
-    wall = Part("b/wall", "wall", "machined link", "", box(400 * mm, 10 * mm, 400 * mm), STEEL)
+    lever = Part("a/lever", "lever", "machined link", box(2 * half, 2 * half, length), STEEL)
+    wall = Part("b/wall", "wall", "machined link", box(400 * mm, 10 * mm, 400 * mm), STEEL)
     along_y = placement(about=X, angle=-math.pi / 2)
     arm = RigidBody("arm", (Occurrence(lever, (along_y,)),), joint=Joint(JointKind.PIN, Z, turning()))
     reach = math.hypot(length, half)
@@ -136,12 +136,12 @@ def test_a_part_wholly_inside_another_is_through_it(run):
 def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_found(moved, out, across):
     """Sixty discs on a round bar with 1 mm between them: each lies alike to the bar but for its place along it."""
     disc = Prism(Profile(circle(0j, 30 * mm), (circle(0j, 10 * mm),)), 5 * mm)
-    part, rod = Part("a/disc", "disc", "laser-cut part", "", disc, STEEL), bar(20 * mm, 400 * mm)
+    part, rod = Part("a/disc", "disc", "laser-cut part", disc, STEEL), bar(20 * mm, 400 * mm)
     places = [[0.0, 0.0, 6 * mm * k] for k in range(60)]
 
     def through():
         discs = Occurrence(part, tuple(placement(*at) for at in places))
-        long = Occurrence(Part("b/bar", "bar", "turned part", "", rod, STEEL), (placement(z=-20 * mm),))
+        long = Occurrence(Part("b/bar", "bar", "turned part", rod, STEEL), (placement(z=-20 * mm),))
         return {pair.parts for pair in contacts(Tree((RigidBody("shaft", (long, discs)),))).through}
 
     assert through() == set()
@@ -156,8 +156,8 @@ def test_one_of_a_row_of_many_that_is_moved_into_its_bar_or_its_neighbour_is_fou
 @given(gap=st.floats(0.3, 6.0), eccentric=st.floats(0.0, 30.0))
 def test_a_roller_that_turns_beside_a_wall_comes_as_near_as_its_eccentricity(gap, eccentric):
     """A disc of radius r about an axis e beside its own reaches r + e."""
-    roller = Part("a/roller", "roller", "turned part", "", bar(40 * mm, 20 * mm), STEEL)
-    wall = Part("b/wall", "wall", "machined link", "", box(10 * mm, 400 * mm, 400 * mm), STEEL)
+    roller = Part("a/roller", "roller", "turned part", bar(40 * mm, 20 * mm), STEEL)
+    wall = Part("b/wall", "wall", "machined link", box(10 * mm, 400 * mm, 400 * mm), STEEL)
     turned = Joint(JointKind.PIN, Z, turning())
     shaft = RigidBody("shaft", (Occurrence(roller, (placement(eccentric * mm),)),), joint=turned)
     far = 20 * mm + eccentric * mm + gap * mm + 5 * mm
@@ -172,11 +172,10 @@ def test_a_pin_in_its_bore_touches_and_a_part_moved_by_a_millimetre_is_found():
         "a/eye",
         "eye",
         "laser-cut part",
-        "",
         Prism(Profile(rectangle(60 * mm, 30 * mm), (circle(0j, 10 * mm),)), 10 * mm),
         STEEL,
     )
-    pin = Part("b/pin", "pin", "turned part", "", bar(20 * mm, 30 * mm), STEEL)
+    pin = Part("b/pin", "pin", "turned part", bar(20 * mm, 30 * mm), STEEL)
 
     def nearest(shift):
         tree = Tree((body("eye", eye, motion=turning()), body("pin", pin, at=(shift, 0.0, -10 * mm))))
@@ -198,9 +197,9 @@ def test_a_crank_chain_is_nowhere_nearer_than_found(turns, arm, height):
     A corner is lowered by at most a = 0.090 m 2² + 0.061 m 4² per rad²; between two of so many angles, which are
     0.5 mrad apart, it is at most a / 8 (0.5 mrad)² = 0.05 um lower than at these.
     """
-    bar_part = Part("a/bar", "bar", "machined link", "", box(10 * mm, 10 * mm, 60 * mm), STEEL)
-    crank = Part("a/crank", "crank", "machined link", "", box(10 * mm, 10 * mm, 10 * mm), STEEL)
-    floor = Part("b/floor", "floor", "machined link", "", box(600 * mm, 600 * mm, 10 * mm), STEEL)
+    bar_part = Part("a/bar", "bar", "machined link", box(10 * mm, 10 * mm, 60 * mm), STEEL)
+    crank = Part("a/crank", "crank", "machined link", box(10 * mm, 10 * mm, 10 * mm), STEEL)
+    floor = Part("b/floor", "floor", "machined link", box(600 * mm, 600 * mm, 10 * mm), STEEL)
     tree = Tree(
         (
             body("crank", crank, at=(0.0, 0.0, height * mm), motion=turning(turns[0]), axis=X),

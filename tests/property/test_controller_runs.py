@@ -27,7 +27,7 @@ from ilmek.loom.control.exchange import (
 )
 from ilmek.loom.control.opening import open_journal
 from ilmek.loom.control.packml import MODE_CHANGES, PackCommand, PackMode, PackState
-from ilmek.loom.control.ports import EndRow, Failed, Fault, Jog, Order, SensorsChanged, Tie
+from ilmek.loom.control.ports import EndRow, Failed, Fault, Home, Jog, Order, SensorsChanged, Tie
 
 PROGRAMME = small_programme(rows=5, columns=18, heads=3, yarns=3)
 EVERYTHING = all_operations(PROGRAMME)
@@ -67,8 +67,10 @@ class RandomRun:
         self.controller = self.opened()
 
     def fails(self, order: Order) -> Fault | None:
-        if self.random.random() >= self.fault_rate or not isinstance(order, Tie | EndRow):
+        if self.random.random() >= self.fault_rate or not isinstance(order, Tie | EndRow | Home):
             return None
+        if isinstance(order, Home):
+            return Fault.TIMEOUT
         return self.random.choice(list(Fault) if isinstance(order, Tie) else [Fault.WEFT_BREAK, Fault.TIMEOUT])
 
     def opened(self) -> Controller:
@@ -96,7 +98,7 @@ class RandomRun:
 
     def cut_off(self, share: float) -> None:
         """Every motion ends; of the operations in progress some are in the carpet."""
-        moving = [one for one in self.loom.moving if not isinstance(one, Jog)]
+        moving = [one for one in self.loom.moving if not isinstance(one, Jog | Home)]
         self.loom.woven += [one for one in moving if self.random.random() < share]
         self.loom.moving.clear()
 
@@ -144,7 +146,8 @@ class RandomRun:
         order = moving[0]
         reports = self.loom.receive()
         last = reports[-1]
-        if isinstance(last, Failed) and last.fault is Fault.TIMEOUT and self.random.random() < 0.5:
+        timeout = isinstance(last, Failed) and last.fault is Fault.TIMEOUT and not isinstance(order, Home)
+        if timeout and self.random.random() < 0.5:
             self.loom.woven.append(order)
         if isinstance(order, Jog):
             self.loom.woven = [one for one in self.loom.woven if not isinstance(one, Jog)]

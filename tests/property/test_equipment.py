@@ -106,11 +106,13 @@ def test_terminals_and_controller_are_enough_for_the_signals() -> None:
         levels = levels_of(loom)
         assert len({level.address for level in levels}) == len(levels)
         assert numbers[signals.TERMINAL] == len({(level.strip, level.number) for level in levels})
-        read = {own.signal: own for own in channels(loom) if own.signal}
+        read = {own.signal: own for own in channels(loom)}
+        assert all(read)  # every input has its variable
         for name, parts in signals.signals_of(loom.heads, loom.weavers):  # a wire to an input, or none at all
             assert (name in read) == (parts[0] != signals.CONTROLLER), name
         field = {level.part for level in levels if level.strip == "X1"}
-        assert field >= {own.part for own in read.values()} - {signals.STRAIN_AMPLIFIER}
+        inside = {signals.STRAIN_AMPLIFIER, signals.RELAY, signals.YARN_STOP}  # a yarn's sensor is at its head's module
+        assert field >= {own.part for own in read.values()} - inside
 
 
 def test_a_signal_of_each_head_has_a_part_on_each() -> None:
@@ -201,7 +203,7 @@ def test_boxes_of_copies_contain_their_own_points(origins, turned: bool, carried
     swing, still = 0.4 * np.sin(angle), np.zeros(13)
     slide = SceneMotion(ROW, angle, np.stack([0.3 * np.sin(angle), still, still], 1), swing if carried else still)
     positions = tuple(placement(*at, about=(0.0, 0.0, 1.0), angle=0.5 * k * turned) for k, at in enumerate(origins))
-    bar = Part("bar", "bar", "welded frame", "", box(0.1, 0.2, 0.5), MATERIALS["structural steel"])
+    bar = Part("bar", "bar", "welded frame", box(0.1, 0.2, 0.5), MATERIALS["structural steel"])
     own = (Occurrence(bar, (placement(0.1, 0.0, 0.2),)),)
     tilted = (placement(about=(1.0, 0.0, 0.0), angle=0.3),)
     tree = Tree(

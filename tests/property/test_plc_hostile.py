@@ -15,7 +15,8 @@ from small_programme import small_programme
 
 from ilmek.io.plc.host_data import HostRow, checked
 from ilmek.loom.control.alarms import ALARMS, ControlFault, JournalFault
-from ilmek.loom.control.packml import PackCommand, PackState
+from ilmek.loom.control.interlocks import LoomAxis
+from ilmek.loom.control.packml import PackCommand, PackMode, PackState
 from ilmek.loom.control.ports import Fault
 
 FAULTS = [ALARMS[fault].number for fault in Fault if fault is not Fault.MISSED_GRIP]
@@ -44,6 +45,7 @@ def test_hostile_stations_and_power_cuts_lose_and_double_nothing(seed: int) -> N
     heads = int(random.integers(1, 4))
     loom = PlcLoom(small_programme(3, 12, heads, 3, seed=seed, weft_rows=2))
     loom.next_act = lambda _: hostile_act(random)
+    loom.home_act = lambda: hostile_act(random)
     for _ in range(int(random.integers(1, 12))):
         loom.attend(int(random.integers(1, 80)))
         if random.random() < 0.2:
@@ -99,6 +101,58 @@ def test_what_a_station_does_wrong_holds_the_loom_and_is_asked_for(act: Act, ala
         loom.stations[station].stuck = 0
     loom.attend(5000)
     assert loom.woven()
+
+
+@pytest.mark.parametrize(
+    "act",
+    [Act(silent=True), Act(tied=False), Act(fault=ALARMS[Fault.TIMEOUT].number), Act(early=True), Act(hasty=True)],
+)
+def test_an_axis_that_is_not_homed_as_ordered_stops_the_loom_and_is_homed_again(act: Act) -> None:
+    """After a power cut among the warps: grippers and heads are not at home, and a drive may state that they are."""
+    loom = PlcLoom(small_programme(3, 12, 2, 2))
+    loom.start()
+    loom.until("KnotsDone", 3)
+    while not any(0 < head.elapsed < head.left for head in loom.stations[:2]):
+        loom.scan()
+    loom.power_cut(tied=True)
+    assert not all(loom.sensors["GrippersOpen"])
+    acts = [act]
+    loom.home_act = lambda: acts.pop() if acts else HONEST
+    loom.homed.clear()
+    loom.command = PackCommand.RESET
+    loom.scan()
+    loom.until("StateCurrent", int(PackState.STOPPED), 200)
+    assert loom.read("Alarm") == ALARMS[ControlFault.NOT_HOME].number
+    loom.attend(5000)
+    assert loom.homed.index("grippers") < loom.homed.index("heads")
+    assert loom.woven()
+
+
+@pytest.mark.parametrize("scans", range(2, 60, 6))
+def test_power_that_fails_while_axes_are_homed_begins_homing_anew(scans: int) -> None:
+    loom = PlcLoom(small_programme(3, 12, 2, 2))
+    loom.attend(120)
+    loom.power_cut(tied=bool(scans % 4))
+    loom.attend(scans)
+    loom.power_cut(tied=bool(scans % 3))
+    loom.homed.clear()
+    loom.attend(5000)
+    assert sorted(loom.homed) == sorted(axis.value for axis in LoomAxis)
+    assert loom.woven()
+
+
+def test_a_loom_that_is_not_at_home_does_not_start() -> None:
+    """Manual mode needs no homing; the mode is changed in Idle, and Start is refused."""
+    loom = PlcLoom(small_programme(3, 12, 2, 2))
+    loom.scan(UnitMode=int(PackMode.MANUAL), UnitModeChangeRequest=True)
+    loom.command = PackCommand.RESET
+    loom.until("StateCurrent", int(PackState.IDLE), 50)
+    loom.scan(UnitMode=int(PackMode.PRODUCTION), UnitModeChangeRequest=False)
+    loom.scan(UnitModeChangeRequest=True)
+    loom.command = PackCommand.START
+    loom.scan()
+    assert loom.read("Refused")
+    assert loom.read("StateCurrent") == int(PackState.IDLE)
 
 
 def test_a_report_without_an_order_holds_the_loom() -> None:

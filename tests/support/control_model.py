@@ -22,7 +22,18 @@ from ilmek.loom.control.exchange import Acknowledged, Answered, Commanded, Contr
 from ilmek.loom.control.journal import HEADER_BYTES, RECORD_BYTES, RecordKind
 from ilmek.loom.control.opening import open_journal
 from ilmek.loom.control.packml import PackCommand, PackState, allowed_commands
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Order, Sensors, SensorsChanged, Tie
+from ilmek.loom.control.ports import (
+    ChangePackages,
+    Done,
+    EndRow,
+    Failed,
+    Fault,
+    Home,
+    Order,
+    Sensors,
+    SensorsChanged,
+    Tie,
+)
 from ilmek.loom.control.state import ControllerSettings
 from ilmek.loom.operations import LoomSetup, RowEnd, RowOperations, Stop, TubeChange
 
@@ -192,7 +203,8 @@ class Model:
             tuple((key, one.operation, one.onward, one.trusted, one.sensor, one.request is None)
                   for key, one in sorted(state.doubts.items())) if state.doubts else (),
             tuple(state.retried), tuple((name, one.present, one.acknowledged) for name, one in state.alarms.items()),
-            len(state.requests), state.halted, state.verified, state.suspended_by_alarm, state.pending,
+            len(state.requests),
+            state.halted, state.verified, state.suspended_by_alarm, state.pending,
             world.moving, world.woven, len(world.questions), world.sensors is READY, world.budget,
             world.disc.meaning, world.disc.tail(),
         )  # fmt: skip
@@ -282,7 +294,8 @@ class Model:
             disc = Disc(
                 disc.content, len(disc.content), self.meaning(controller, disc), disc.operations + new_ones(disc)
             )
-        for order in outputs.orders:
+        homes = tuple(Done(order, 0) for order in outputs.orders if isinstance(order, Home))
+        for order in outputs.orders if not homes else ():
             bit = self.bits[order]
             assert not (world.woven | halted) & bit, f"{order!r} is ordered, and may be in the carpet"
             assert not moving & bit, f"{order!r} is in progress"
@@ -292,7 +305,11 @@ class Model:
         assert uncertain < self.group + self.programme.setup.heads, f"{uncertain} operations are not durable"
         questions = outputs.questions if outputs.halt else (*world.questions, *outputs.questions)
         for cut_off in self.subsets(halted):
-            yield World(controller, moving, world.woven | cut_off, disc, questions, world.sensors, world.budget)
+            after = World(controller, moving, world.woven | cut_off, disc, questions, world.sensors, world.budget)
+            if homes:  # each axis is at its switch; a crash before that is one in state Resetting
+                yield from self.reacted(after, homes)
+            else:
+                yield after
 
     def crashing(self, disc: Disc, moving: int, woven: int, budget: Budget) -> Iterator[World]:
         left = replace(budget, crashes=budget.crashes - 1)

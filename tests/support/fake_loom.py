@@ -12,6 +12,7 @@ from ilmek.loom.control.ports import (
     EndRow,
     Failed,
     Fault,
+    Home,
     Order,
     PortReport,
     Sensors,
@@ -58,7 +59,8 @@ class FakeLoom:
         fault = self.fails(order)
         if fault is not None:
             return (Failed(order, fault, self.time),)
-        self.woven.append(order)
+        if not isinstance(order, Home):
+            self.woven.append(order)
         reports: list[PortReport] = []
         if isinstance(order, EndRow) and order.operation in AWAY:
             away: dict[str, Any] = {AWAY[order.operation]: False}
@@ -116,7 +118,7 @@ class MemoryStore:
 
 
 def carry_out(outputs: ControlOutputs, loom: FakeLoom, store: MemoryStore) -> tuple[ControlInput, ...]:
-    """Do what a controller has decided; the sensor's answers."""
+    """Do what a controller has decided; the sensor's answers, and reports of axes that are at home at once."""
     if outputs.halt:
         loom.halt()
     if outputs.append:
@@ -125,9 +127,10 @@ def carry_out(outputs: ControlOutputs, loom: FakeLoom, store: MemoryStore) -> tu
         store.sync()
     if outputs.speed is not None:
         loom.set_speed(outputs.speed)
-    if outputs.orders:
+    homes = [Done(order, loom.time) for order in outputs.orders if isinstance(order, Home)]
+    if outputs.orders and not homes:
         loom.send(outputs.orders)
-    return tuple(Sensed(one, loom.answer(one)) for one in outputs.questions)
+    return *homes, *(Sensed(one, loom.answer(one)) for one in outputs.questions)
 
 
 def step(

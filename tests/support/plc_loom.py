@@ -11,9 +11,11 @@ from typing import Any
 
 from structured_text import Instance, Machine, PowerCut
 
+from ilmek.io.plc.homing_logic import HOME_CODES
 from ilmek.io.plc.host_data import HostRow, digest_words, host_row
 from ilmek.io.plc.project import plc_project, size_of
 from ilmek.loom.control.alarms import ALARMS, JournalFault
+from ilmek.loom.control.interlocks import LoomAxis
 from ilmek.loom.control.packml import PackCommand, PackState
 from ilmek.loom.operations import LoomProgramme, RowEnd
 
@@ -21,6 +23,17 @@ SENSORS: dict[str, Any] = {
     "EmergencyStop": False, "DoorClosed": True, "WarpTensionKnown": True, "WarpTension": 15.0,
     "BeaterBack": True, "ShedClosed": True,
 }  # fmt: skip
+AWAY = {
+    RowEnd.STRAIGHT_WEFT: "ShedClosed",
+    RowEnd.FIRST_BEAT: "BeaterBack",
+    RowEnd.SINUOUS_WEFT: "ShedClosed",
+    RowEnd.SECOND_BEAT: "BeaterBack",
+}
+"""The sensor that changes, and returns, in an operation after the knots."""
+
+HOMES = {code: axis for axis, code in HOME_CODES.items()}
+"""The axes by the numbers of the operations that home them."""
+
 CYCLE = 0.5
 """Cycle of the program in tests [s]: a knot takes 4 scans and more."""
 
@@ -103,6 +116,7 @@ class PlcLoom:
 
     heads_clear  what the sensor states; None: the heads are clear while none ties
     carpet  (row, column) -> the tubes from which knots were tied there      ends  row ends in their order
+    home_act    what the loom does with its next order to home an axis
     next_act    what a station does with its next order       disturb_row, disturb_recipe  what a bad host gives instead
     """
 
@@ -116,15 +130,17 @@ class PlcLoom:
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
         self.scans = self.row = self.command = 0
-        self.given = self.requested = -1
+        self.given = self.requested = self.back_to = -1
         self.heads_clear: bool | None = None
         self.alarms: list[int] = []
         self.next_act: Callable[[int], Act] = lambda _: HONEST
+        self.home_act: Callable[[], Act] = lambda: HONEST
         self.disturb_row: Callable[[HostRow], HostRow] = lambda row: row
         self.disturb_recipe: Callable[[dict[str, Any]], dict[str, Any]] = lambda recipe: recipe
-        self.host_silent = False
+        self.host_silent = self.between = False
+        self.homed: list[str] = []
         self.stations = [self._head(head) for head in range(self.heads)]
-        self.stations.append(Station(self._end_scans, lambda: self.next_act(self.heads), self._end))
+        self.stations.append(Station(self._end_scans, self._end_act, self._end))
         self._changing = 0
         self._latch()
 
@@ -136,8 +152,11 @@ class PlcLoom:
     def _head(self, head: int) -> Station:
         return Station(lambda: 4 + head, lambda: self.next_act(head), lambda: self._tie(head))
 
+    def _end_act(self) -> Act:
+        return self.home_act() if self.end_code in HOMES else self.next_act(self.heads)
+
     def _end_scans(self) -> int:
-        return self.size.row_ends[self.end_code].least + 2
+        return 3 if self.end_code in HOMES else self.size.row_ends[self.end_code].least + 2
 
     def next_carpet(self, programme: LoomProgramme) -> None:
         """An operator takes the carpet out; the host has another programme, and begins its journal."""
@@ -146,9 +165,12 @@ class PlcLoom:
         self.ends.clear()
 
     def take_out(self, rows: int) -> None:
-        """An operator takes out the row in work and whole rows before it, and sets the host's journal back."""
+        """An operator takes out the row in work and whole rows before it, and sets the host's journal back.
+
+        The journal stays there until the program requests that row.
+        """
         self.row -= rows
-        self.given = min(self.given, self.row)
+        self.given = self.back_to = min(self.given, self.row)
         self.carpet = {place: tubes for place, tubes in self.carpet.items() if place[0] < self.row}
         self.ends = [end for end in self.ends if end[0] < self.row]
 
@@ -159,7 +181,9 @@ class PlcLoom:
         if self.host_silent:
             return
         setup, number = self.programme.setup, self.read("RowRequest")
-        if 0 <= number < setup.rows:
+        if number == self.back_to:
+            self.back_to = -1
+        if 0 <= number < setup.rows and self.back_to < 0:
             self.given = max(self.given, number)
         recipe = {"Programme": digest_words(self.programme.digest), "Rows": setup.rows, "Columns": setup.columns,
                   "Tubes": setup.tubes, "Row": self.given}  # fmt: skip
@@ -205,17 +229,14 @@ class PlcLoom:
         if self._changing == 2:
             self.changes.append(self.row)
         command, self.command = self.command, 0
-        clear = self.heads_clear if self.heads_clear is not None else not any(self.orders[:-1])
-        moving = RowEnd(self.end_code) if end.elapsed and not end.done else None
+        clear = self.heads_clear if self.heads_clear is not None else not (self.between or any(self.orders[:-1]))
         given = {
             **self.sensors, "HeadsClear": clear, "TieDone": [one.done for one in heads],
             "TieStatus": [one.status for one in heads], "EndDone": end.done, "EndStatus": end.status,
             "ChangeDone": self._changing >= 2, "CntrlCmd": command, "CmdChangeRequest": command > 0,
         }  # fmt: skip
-        if moving in {RowEnd.FIRST_BEAT, RowEnd.SECOND_BEAT}:
-            given["BeaterBack"] = False
-        elif moving in {RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT}:
-            given["ShedClosed"] = False
+        if end.elapsed and not end.done and self.end_code in AWAY:
+            given[AWAY[RowEnd(self.end_code)]] = False
         self.machine.run(self.loom, **(given | inputs))
         self._latch()
         alarm = self.read("Alarm")
@@ -270,6 +291,7 @@ class PlcLoom:
             with suppress(PowerCut):
                 self.scan()
             self.machine.steps = -1
+        self._left_where_it_was()
         for station in self.stations:
             station.cut_off(ended=tied)
         retained = {one.name for one in self.loom.unit.variables if one.section == "VAR RETAIN"}
@@ -283,9 +305,37 @@ class PlcLoom:
         self.carpet.setdefault((self.row, self.columns[head]), []).append(self.tubes[head])
 
     def _end(self) -> None:
-        """An operation after the knots is in the carpet."""
+        """An operation after the knots is in the carpet, or an axis is at home."""
+        if self.end_code in HOMES:
+            self._home(HOMES[self.end_code])
+            return
         self.ends.append((self.row, self.end_code))
         self.row += self.end_code == RowEnd.TAKE_UP
+
+    def _home(self, axis: LoomAxis) -> None:
+        """An axis moves to its switch: nothing but the grippers while one of them is closed on warps."""
+        self.homed.append(axis.value)
+        if axis is LoomAxis.GRIPPERS:
+            self.sensors["GrippersOpen"] = [True] * self.heads
+        assert all(self.sensors["GrippersOpen"]), f"{axis} moves with yarn in a gripper"
+        if axis is LoomAxis.HEADS:
+            assert self.sensors["ShedClosed"]
+            assert self.sensors["BeaterBack"]
+            self.between = False
+        elif axis in {LoomAxis.BEATER, LoomAxis.SHED}:
+            assert not self.between, f"{axis} strikes a head"
+            self.sensors["BeaterBack" if axis is LoomAxis.BEATER else "ShedClosed"] = True
+
+    def _left_where_it_was(self) -> None:
+        """Power fails: what moved is not at its switch any more."""
+        *heads, end = self.stations
+        closed = [0 < head.elapsed < head.left for head in heads]
+        self.sensors["GrippersOpen"] = [
+            was and not now for was, now in zip(self.sensors["GrippersOpen"], closed, strict=True)
+        ]
+        self.between = self.between or any(closed)
+        if 0 < end.elapsed < end.left and self.end_code in AWAY:
+            self.sensors[AWAY[RowEnd(self.end_code)]] = False
 
     def woven(self) -> bool:
         """Whether every knot is in the carpet once, in its colour, and every operation after the knots once."""

@@ -189,9 +189,9 @@ def test_leaders_do_not_cross_for_tips_at_random() -> None:
 
 
 def test_a_shaft_is_taken_out_of_its_hub_along_their_axis() -> None:
-    hub = Part("probe/hub", "hub", "turned part", "", tube(0.06, 0.015, 0.02), STEEL)
-    shaft = Part("probe/shaft", "shaft", "turned part", "", bar(0.03, 0.02), STEEL)
-    plate = Part("probe/plate", "plate", "laser-cut part", "", box(0.2, 0.2, 0.01), STEEL)
+    hub = Part("probe/hub", "hub", "turned part", tube(0.06, 0.015, 0.02), STEEL)
+    shaft = Part("probe/shaft", "shaft", "turned part", bar(0.03, 0.02), STEEL)
+    plate = Part("probe/plate", "plate", "laser-cut part", box(0.2, 0.2, 0.01), STEEL)
     turned = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
     stand = RigidBody("stand", (Occurrence(plate, (placement(z=-0.3),)), Occurrence(hub, (turned,))))
     turning = RigidBody("turning", (Occurrence(shaft, (turned,)),), "stand", Joint(JointKind.PIN, axis=(0.0, 1.0, 0.0)))

@@ -32,7 +32,7 @@ LONE = ("weft", "tufting-machine", "shedding", "hammer")
 
 
 def plate(name: str, thickness: float, wide: float = 0.06, z: float = 0.0) -> Occurrence:
-    part = Part(f"test/{name}", name, "machined link", "", box(wide, 0.05, thickness), STEEL)
+    part = Part(f"test/{name}", name, "machined link", box(wide, 0.05, thickness), STEEL)
     return Occurrence(part, (placement(z=z),))
 
 
@@ -76,7 +76,7 @@ def test_of_two_bought_parts_the_heads_are_in_the_flange_of_the_motor(row: Motor
 
 
 def test_a_tube_has_threads_in_its_wall_and_no_heads_in_it() -> None:
-    tube = Part("test/tube", "tube", "welded frame", "", square_tube(0.06, 0.006, 0.3), STEEL)
+    tube = Part("test/tube", "tube", "welded frame", square_tube(0.06, 0.006, 0.3), STEEL)
     lies = placement(y=0.03, about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
     tree = bolted(Tree((RigidBody("test/body", (Occurrence(tube), Occurrence(plate("top", 0.012).part, (lies,)))),)))
     (screw,) = (own.part for own in tree.bodies[0].occurrences if own.part.joins)

@@ -18,6 +18,7 @@ from ilmek.loom.control.exchange import (
     StoreFailed,
     WeavingStep,
 )
+from ilmek.loom.control.homing import HOMED
 from ilmek.loom.control.opening import journal_records, open_journal
 from ilmek.loom.control.packml import MODE_STATES, PackCommand, PackMode, PackState, allowed_commands
 from ilmek.loom.control.ports import Done, EndRow, Failed, Fault, Order, SensorsChanged, Tie
@@ -354,7 +355,7 @@ def test_nothing_begins_before_the_sensors_are_known() -> None:
     step(controller, loom, store, (RESET,))
     step(controller, loom, store, (START,))
     assert loom.moving == []
-    assert (controller.status().state, alarms(controller)) == (PackState.HELD, [ControlFault.NO_SENSORS])
+    assert (controller.status().state, alarms(controller)) == (PackState.RESETTING, [ControlFault.NO_SENSORS])
 
 
 def test_a_flood_of_commands_writes_nothing_to_the_journal() -> None:
@@ -375,7 +376,7 @@ def test_a_command_that_a_state_forbids_changes_nothing(mode: PackMode, state: P
     for one in PackCommand:
         controller = Controller(PROGRAMME, open_journal(b"", PROGRAMME))
         controller.react((SensorsChanged(READY, 0),))
-        controller.state.state, controller.state.mode = state, mode
+        controller.state.state, controller.state.mode, controller.state.homed = state, mode, set(HOMED)
         draft = Draft()
         controller._commanded(Commanded(one), draft)
         allowed = one in allowed_commands(mode, state)

@@ -61,6 +61,11 @@ class Weaving:
             answers = self.carry_out(outputs)
         self.alarms |= {one.kind.name for one in self.controller.status().alarms}
 
+    def command(self, command: PackCommand) -> None:
+        """Give a command; after a reset the axes go home."""
+        self.react(Commanded(command))
+        self.weave(lambda: self.state is not PackState.RESETTING)
+
     def carry_out(self, outputs: ControlOutputs) -> tuple[ControlInput, ...]:
         found: list[ControlInput] = []
         if outputs.halt:
@@ -91,7 +96,7 @@ class Weaving:
         self.react(*self.port.receive(0.0))
         self.react(Acknowledged())
         for command in GO_ON.get(self.state, ()):
-            self.react(Commanded(command))
+            self.command(command)
             for one in self.controller.status().requests:
                 self.react(Answered(one.number, self.true(one.operation)))
 
@@ -116,7 +121,7 @@ class Weaving:
 def started(rates: FaultRates = NO_FAULTS) -> Weaving:
     weaving = Weaving(rates)
     for command in START:
-        weaving.react(Commanded(command))
+        weaving.command(command)
     return weaving
 
 

@@ -25,7 +25,7 @@ pytest.importorskip("OCP")
 
 def written(shape: Shape, folder: Path, process: str) -> Drawing:
     """The sheet of a part of that shape, read back."""
-    part = Part("probe/thing", "thing", process, "", shape, find_material("structural steel"))
+    part = Part("probe/thing", "thing", process, shape, find_material("structural steel"))
     tree = Tree((RigidBody("body", (Occurrence(part),)),))
     report = Report("probe", "Probe", {}, (), (), plates=plates_of(tree), pieces=pieces_of(tree))
     write_workshop(report, folder)

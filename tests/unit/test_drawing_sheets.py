@@ -52,7 +52,7 @@ def dimensions(document: Drawing) -> Iterator[tuple[int, bool, float, str]]:
 
 def written(shape: Shape, folder: Path, process: str = "machined link") -> Drawing:
     """The sheet of a part of that shape, read back."""
-    part = Part("probe/thing", "thing", process, "", shape, find_material("structural steel"))
+    part = Part("probe/thing", "thing", process, shape, find_material("structural steel"))
     tree = Tree((RigidBody("body", (Occurrence(part),)),))
     report = Report("probe", "Probe", {}, (), (), plates=plates_of(tree), pieces=pieces_of(tree))
     write_workshop(report, folder)
@@ -308,7 +308,7 @@ def test_what_needs_no_kernel_is_drawn_without_it(tmp_path: Path, monkeypatch: p
     monkeypatch.setattr("ilmek.jobs.drawings._projector", lambda: None)
     bent = Sum((Placed(box(0.02, 0.1, 0.01)), Placed(box(0.02, 0.01, 0.05), (placement(0.0, 0.05, 0.01),))))
     steel = find_material("structural steel")
-    parts = [Part(f"probe/{n}", n, "turned part", "", s, steel) for n, s in (("bent", bent), ("pin", bar(0.006, 0.02)))]
+    parts = [Part(f"probe/{n}", n, "turned part", s, steel) for n, s in (("bent", bent), ("pin", bar(0.006, 0.02)))]
     tree = Tree((RigidBody("body", tuple(map(Occurrence, parts))),))
     made = write_workshop(Report("probe", "Probe", {}, (), (), pieces=pieces_of(tree)), tmp_path / "out")
     assert [entry["of"] for entry in made.entries if entry["kind"] == "sheet"] == ["pin"]

@@ -24,7 +24,7 @@ PIN, WIDE = 6 * mm, 10 * mm
 
 
 def made(name: str, shape: Shape, z: float = 0.0, *, turning: bool = False) -> Occurrence:
-    return Occurrence(Part(f"test/{name}", name, "pin or bush", "", shape, STEEL), (placement(z=z),), turning)
+    return Occurrence(Part(f"test/{name}", name, "pin or bush", shape, STEEL), (placement(z=z),), turning)
 
 
 def fork(bore: float, second: float) -> Tree:
@@ -109,7 +109,7 @@ def test_feet_have_threads_and_what_stands_beside_the_loom_is_anchored() -> None
 
 
 def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
-    post, arm = (Part(f"test/{name}", name, "welded frame", "", square_tube(0.05, 0.005, 0.4), STEEL) for name in "ab")
+    post, arm = (Part(f"test/{name}", name, "welded frame", square_tube(0.05, 0.005, 0.4), STEEL) for name in "ab")
     lies = placement(0.05, 0.05)
     beside = Occurrence(arm, (lies,))
     assert fastenings(Tree((RigidBody("test/body", (Occurrence(post), beside)),))).loose

@@ -69,9 +69,7 @@ def test_its_files_are_the_flat_pattern_and_the_bent_solid(tmp_path: Path) -> No
     from OCP.TopExp import TopExp_Explorer  # noqa: PLC0415
     from OCP.TopoDS import TopoDS  # noqa: PLC0415
 
-    part = Part(
-        "probe/trough", "trough", "laser-cut part", "2 mm", sheet_of("trough"), find_material("structural steel")
-    )
+    part = Part("probe/trough", "trough", "laser-cut part", sheet_of("trough"), find_material("structural steel"))
     tree = Tree((RigidBody("body", (Occurrence(part),)),))
     write_workshop(
         Report("probe", "Probe", {}, (), (), plates=plates_of(tree), pieces=pieces_of(tree)), tmp_path / "out"

@@ -27,9 +27,7 @@ def test_the_row_of_grooves_is_that_of_the_shape(tmp_path: Path, number: int, pi
     points = [complex(start + along, radius) for start in starts.tolist() for along, radius in edges]
     length = begin + pitch * number + 25e-3
     outline = polygon(np.array([0j, length + 0j, complex(length, outer), *points, complex(0, outer)]))
-    part = Part(
-        "probe/roller", "roller", "turned part", "", Turned(Profile(outline)), find_material("structural steel")
-    )
+    part = Part("probe/roller", "roller", "turned part", Turned(Profile(outline)), find_material("structural steel"))
     tree = Tree((RigidBody("body", (Occurrence(part),)),))
     write_workshop(Report("probe", "Probe", {}, (), (), pieces=pieces_of(tree)), tmp_path / "out")
     sheet = ezdxf.readfile(tmp_path / "out" / "roller.sheet.dxf")

@@ -117,8 +117,8 @@ def test_threads_are_called_with_their_depth_and_core(tmp_path: Path) -> None:
 def test_a_hole_is_in_the_pieces_that_have_its_screw() -> None:
     """Two bars, and a plate on one of them alone."""
     steel = find_material("structural steel")
-    post = Part("probe/post", "post", "machined link", "", box(30 * mm, 30 * mm, 200 * mm), steel)
-    plate = Part("probe/plate", "plate", "machined link", "", box(30 * mm, 60 * mm, 8 * mm), steel)
+    post = Part("probe/post", "post", "machined link", box(30 * mm, 30 * mm, 200 * mm), steel)
+    plate = Part("probe/plate", "plate", "machined link", box(30 * mm, 60 * mm, 8 * mm), steel)
     both = Occurrence(post, (placement(), placement(x=0.5)))
     on_first = Occurrence(plate, (placement(z=200 * mm),))
     (kinds,) = hole_kinds(bolted(Tree((RigidBody("frame", (both, on_first)),)))).values()
@@ -154,7 +154,7 @@ def test_a_pin_is_cut_from_its_bar_bored_or_not(bored: bool) -> None:
     hole = Drilling(placement(), ((3 * mm, 6 * mm),))
     pin = bar(8 * mm, 50 * mm)
     shape = pin if not bored else with_bore(hole)
-    part = Part("probe/pin", "pin", "turned part", "", shape, find_material("heat-treatable steel"))
+    part = Part("probe/pin", "pin", "turned part", shape, find_material("heat-treatable steel"))
     assert size_of(part) == "round 8 mm, 52 mm"
 
 

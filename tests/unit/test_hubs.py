@@ -69,10 +69,10 @@ def test_a_hub_between_nothing_is_found() -> None:
     end = keyed_end(0.02, 1.0, 490e6)
     long = replace(end, length=0.1)
     steel = MATERIALS["structural steel"]
-    hub = Part("hub", "hub", "turned part", "", Prism(disc(0.02, *round_bore(0.02).cutouts), 0.02), steel)
+    hub = Part("hub", "hub", "turned part", Prism(disc(0.02, *round_bore(0.02).cutouts), 0.02), steel)
     plain = catalogue.keyed_journal(long)
     shafts = plain, Sum((Placed(bar(0.03, 0.01)), Placed(plain, (placement(z=0.01),))))
-    nut = Part("nut", "nut", "turned part", "", tube(0.03, 0.005, 0.01), steel)
+    nut = Part("nut", "nut", "turned part", tube(0.03, 0.005, 0.01), steel)
     screwed = replace(hub, seats={SET_SCREW: Seat(placement(), 0.004)})
     cases = (
         (shafts[0], hub, (), True),
@@ -81,7 +81,7 @@ def test_a_hub_between_nothing_is_found() -> None:
         (shafts[0], screwed, (), False),
     )
     for shape, ring, others, loose in cases:
-        shaft = Part("shaft", "shaft", "turned part", "", shape, steel)
+        shaft = Part("shaft", "shaft", "turned part", shape, steel)
         parts = (Occurrence(shaft), Occurrence(ring, (placement(z=0.01),)), *others)
         tree = Tree((RigidBody("turning", parts, joint=Joint(JointKind.PIN)),))
         assert loose_hubs(tree) == ({"hub"} if loose else set())
@@ -162,11 +162,11 @@ def test_the_rod_that_a_hand_lifts_has_play_within_general_tolerances() -> None:
 def test_a_joint_without_a_fit_is_found() -> None:
     """A pin of another size than its bore, a slide beside its face; a roller on nothing; and each as it should be."""
     steel = MATERIALS["structural steel"]
-    plate = Part("plate", "plate", "machined link", "", Prism(disc(0.05, circle(0j, 0.006)), 0.01), steel)
+    plate = Part("plate", "plate", "machined link", Prism(disc(0.05, circle(0j, 0.006)), 0.01), steel)
     for size, apart, loose in ((0.012, 0.0, ()), (0.0118, 0.0001, ("turns", "slides", "roller"))):
-        pin = Part("pin", "pin", "pin or bush", "", bar(size, 0.03), steel)
-        shoe = Part("shoe", "shoe", "machined link", "", box(0.02, 0.02, 0.01), steel)
-        roller = Part("roller", "roller", "turned part", "", tube(0.03, 0.009, 0.01), steel)
+        pin = Part("pin", "pin", "pin or bush", bar(size, 0.03), steel)
+        shoe = Part("shoe", "shoe", "machined link", box(0.02, 0.02, 0.01), steel)
+        roller = Part("roller", "roller", "turned part", tube(0.03, 0.009, 0.01), steel)
         bodies = (
             RigidBody("stands", (Occurrence(plate),)),
             RigidBody("turns", (Occurrence(pin),), "stands", Joint(JointKind.PIN)),
@@ -191,11 +191,12 @@ def test_a_keyed_hub_sits_on_a_groove(machine: str, settings: Any) -> None:
 
 ORDERED = {
     "reducer": r"(right-angle )?(planetary|worm) reducer \d+:1(?=.*(shaft \d|for a motor))",
-    "servo": r"servo \d+ W, \d+ rpm, .*peak .*flange \d+.* mm, shaft \d+|to measure: .*",
-    "stepper": r"stepper NEMA \d+, .*holding .*flange \d+.* mm, shaft \d+",
+    "servo": r"servo \d+ W, \d+ rpm, .*peak .*flange \d+.* mm, shaft \d+.*, absolute multi-turn encoder|to measure: .*",
+    "stepper": r"stepper NEMA \d+, .*holding .*flange \d+.* mm, shaft \d+.*, absolute multi-turn encoder",
     "bearing": r"\d{4}-2RS, DIN 625-1|UCF \d{3}, ISO 9628.*|HF\d+|CF \d+.*|idler .*|NU .*",
     "toothed pulley": r"pulley .* \d+ teeth, \d+ mm wide.*bore \d+.*",
-    "linear axis": r".*(\d+ mm wide|linear axis).*",
+    "linear axis": r".*(\d+ mm wide|linear axis).*, stroke at least \d.*",
+    "holding brake": r".*, built by its maker onto .+",
     "spring": r".*\d+.*coils.*",
     "belt and pulleys": r".*\d+ mm wide.*",
 }

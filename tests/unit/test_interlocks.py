@@ -106,9 +106,9 @@ def test_a_head_waits_for_its_own_gripper_alone() -> None:
 def weaving(sensors: Sensors = READY) -> tuple[Controller, FakeLoom, MemoryStore]:
     loom, store = FakeLoom(), MemoryStore()
     controller = Controller(PROGRAMME, open_journal(b"", PROGRAMME))
+    step(controller, loom, store, (SensorsChanged(READY, 0), Commanded(PackCommand.RESET)))
     loom.now = sensors
-    step(controller, loom, store, (SensorsChanged(sensors, 0), Commanded(PackCommand.RESET)))
-    step(controller, loom, store, (Commanded(PackCommand.START),))
+    step(controller, loom, store, (SensorsChanged(sensors, 0), Commanded(PackCommand.START)))
     return controller, loom, store
 
 

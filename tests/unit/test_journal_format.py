@@ -101,7 +101,7 @@ def test_a_bit_flipped_in_a_durable_record_is_an_error_that_names_the_record(byt
 def test_a_bit_flipped_in_the_last_record_makes_it_uncertain() -> None:
     """No later record knows that it was durable: it is cut off as a torn one, and its knot is queried."""
     content, _ = woven()
-    length = HEADER_BYTES + 12 * RECORD_BYTES
+    length = HEADER_BYTES + 19 * RECORD_BYTES
     opened = open_journal(content[: length - 1] + b"\x00", PROGRAMME)
     assert opened.cut == RECORD_BYTES
     assert opened.uncertain

@@ -16,7 +16,7 @@ from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tr
 from ilmek.report.scene import SceneMotion
 from ilmek.units import turn
 
-_PART = Part("bar", "bar", "bar", "", box(0.1, 0.1, 0.1), MATERIALS["structural steel"])
+_PART = Part("bar", "bar", "bar", box(0.1, 0.1, 0.1), MATERIALS["structural steel"])
 _ANGLE = np.linspace(0.0, turn, 25)
 _STILL = np.zeros(25)
 

@@ -26,6 +26,7 @@ SLOW = {
         "plan-a-factory",
     ),
     *("prepare-a-picture", "run-the-loom", "weave-on-a-loom-that-exists", "weave-row-by-row", "write-a-recipe"),
+    "tuft-a-picture",
     *("check-a-programme", "first-studio", "studio-api", "use-it-from-python", "automated-loom", "verdict"),
 }
 """Pages of more than three seconds of processor time."""

@@ -28,8 +28,8 @@ from ilmek.report.scene import SceneMotion
 from ilmek.units import deg
 
 STEEL = MATERIALS["structural steel"]
-AXLE = Part("stub/axle", "axle", "steel bar", "round 20 mm", bar(0.02, 0.5), STEEL)
-WHEEL = Part("stub/wheel", "wheel", "laser-cut part", "", Prism(disc(0.1, circle(0j, 0.01)), 0.01), STEEL)
+AXLE = Part("stub/axle", "axle", "steel bar", bar(0.02, 0.5), STEEL)
+WHEEL = Part("stub/wheel", "wheel", "laser-cut part", Prism(disc(0.1, circle(0j, 0.01)), 0.01), STEEL)
 MOTOR = Part("stub/motor", "motor", "stepper", purchase=Bought("NEMA 17", 0.4, power=50.0, drives=True))
 
 

@@ -63,7 +63,7 @@ def test_a_size_or_a_bore_that_is_left_out_is_found(tmp_path: Path) -> None:
     def link(length: float, bore: float, thick: float, aside: float = 0.0) -> Part:
         ends, holes = (0j, complex(length, aside)), (circle(0j, bore / 2), circle(complex(length, aside), 4 * mm))
         shape = Prism(Profile(rounded_hull(np.array(ends), 15 * mm), holes), thick)
-        return Part("probe/link", "link", "machined link", "", shape, find_material("structural steel"))
+        return Part("probe/link", "link", "machined link", shape, find_material("structural steel"))
 
     own = link(200 * mm, 10 * mm, 8 * mm)
     (plate,) = plates_of(Tree((RigidBody("body", (Occurrence(own),)),)))
@@ -80,7 +80,7 @@ def test_a_size_or_a_bore_that_is_left_out_is_found(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("shift", "stated"), [(0.0, True), (0.05 * mm, False)])
 def test_a_part_in_an_even_row_states_its_pitch_and_tolerance(shift: float, stated: bool) -> None:
     """Twelve leaves at 4 mm, and with one beside its place."""
-    leaf = Part("probe/leaf", "leaf", "laser-cut part", "", box(60 * mm, 20 * mm, 1 * mm), STEEL)
+    leaf = Part("probe/leaf", "leaf", "laser-cut part", box(60 * mm, 20 * mm, 1 * mm), STEEL)
     places = tuple(placement(z=4 * mm * k + shift * (k == 5)) for k in range(12))
     tree = Tree((RigidBody("comb", (Occurrence(leaf, places),)),))
     (plate,) = plates_of(tree)

@@ -37,7 +37,7 @@ class Lamp:
     @property
     def shade(self):
         section = box(self.params.width, 0.05, 0.002)
-        return Part("lamp/shade", "shade of the lamp", "laser-cut part", "", section, find_material("structural steel"))
+        return Part("lamp/shade", "shade of the lamp", "laser-cut part", section, find_material("structural steel"))
     @property
     def tree(self):
         return Tree((RigidBody("lamp", (Occurrence(self.shade),), joint=Joint(JointKind.MISSING)),))

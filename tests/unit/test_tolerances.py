@@ -32,7 +32,7 @@ STEEL = MATERIALS["structural steel"]
 
 
 def _made(name: str, shape: Shape, process: str = "machined link") -> Part:
-    return Part(name, name, process, "", shape, STEEL)
+    return Part(name, name, process, shape, STEEL)
 
 
 def _plate(name: str, *bores: tuple[float, float], thick: float = 10 * mm) -> Part:
@@ -268,7 +268,7 @@ def test_features_of_a_sum_lie_where_its_members_do() -> None:
 
 
 def test_the_specification_of_a_part_states_its_process_and_hardening() -> None:
-    hardened = Part("pin", "pin", "pin or bush", "", bar(8 * mm, 0.1), MATERIALS["induction-hardened steel"])
+    hardened = Part("pin", "pin", "pin or bush", bar(8 * mm, 0.1), MATERIALS["induction-hardened steel"])
     made = specification(hardened)
     assert made.hardening is not None
     assert (made.hardening.kind, made.hardening.hardness, made.depth) == ("SHD", 55, pytest.approx(1 * mm))

@@ -17,13 +17,14 @@ from skimage.measure import find_contours, label
 
 from ilmek.cli import main
 from ilmek.io.gcode import gcode
-from ilmek.machines.tufting_gun.design import Cone, tufted_by_gun
+from ilmek.machines.tufting_gun.design import tufted_by_gun
 from ilmek.machines.tufting_gun.params import TuftingGunParams
 from ilmek.plane.level_sets import level_polygons
 from ilmek.weaving.gun.plan import GunPlan, gun_plan
 from ilmek.weaving.gun.reduction import opened, reduced
 from ilmek.weaving.gun.regions import polygons_of, tuftable
 from ilmek.weaving.gun.travel import in_order, least_travel, travel_of
+from ilmek.weaving.tufts import Cone
 
 SPACING, CELL, PIXEL = 3e-3, 1e-3, 0.25e-3
 SMALLEST = 5e-3

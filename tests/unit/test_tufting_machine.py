@@ -12,6 +12,7 @@ from scipy.optimize import brentq
 from ilmek.errors import ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tufting_machine import TuftingMachine
+from ilmek.machines.tufting_machine.price import tufting_price
 from ilmek.timing.cyclogram import check_cyclogram
 from ilmek.timing.track import sample
 from ilmek.units import deg, mm, turn
@@ -248,3 +249,60 @@ def test_the_cyclogram_has_the_motion_of_the_linkages() -> None:
     assert all(check.ok for check in check_cyclogram(stitch))
     (late,) = MACHINE.cyclograms(made(**{"looper.late": "60deg"}))
     assert not all(check.ok for check in check_cyclogram(late))
+
+
+def numbers(**settings: str) -> dict[str, float]:
+    """Pieces of the machine's parts by id."""
+    counted: dict[str, float] = {}
+    for line in tufting_price(made(**settings)).lines:
+        counted[line.part] = counted.get(line.part, 0) + line.number
+    return counted
+
+
+SCROLLED = {"width": "1.2m", "drives": "3", "pattern.attachment": "scrolls", "pattern.colours": "3"}
+
+
+def test_a_scroll_for_each_needle_stands_in_tiers_and_has_its_motor() -> None:
+    report = MACHINE.report(made(**SCROLLED), illustrated=False)
+    found = {result.name: result.value for result in report.results}
+    assert not report.failed
+    assert found["needles"] == found["yarn_rollers"] == 377
+    assert found["assembly_clashes"] == 0
+    assert found["assembly_groups"] == 1
+    assert found["degrees_of_freedom"] == found["driven_axes"] == 377 + 3  # spiked rollers, main shaft
+    parts = numbers(**SCROLLED)
+    assert parts["tufting-machine/yarn-motor"] == parts["tufting-machine/yarn-roller"] == 377
+    tiers = math.ceil((42.3 + 2) / 3.175)
+    assert sum("scroll-plate" in part for part in parts) == tiers
+    whole = 2 * 10.5 + 25.4 / 8  # yarn of a loop and its slanted back [mm]
+    assert found["yarn_speed_max"] == pytest.approx(2 * whole * mm * 160 / 60, rel=1e-9)
+
+
+def test_groups_of_needles_have_a_roller_each() -> None:
+    settings = {"width": "1.2m", "drives": "3", "pattern.attachment": "groups", "pattern.groups": "3"}
+    machine = made(**settings, low_height="5mm")
+    report = MACHINE.report(machine, illustrated=False)
+    assert not report.failed
+    assert machine.feed.torques["yarn"] == pytest.approx(math.ceil(377 / 3) * 0.5 * 0.04)
+    assert numbers(**settings)["tufting-machine/yarn-roller"] == 3
+
+
+@pytest.mark.parametrize(
+    ("settings", "check"),
+    [
+        ({"low_height": "5mm"}, "each yarn is fed as its loops need"),
+        ({"pattern.colours": "3"}, "each yarn is fed as its loops need"),
+        ({"pattern.colours": "9", "pattern.attachment": "scrolls"}, "colours on the creel"),
+        ({"shift": "0.5"}, "needle, hook and yarn beside each other"),
+    ],
+)
+def test_a_pattern_that_the_machine_cannot_make_is_a_failed_check(settings: dict[str, str], check: str) -> None:
+    assert check in {str(one.name) for one in MACHINE.report(made(**settings), illustrated=False).failed}
+
+
+def test_half_gauges_have_twice_the_loopers() -> None:
+    coarse = {"width": "1.2m", "drives": "3", "gauge": "8mm"}
+    assert numbers(**coarse)["tufting-machine/looper"] == 150
+    assert numbers(**coarse, shift="0.5")["tufting-machine/looper"] == 299  # none beyond the last end
+    half = MACHINE.report(made(**coarse, shift="0.5"), illustrated=False)
+    assert not half.failed

@@ -209,7 +209,7 @@ def test_the_slot_takes_its_metal_from_the_tube_and_holds_the_bar_by_half() -> N
     made = usual()
     params, upper = made.params, cylinders(made)[0]
     tube = slotted(upper, params.span)
-    _, rod = on_cylinder(upper, Part("tube", "tube", "steel tube", "", tube, STUB), params)
+    _, rod = on_cylinder(upper, Part("tube", "tube", "steel tube", tube, STUB), params)
     whole = math.pi * (upper.outer**2 - upper.inner**2)
     sagitta = upper.outer - math.sqrt(upper.outer**2 - (width(upper) / 2) ** 2)
     taken = whole - tube.section.area

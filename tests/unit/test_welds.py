@@ -31,7 +31,7 @@ SIDE = 40 * mm
 
 def tube(name: str, wall: float, length: float, throat: float = 0.0, side: float = 50 * mm) -> Part:
     shape = square_tube(side, wall, length)
-    return Part(f"probe/{name}", name, "welded frame", "", shape, STEEL, throat=throat)
+    return Part(f"probe/{name}", name, "welded frame", shape, STEEL, throat=throat)
 
 
 def frame(gap: float = 0.0, throat: float = 0.0) -> Tree:
@@ -85,7 +85,7 @@ def beside(corners: tuple[complex, ...]) -> Tree:
     """A post along z, and a plate of those corners [mm], which lies flat on its side x = 25 mm: its x upwards."""
     post = tube("post", 5 * mm, 0.6)
     plate = Part(
-        "probe/plate", "plate", "laser-cut part", "", Prism(Profile(polygon(np.array(corners) * mm)), 10 * mm), STEEL
+        "probe/plate", "plate", "laser-cut part", Prism(Profile(polygon(np.array(corners) * mm)), 10 * mm), STEEL
     )
     turned = Placement(np.array([25 * mm, -40 * mm, 0.1]), np.array([[0.0, 0, 1], [0, 1, 0], [-1, 0, 0]]))
     return Tree((RigidBody("body", (Occurrence(post), Occurrence(plate, (turned,)))),))
@@ -177,7 +177,7 @@ def test_no_seam_crosses_the_open_end_of_a_tube() -> None:
 
 
 def test_a_long_seam_is_stitched() -> None:
-    bar = Part("probe/bar", "bar", "laser-cut part", "", box(30 * mm, 10 * mm, 0.5), STEEL)
+    bar = Part("probe/bar", "bar", "laser-cut part", box(30 * mm, 10 * mm, 0.5), STEEL)
     lies = placement(0.0, 30 * mm, 0.05)
     (weld,) = welds_of(Tree((RigidBody("body", (Occurrence(tube("post", 5 * mm, 0.6)), Occurrence(bar, (lies,)))),)))[
         "probe/post"

@@ -33,6 +33,8 @@ main = LazyGroup(
         "call": ("ilmek.cli.call", "Call a chart row by row on a terminal, for the weaver."),
         "machines": ("ilmek.cli.machines", "List the machines, or the parameters of one machine."),
         "design": ("ilmek.cli.design", "Design one machine and report it."),
+        "compare": ("ilmek.cli.compare", "Compare measured curves with a machine's model, and fit parameters."),
+        "study": ("ilmek.cli.study", "Sweep, sensitivity, tolerances, optimum of a machine or a mechanism."),
         "mechanism": ("ilmek.cli.mechanism", "Analyse a mechanism from a file: structure, mobility, motion, report."),
         "cyclogram": ("ilmek.cli.cyclogram", "Check, optimise, tabulate and draw a cyclogram."),
         "knot": ("ilmek.cli.knot", "Prove which knot the motion of a gripper ties."),

@@ -19,6 +19,7 @@ from ilmek.cli.options import (
     text_option,
 )
 from ilmek.cli.report import cell_text, show_self_tests
+from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import MechanismError, printable
@@ -54,6 +55,7 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
 
 @click.command(epilog=EXAMPLES)
 @click.argument("file", type=click.Path(path_type=Path))
+@click.option("--set", "values", multiple=True, metavar="NAME=VALUE", help="Set an entry of the table [values].")
 @click.option(
     "--at",
     "fixed",
@@ -74,6 +76,9 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
     "--steps", type=click.IntRange(1, MOST_NUMBERS), default=STEPS, show_default=True, help="Steps of the range."
 )
 @text_option(
+    "--balance", "FLUCTUATION", "Find the best counterweight on the crank, and the flywheel for a fluctuation, like 2%."
+)
+@text_option(
     "--csv", "-|FILE", "Write motion and forces as CSV, SI and radians; - writes to standard output.", "csv_to"
 )
 @click.option("--report", "page_to", type=click.Path(path_type=Path), metavar="FILE.html", help="Write a report page.")
@@ -90,10 +95,12 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
 def command(
     *,
     file: Path,
+    values: tuple[str, ...],
     fixed: tuple[str, ...],
     over: str,
     speed: str,
     steps: int,
+    balance: str | None,
     csv_to: str | None,
     page_to: Path | None,
     animation_to: Path | None,
@@ -113,15 +120,16 @@ def command(
         ("--tolerance", tolerance, "--workshop DIR", parts_to), ("--issue", issued, "--workshop DIR", parts_to)
     )
     if kind is not None:
-        given = read_mechanism(file)
+        given = read_mechanism(file, read_settings(values))
         write = mechanism_toml if kind == "toml" else mechanism_json
-        click.echo(given.text if kind == "toml" and given.text else write(given.machine), nl=False)
+        click.echo(given.text if kind == "toml" and given.text and not values else write(given.machine), nl=False)
         return 0
     files = {"--json": json_to, "--csv": csv_to, "--report": page_to, "--animation": animation_to, "--glb": space_to}
     order = None if parts_to is None else WorkshopOrder(parts_to, tolerance, issue_of(issued))
     with call_outputs(files, force=force, inputs={"FILE": file}) as call:
         write_parts = workshop_writer(order, call.outputs)
-        moved = run(read_mechanism(file), MotionRequest(_fixed(fixed), over, speed, steps), call.progress)
+        request = MotionRequest(_fixed(fixed), over, speed, steps, balance or "")
+        moved = run(read_mechanism(file, read_settings(values)), request, call.progress)
         drawn = not (page_to is None and animation_to is None)
         if order is None and space_to is None:
             found = analysis(moved, call.progress)

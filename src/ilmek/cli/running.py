@@ -33,6 +33,13 @@ _OPTIONS = (
     ),
     click.option("--new", is_flag=True, help="Begin another carpet; the one in the journal is removed."),
     click.option(
+        "--rows-back",
+        type=int,
+        metavar="N",
+        help="First weave again N whole rows, up to 20, and the row in work: they were taken out of the loom. Not "
+        "beyond the last change of packages; default: none.",
+    ),
+    click.option(
         "--commit",
         type=int,
         metavar="N",

@@ -8,16 +8,14 @@ import click
 from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.carpet_options import carpet_inputs, carpet_options, recipe_folder
 from ilmek.cli.carpet_summary import carpet_pairs
-from ilmek.cli.gun_summary import GUN, TECHNIQUES, require_no_loom, weave_with_gun
 from ilmek.cli.loom_summary import loom_pairs
 from ilmek.cli.options import force_option, json_option, rates_option, text_option
 from ilmek.cli.proposed import show_proposed
 from ilmek.cli.settings import loom_settings, read_settings, setting_files
 from ilmek.cli.terminal import note, show_pairs
+from ilmek.cli.tufted_summary import GUN, KNOTTED, TECHNIQUES, TUFTING, require_technique, weave_tufted
 from ilmek.cli.verdict import WEAVES, exit_code, note_verdict, show_verdict
-from ilmek.errors import ParameterError
 from ilmek.io.rates_file import read_rates
-from ilmek.jobs.gun import read_gun_order
 from ilmek.jobs.loom import read_loom_order
 from ilmek.jobs.order import read_order
 from ilmek.jobs.output_folder import free_folder
@@ -37,6 +35,7 @@ Examples:
   ilmek weave carpet.toml --deadline 72h
   ilmek weave other.jpg --size 80x120cm --loom carpet/machine.json
   ilmek weave photo.jpg --size 100x150cm --colours 8 --technique gun --gun row_spacing=4mm
+  ilmek weave photo.jpg --size 200x300cm --colours 5 --technique tufting --tufting pile_height=8mm
 
 Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1,000 heads.
 """
@@ -65,8 +64,8 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
 @click.option(
     "--technique",
     type=click.Choice(TECHNIQUES),
-    default=TECHNIQUES[0],
-    help="knotted on a loom, or tufted by a gun on a gantry; default: knotted.",
+    default=KNOTTED,
+    help="knotted on a loom, tufted by a gun on a gantry, or by a tufting machine; default: knotted.",
 )
 @click.option(
     "--gun",
@@ -74,6 +73,13 @@ Limits: picture file 500 MB, 150,000,000 pixels; 255 yarns; 200,000,000 knots; 1
     multiple=True,
     metavar="NAME=VALUE",
     help="Set a parameter of the tufting gun or its gantry: row_spacing=4mm, cones=8, room_width=3m.",
+)
+@click.option(
+    "--tufting",
+    "tufting_settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Set a parameter of the tufting machine: gauge=4mm, stitch_rate=30/dm, pattern.selection=needles.",
 )
 @rates_option
 @force_option
@@ -88,6 +94,7 @@ def command(
     settings: tuple[str, ...],
     technique: str,
     gun_settings: tuple[str, ...],
+    tufting_settings: tuple[str, ...],
     rates: Path | None,
     force: bool,
     json_to: str | None,
@@ -104,17 +111,16 @@ def command(
     weavers, --loom knotting=hand, has no programme: its weavers tie by the chart and its rows.
 
     --technique gun tufts the carpet instead: the folder contains report.html with the path in motion, report.json, and
-    gun.ngc, the G-code of the gun, where every check holds.
+    gun.ngc, the G-code of the gun, where every check holds. --technique tufting designs a tufting machine for it:
+    report.html with the cost beside the knotted carpet, report.json, carpet.png as the twin tufts it, and tufting.txt,
+    the yarn of each needle stroke by stroke, where every check holds.
     """
     order = read_order(**carpet)
-    if technique == GUN:
-        beside = {"--heads": heads, "--aim": aim, "--warp-pitch": warp_pitch, "--loom": settings, "--rates": rates}
-        require_no_loom({**beside, "--save-recipe": save_recipe})
-        gun = read_gun_order(order, read_settings(gun_settings), deadline)
-        files = {**carpet_inputs(order), **setting_files(gun_settings)}
-        return weave_with_gun(order, gun, out, files, force=force, json_to=json_to)
-    if gun_settings:
-        raise ParameterError("--gun without --technique gun", do="add --technique gun, or leave --gun out")
+    of_tufts = {GUN: gun_settings, TUFTING: tufting_settings}
+    beside = {"--heads": heads, "--aim": aim, "--warp-pitch": warp_pitch, "--loom": settings, "--rates": rates}
+    require_technique(technique, of_tufts, {**beside, "--save-recipe": save_recipe})
+    if technique != KNOTTED:
+        return weave_tufted(technique, order, of_tufts[technique], deadline, out, force=force, json_to=json_to)
     loom_file, settings = loom_settings(settings)
     loom_order = read_loom_order(
         order,

@@ -17,7 +17,7 @@ from ilmek.arguments import Arguments
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, Int8, RealField
 from ilmek.dynamics.equations import Needs, joint_pulls, loaded, needs
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, tooth_separations
+from ilmek.dynamics.joint_friction import JointFriction, check_joints, efforts, separations
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.dynamics.pose_block import BLOCK, ForceAndMoment, PoseBlock, cut, part_of, pose_block, receiver
 from ilmek.dynamics.undetermined import Undetermined, undetermined
@@ -60,7 +60,7 @@ class Forces:
     input_power   Σ effort times its speed [W]
     load_power    power of the loads, including gravity and friction [W]
     kinetic_rate  time derivative of the kinetic energy [W]
-    undetermined  what depends on the tension of belts and chains
+    undetermined  what depends on the tension of belts and chains, and on redundant constraints
     actuators     joints whose efforts drive the motion; (): those of the inputs
 
     >>> from ilmek import bar, four_bar, inverse_dynamics, solve
@@ -217,7 +217,7 @@ def inverse(
             needed = needs(poses, bodies, acting)
             missing |= undetermined(poses, bodies, joint_frictions)
             laws = [
-                *tooth_separations(mechanism),
+                *separations(mechanism),
                 *(law for law in joint_frictions if law.joint not in missing.frictions),
             ]
             forces.load_power[part] += _load_power(poses, acting)
@@ -256,7 +256,7 @@ def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actu
         motion.status.copy(),
         reactions={joint.name: np.empty(samples, complex) for joint in joined},
         couples={joint.name: np.empty(samples) for joint in mechanism.joints if isinstance(joint, Slide)},
-        torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind != "rack"},
+        torques={wheels.name: np.empty(samples) for wheels in mechanism.couplings if wheels.kind in ("gears", "belt")},
         acting={joint.name: WholeForce(np.empty(samples, complex), np.empty(samples)) for joint in joined},
         efforts={name: np.empty(samples) for name in actuators or [entry.name for entry in mechanism.inputs]},
         frictions={law.joint: np.zeros(samples) for law in joint_frictions},
@@ -276,7 +276,7 @@ def _without(forces: Forces, missing: Undetermined) -> Forces:
     return replace(
         forces,
         reactions=shown(forces.reactions, missing.couplings | missing.joints),
-        couples=shown(forces.couples, missing.joints),
+        couples=shown(forces.couples, missing.joints | missing.couples),
         efforts=shown(forces.efforts, missing.inputs),
         frictions=shown(forces.frictions, missing.frictions),
         input_power=forces.input_power if not missing.inputs else np.full_like(forces.input_power, np.nan),

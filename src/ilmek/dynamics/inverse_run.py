@@ -110,9 +110,9 @@ class InverseRun:
     def coupling_torques_max(self) -> dict[str, float]:
         return {name: greatest(torque) for name, torque in self.forces.torques.items()}
 
-    @computed("", "forces and drives that depend on the tension of a belt or chain: not determined", shown=False)
+    @computed("", "forces and drives not determined: by the tension of a belt, by a redundant constraint", shown=False)
     def undetermined(self) -> list[str]:
-        return sorted(self.forces.undetermined.names)
+        return self.forces.undetermined.listed
 
     drive_torque_max = computed(
         "N*m",

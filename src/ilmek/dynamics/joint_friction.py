@@ -17,7 +17,7 @@ frictionless one as mu grows from 0 (the determinant of the Jacobian has changed
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -29,9 +29,9 @@ from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
-from ilmek.linkage.model import Mechanism, Pin, Slide
+from ilmek.linkage.model import BeltSpans, Mechanism, Pin, Slide
 from ilmek.num.linear import solve_many
-from ilmek.plane.vectors import dot
+from ilmek.plane.vectors import cross, dot
 
 MAX_ITERATIONS = 50
 TOLERANCE = 1e-12
@@ -130,16 +130,55 @@ class ToothSeparation:
         return math.tan(self.pressure_angle) * _size_change(pull.force, change.force)
 
 
+@dataclass(frozen=True, slots=True)
+class SpanTension:
+    """The force with which the spans of a belt pull its pulleys together.
+
+        F = max(2 T_0, |M_2| / r_2) cos alpha     [N], the sum of both spans along the line of centres
+
+    T_0 pretension, M_2 torque on the second pulley; where it exceeds 2 T_0 r_2 one span is slack, as of a chain.
+    [sum and difference of the forces in the spans]
+    """
+
+    joint: str
+    spans: BeltSpans
+    ratio: float
+    drag: float = 0.0
+
+    def limit(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
+        """The force F [N]."""
+        return np.maximum(2 * self.spans.pretension, np.abs(self.difference(joint, pull))) * self._along(joint)
+
+    def limit_change(self, joint: JointPoses, pull: ForceAndMoment, change: ForceAndMoment) -> RealField:
+        """Derivative of `limit` [N] in the direction of a change of the force and moment."""
+        apart = self.difference(joint, pull)
+        slack = np.abs(apart) > 2 * self.spans.pretension
+        return np.where(slack, np.sign(apart) * self.difference(joint, change), 0.0) * self._along(joint)
+
+    def difference(self, joint: JointPoses, pull: ForceAndMoment) -> RealField:
+        """M_2 / r_2 [N]: the difference of the forces in the spans."""
+        assert joint.middle is not None
+        return (pull.moment + cross(joint.at - joint.middle, pull.force)) * abs(self.ratio) / self.spans.radius
+
+    def _along(self, joint: JointPoses) -> RealField:
+        assert joint.middle is not None
+        along: RealField = np.sqrt(1 - self.spans.lean(self.ratio, np.abs(joint.middle - joint.at)) ** 2)
+        return along
+
+
 JointFriction: TypeAlias = PinFriction | SlideFriction
 
-EffortLaw: TypeAlias = JointFriction | ToothSeparation
+EffortLaw: TypeAlias = JointFriction | ToothSeparation | SpanTension
 """The law of an effort that depends on the forces of its joint."""
 
 
-def tooth_separations(mechanism: Mechanism) -> tuple[ToothSeparation, ...]:
-    """The laws of all teeth in mesh with a pressure angle."""
-    meshes = (mesh for mesh in mechanism.couplings if has_teeth(mesh) and mesh.pressure_angle)
-    return tuple(ToothSeparation(mesh.name, mesh.pressure_angle) for mesh in meshes)
+def separations(mechanism: Mechanism) -> Iterator[ToothSeparation | SpanTension]:
+    """The laws of all teeth in mesh with a pressure angle, and of all belts with given spans."""
+    for mesh in mechanism.couplings:
+        if has_teeth(mesh) and mesh.pressure_angle:
+            yield ToothSeparation(mesh.name, mesh.pressure_angle)
+        if mesh.spans is not None:
+            yield SpanTension(mesh.name, mesh.spans, mesh.ratio)
 
 
 def check_joints(mechanism: Mechanism, joint_frictions: Sequence[JointFriction]) -> None:
@@ -171,7 +210,7 @@ def efforts(
     """
     samples = poses.motion.status.shape[0]
     joints = [poses.joints[law.joint] for law in laws]
-    separating = np.array([[isinstance(law, ToothSeparation)] for law in laws])
+    separating = np.array([[isinstance(law, ToothSeparation | SpanTension)] for law in laws])
     rates = np.stack([np.broadcast_to(poses.rate(joint), samples) for joint in joints])
     viscous = -np.array([[law.drag] for law in laws]) * rates
     rest = loaded(poses, needed, dict(zip((law.joint for law in laws), viscous, strict=True)))

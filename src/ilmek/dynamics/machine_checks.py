@@ -24,14 +24,16 @@ def locking(run: InverseRun) -> tuple[Check, ...]:
 
 
 def determined(machine: OwnMachine, run: InverseRun) -> tuple[Check, ...]:
-    """That the forces of pins and links with a strength, and the drives, do not depend on the tension of a belt."""
+    """That the forces of pins and links with a strength, and the drives, do not depend on what is open."""
     unknown = run.forces.undetermined
-    tension = f"depends on the tension of {', '.join(sorted(unknown.couplings))}, which is not given"
-    cure = "leave it out of the strength, or give gears of another ratio in place of the belt"
+    source = f"depends on {unknown.cause}, which is not given"
+    cure = (
+        "leave it out of the strength; in place of a belt give gears of another ratio; set a redundant constraint free"
+    )
     names = [f"pin {name}: force is determined" for name in machine.pins if name in unknown.joints]
     names += [f"{name}: forces are determined" for name in machine.members if name in unknown.bodies]
     drives = [f"drive of {name} is determined" for name in sorted(unknown.inputs)]
-    alone = "leave out the friction of the bearings that the belt loads"
-    return tuple(must(name, False, tension).with_cure(cure) for name in names) + tuple(
-        must(name, False, tension).with_cure(alone) for name in drives
+    alone = "leave out the friction of the joints with open forces"
+    return tuple(must(name, False, source).with_cure(cure) for name in names) + tuple(
+        must(name, False, source).with_cure(alone) for name in drives
     )

@@ -9,6 +9,7 @@ import numpy as np
 from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion, carried_velocity
+from ilmek.linkage.geneva import Geneva
 from ilmek.linkage.groups.group import InputMotion
 from ilmek.linkage.model import GROUND, Coupling, Joint, Mechanism, Pin, Slide
 from ilmek.linkage.motion import Motion
@@ -36,7 +37,7 @@ class JointPoses:
     at     position [m] of the joint; of teeth the pitch point; of another coupling the middle of its first wheel
     line   of a slide: unit vector along its line; otherwise None
     tooth  of a coupling: unit force and moment about `at` that it transmits to the second body; otherwise None
-    separation  of teeth: unit vector in which they press the second body; otherwise None
+    separation  unit vector in which teeth press, or a belt pulls, the second body; otherwise None
     middle      of the second wheel of a coupling [m]; otherwise None
     """
 
@@ -51,7 +52,8 @@ class JointPoses:
 
     def point_on(self, body: str) -> ComplexField:
         """Position [m] at which the force acts on one of the two bodies: without teeth its own middle."""
-        return self.middle if self.middle is not None and self.separation is None and body == self.on else self.at
+        apart = self.middle is not None and self.tooth is not None and np.any(self.tooth.moment)
+        return self.middle if apart and self.middle is not None and body == self.on else self.at
 
     def generalized_force(self, pull: ForceAndMoment, about: ComplexField) -> RealField:
         """Generalized force of a force and moment on the joint's relative motion; only a drive effort balances it.
@@ -175,6 +177,8 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
     Teeth also separate their wheels, away from the pitch point: a wheel in a ring is pressed to the middle of the ring.
     The tension of a belt, along O_1 O_2, does no work: see `undetermined`.
     """
+    if coupling.law is not None:
+        return _pair_poses(mechanism, coupling, bodies)
     (first, first_middle), (second, second_middle) = coupling.first, coupling.second
     at = bodies[first].carry(mechanism.point(first, first_middle)).position
     joint = mechanism.joint(second_middle) if coupling.kind == "rack" else None
@@ -191,12 +195,48 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
         pole, separation = at + ratio / (ratio - 1) * offset, along if ratio < 0 else -along
         return JointPoses(coupling.name, second, first, pole, None, ForceAndMoment(1j * along, 0.0), separation, middle)
     tooth = ForceAndMoment((ratio - 1) * 1j * along, ratio * distance)
-    return JointPoses(coupling.name, second, first, at, None, tooth, middle=middle)
+    pulled = None if coupling.spans is None else -along
+    return JointPoses(coupling.name, second, first, at, None, tooth, pulled, middle)
+
+
+def _pair_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, BodyMotion]) -> JointPoses:
+    """Force of a higher pair on its second body, along the common normal n through the pole P of the relative motion.
+
+    roller  centre C,  n = C - P,  P = O_1 - i f' line of a slide,  P = O_1 + f' / (f' - 1) (O_2 - O_1) of a pin
+    flat    n along the slide's line, through P
+    geneva  C the pin in the slot, n across C O_2; between the slots the disc locks it: across O_1 O_2 in O_1
+                                                          [Aronhold and Kennedy; contact without friction]
+    """
+    (first, first_middle), (second, end) = coupling.first, coupling.second
+    start = bodies[first].carry(mechanism.point(first, first_middle)).position
+    turned = np.angle(bodies[first].direction * np.conj(bodies[coupling.carrier].direction)) - coupling.first_at
+    _, ratio, _, _ = coupling.transfer(turned)
+    joint = mechanism.joint(end) if coupling.slides else None
+    if isinstance(joint, Slide):
+        line = bodies[joint.guide].direction * unit(joint.along)
+        at, normal = start - 1j * ratio * line, line
+        if coupling.roller:
+            pole, at = at, bodies[second].carry(mechanism.point(second, coupling.roller)).position
+            normal = at - pole
+    else:
+        offset = bodies[second].carry(mechanism.point(second, end)).position - start
+        if isinstance(coupling.law, Geneva):
+            arm = np.where(coupling.law.engaged(turned), coupling.law.share * unit(turned), 0.0) * offset
+            at, normal = start + arm, 1j * (offset - arm)
+        else:
+            at = bodies[second].carry(mechanism.point(second, coupling.roller)).position
+            normal = (1 - ratio) * (at - start) + ratio * offset
+    return JointPoses(coupling.name, second, first, at, None, ForceAndMoment(normal / np.abs(normal), 0.0))
 
 
 def has_teeth(coupling: Coupling) -> bool:
     """Whether a coupling is two bodies in mesh at a pitch point: a rack, or gears with a ratio other than 1."""
     return coupling.kind == "rack" or (coupling.kind == "gears" and coupling.ratio != 1)
+
+
+def has_tension(coupling: Coupling) -> bool:
+    """Whether a coupling has an open force: a belt without its spans, or wheels that turn alike."""
+    return coupling.law is None and coupling.spans is None and not has_teeth(coupling)
 
 
 def receiver(joint: Joint) -> str:

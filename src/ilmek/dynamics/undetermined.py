@@ -1,13 +1,15 @@
-"""Forces that the equations of motion do not determine: those that depend on the tension of a belt or chain.
+"""Forces that the equations of motion do not determine: belt tensions, and those of redundant constraints.
 
 A belt pulls its two wheels together along their line of centres, by its tension. Gears with a ratio of 1 stand for
 wheels that turn alike through an idler or a chain, whose forces on the wheels' middles are open in both directions.
-Such a force T does no work: any T fulfils the equations, with the joint forces F_0 + T G and the response G to a unit
-of it. What has G = 0 is determined. Friction of a joint whose force is open is open too, and what responds to it.
+A redundant constraint carries any force along the motion of the joint that it keeps still. Such a force T does no
+work: any T fulfils the equations, with the joint forces F_0 + T G and the response G to a unit of it. What has G = 0
+is determined. Friction of a joint whose force is open is open too, and what responds to it.
                                                                                        [null space of the equations]
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +18,7 @@ from ilmek.arrays import BoolArray, ComplexField
 from ilmek.dynamics.equations import Needs, add, joint_pulls
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction
-from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
+from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_tension
 from ilmek.linkage.model import GROUND, Coupling
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross
@@ -28,10 +30,11 @@ RESPONSE = 1e-6
 
 @record
 class Undetermined:
-    """What depends on the tension of belts and chains.
+    """What depends on the tension of belts and chains, and on redundant constraints.
 
     couplings  whose force is open      joints  with an open force      inputs  with an open effort
     frictions  joints with an open friction      bodies  with open forces within, as the strength of a link needs them
+    redundant  joints that a redundant constraint keeps still      couples  slides of which only the couple is open
     """
 
     couplings: frozenset[str] = frozenset()
@@ -39,23 +42,31 @@ class Undetermined:
     inputs: frozenset[str] = frozenset()
     frictions: frozenset[str] = frozenset()
     bodies: frozenset[str] = frozenset()
+    redundant: frozenset[str] = frozenset()
+    couples: frozenset[str] = frozenset()
 
     def __or__(self, other: "Undetermined") -> "Undetermined":
-        return Undetermined(
-            self.couplings | other.couplings,
-            self.joints | other.joints,
-            self.inputs | other.inputs,
-            self.frictions | other.frictions,
-            self.bodies | other.bodies,
-        )
+        return Undetermined(*(getattr(self, one.name) | getattr(other, one.name) for one in fields(self)))
 
     def __bool__(self) -> bool:
-        return bool(self.couplings)
+        return bool(self.couplings or self.redundant)
+
+    @property
+    def cause(self) -> str:
+        """What the open forces depend on, in words."""
+        tension = f"the tension of {', '.join(sorted(self.couplings))}" if self.couplings else ""
+        held = f"the redundant constraint at {', '.join(sorted(self.redundant))}" if self.redundant else ""
+        return " and ".join(filter(None, (tension, held)))
 
     @property
     def names(self) -> frozenset[str]:
         """The joints and couplings with an open force, and the inputs with an open effort."""
         return self.couplings | self.joints | self.inputs
+
+    @property
+    def listed(self) -> list[str]:
+        """All of them in words, with the slides of which the couple is open."""
+        return sorted(self.names) + [f"couple of {name}" for name in sorted(self.couples)]
 
 
 class _Acting(NamedTuple):
@@ -69,32 +80,34 @@ class _Acting(NamedTuple):
 def undetermined(
     poses: PoseBlock, inertias: Mapping[str, Inertia], joint_frictions: Sequence[JointFriction]
 ) -> Undetermined:
-    """What depends on the tension of the mechanism's belts and chains, over a block of samples.
+    """What depends on the tension of the mechanism's belts and chains and on its redundant constraints.
 
-    poses     the block of samples      inertias  body -> inertia, of all moving bodies
+    poses     a block of samples      inertias  body -> inertia, of all moving bodies
     joint_frictions  friction of joints
     """
     mechanism = poses.motion.plan.mechanism
-    open_couplings = [coupling for coupling in mechanism.couplings if not has_teeth(coupling)]
-    if not open_couplings:
+    open_couplings = [coupling for coupling in mechanism.couplings if has_tension(coupling)]
+    if not open_couplings and not mechanism.redundant:
         return Undetermined()
     nothing = {body: ForceAndMoment(0j, 0.0) for body in inertias}
     units = [unit for coupling in open_couplings for unit in _tensions(poses, coupling)]
-    joints, inputs, bodies = set[str](), set[str](), set[str]()
+    units += [_along(poses.joints[name]) for name in mechanism.redundant]
+    forces, couples, inputs, bodies = set[str](), set[str](), set[str](), set[str]()
     rubbing = {law.joint for law in joint_frictions if law.dry}
     while units:
         acting = units.pop()
         pulls = joint_pulls(poses, _needs_of(poses, nothing, acting))
         response = _Response(poses, acting, pulls)
-        responding = response.joints()
-        units += [_friction(poses.joints[name]) for name in sorted(rubbing & responding)]
-        rubbing -= responding
-        joints |= responding
+        forces |= response.forces()
+        couples |= response.couples()
+        units += [_along(poses.joints[name]) for name in sorted(rubbing & (forces | couples))]
+        rubbing -= forces | couples
         inputs |= response.inputs()
         bodies |= response.bodies()
-    frictions = joints & {law.joint for law in joint_frictions if law.dry}
+    frictions = (forces | couples) & {law.joint for law in joint_frictions if law.dry}
     names = (coupling.name for coupling in open_couplings)
-    return Undetermined(*map(frozenset, (names, joints, inputs, frictions, bodies)))
+    found = (names, forces, inputs, frictions, bodies, mechanism.redundant, couples - forces)
+    return Undetermined(*map(frozenset, found))
 
 
 def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
@@ -114,8 +127,8 @@ def _tensions(poses: PoseBlock, coupling: Coupling) -> Iterator[list[_Acting]]:
             yield [_Acting(body, ForceAndMoment(force, 0.0), at), other]
 
 
-def _friction(joint: JointPoses) -> list[_Acting]:
-    """A unit of friction in a joint, on both of its bodies."""
+def _along(joint: JointPoses) -> list[_Acting]:
+    """A unit force or torque along the motion of a joint, on both of its bodies: of friction, or of a constraint."""
     effort = joint.drive
     return [
         _Acting(body, ForceAndMoment(sign * effort.force, sign * effort.moment), joint.at)
@@ -143,9 +156,23 @@ class _Response:
         efforts = {name: effort for name, effort in self._efforts().items() if self._responds(effort)}
         return {name for name, joint in self.poses.drivers.items() if joint.name in efforts}
 
-    def joints(self) -> set[str]:
-        """The joints and couplings whose force responds, the effort of a drive aside."""
-        return {name for name, pull in self._without_efforts().items() if self._responds(pull)}
+    def forces(self) -> set[str]:
+        """The joints and couplings whose force responds, the effort of a drive aside; teeth by their moment too."""
+        slides = {joint.name for joint in self.poses.joints.values() if joint.line is not None}
+        return {
+            name
+            for name, pull in self._without_efforts().items()
+            if self._responds(ForceAndMoment(pull.force, 0.0) if name in slides else pull)
+        }
+
+    def couples(self) -> set[str]:
+        """The slides whose couple responds."""
+        pulls = self._without_efforts()
+        return {
+            joint.name
+            for joint in self.poses.joints.values()
+            if joint.line is not None and self._responds(ForceAndMoment(0j, pulls[joint.name].moment))
+        }
 
     def bodies(self) -> set[str]:
         """The moving bodies on which something is left at a place: the forces within depend on it."""

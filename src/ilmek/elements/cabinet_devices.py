@@ -42,7 +42,7 @@ _SIZES = (
 
 SUPPLIES = tuple(
     PowerSupply(
-        f"power supply {volts:g} V, {power / volts:g} A",
+        f"power supply {volts:g} V, {power / volts:g} A" + (", 3 phases, for parallel mode" if phases == 3 else ""),
         "power supply",
         (size[0] * mm, size[1] * mm, size[2] * mm),
         mass,
@@ -63,7 +63,7 @@ def supply_for(volts: float, load: float) -> tuple[PowerSupply, int]:
     """The least supply of a voltage for a load [W], or so many of the largest side by side.
 
     >>> [(row.name, number) for row, number in (supply_for(24.0, 100.0), supply_for(48.0, 2800.0))]
-    [('power supply 24 V, 10 A', 1), ('power supply 48 V, 20 A', 4)]
+    [('power supply 24 V, 10 A', 1), ('power supply 48 V, 20 A, 3 phases, for parallel mode', 4)]
     """
     rows = [row for row in SUPPLIES if row.volts == volts]
     row = next((row for row in rows if row.rated >= LOADED * load), rows[-1])
@@ -151,7 +151,7 @@ def protective_bar(clamps: int) -> FieldDevice:
     0.2
     """
     bar = _device(f"PE bar, {clamps} clamps 6 mm²", "protective bar", (clamps * 8.0 + 40.0, 12, 20), 15 * g * clamps)
-    return replace(bar, fixing="two screws M6 into the nuts of the cabinet's wall")
+    return replace(bar, fixing="two screws M6 into the threads of the plate")
 
 
 WARMER, THROUGH = 20.0, 5.5

@@ -63,8 +63,8 @@ _SAFE, _GRID, _LOCK, _STOP = "ISO 13849-1", "IEC 61496-2", "ISO 14119, type 4", 
 
 ROWS = (
     FieldDevice(
-        "absolute encoder 36 mm, 12 bit", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3, power=1.5,
-        fixing="its hollow shaft clamps on the shaft end, its spring plate takes the torque",
+        "absolute encoder 36 mm, 12 bit, hollow shaft", "sensor", _size(36, 36, 40), 100 * g, _CLASS, 1e-3, power=1.5,
+        fixing="clamps on the rear shaft end of its motor; its spring plate with screws takes the torque",
     ),
     FieldDevice(
         "magnetic sensor for axis slots, PNP", "sensor", _size(6, 5, 25), 15 * g, _CLASS, 1e-3, power=0.2,
@@ -125,10 +125,15 @@ ROWS = (
         "enabling switch, 3 positions, 2 channels, with cable", "enabling device", _size(60, 200, 60), 0.4,
         "IEC 60947-5-8", b10d=1e5, tabled=True, fixing="hangs in its holder, which comes with two screws",
     ),
+    FieldDevice(
+        "mode selector with key, 2 positions, 4 contacts", "mode selector", _size(45, 45, 70), 150 * g, _CLASS,
+        b10d=2e6, fixing="its ring nut clamps it in its hole in the door",
+    ),
 )  # fmt: skip
 
 ENCODER, AXIS_SENSOR, INDUCTIVE, STRAIN, YARN_SENSOR, BRAKE, BARRIER, INTERLOCK, ACTUATOR, STOP, BUTTON, RELAY, GRID, \
-    CONTROLLER, TERMINAL, STRAIN_AMPLIFIER, ANALOG_INPUTS, INPUTS, OUTPUTS, FIELD_INPUTS, ENABLING = ROWS  # fmt: skip
+    CONTROLLER, TERMINAL, STRAIN_AMPLIFIER, ANALOG_INPUTS, INPUTS, OUTPUTS, FIELD_INPUTS, ENABLING, \
+    MODE = ROWS  # fmt: skip
 
 CHANNELS = 16
 """Inputs of an input module, outputs of an output module."""

@@ -19,6 +19,21 @@ MISSION = 20 * 365.25 * 24
 COMMON, COVERED = 0.05, 0.99
 """Share of failures of a common cause, and coverage of contacts that a safety relay compares: annexes E, F."""
 
+_MASKED = ((1, COVERED), (4, 0.9), (30, 0.6))
+
+
+def masked(contacts: int) -> float:
+    """Most coverage of rarely used contacts in series on one relay, of which the next one hides a failure.
+
+    As the classes medium, low and none of ISO/TR 24119 (now ISO 14119, annex K), for devices none of which is used
+    often; at the least value of each class.
+
+    >>> [masked(number) for number in (1, 4, 5, 31)]
+    [0.99, 0.9, 0.6, 0.0]
+    """
+    return next((coverage for most, coverage in _MASKED if contacts <= most), 0.0)
+
+
 _LEVELS = (("e", 1e-7), ("d", 1e-6), ("c", 3e-6), ("b", 1e-5), ("a", 1e-4))
 
 
@@ -60,12 +75,14 @@ def mean_years(b10d: float, hourly: float) -> float:
     return b10d / (0.1 * hourly) / (365.25 * 24)
 
 
-def contact_failures(b10d: float, hourly: float) -> float:
+def contact_failures(b10d: float, hourly: float, covered: float = COVERED) -> float:
     """Dangerous failures of two contacts side by side in an hour [1/h], of the mean life and operations in an hour.
+
+    covered  diagnostic coverage
 
     >>> round(contact_failures(1e5, 0.125) * 1e9, 2)
     6.27
     """
     each = 0.1 * hourly / b10d
-    both = COVERED / hourly + (1 - COVERED) * MISSION if hourly else math.inf
+    both = covered / hourly + (1 - covered) * MISSION if hourly else math.inf
     return (1 - COMMON) ** 2 * each**2 * both + COMMON * each if each else 0.0

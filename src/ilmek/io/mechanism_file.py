@@ -34,10 +34,12 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
-from ilmek.errors import MechanismError
+from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.data_text import DataText, parse_data, plain_data, read_data
 from ilmek.io.mechanism.joints import members_of
 from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
@@ -51,7 +53,7 @@ from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
 from ilmek.io.schema import Reader, Schema, SourceText, Table
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import Mechanism
+from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import brief
 
@@ -92,12 +94,25 @@ class MechanismFile:
             return plan(self.mechanism)
 
 
-def read_mechanism(path: Path) -> MechanismFile:
+def read_mechanism(path: Path, values: Mapping[str, str | float] = MappingProxyType({})) -> MechanismFile:
     """The mechanism of a .toml or .json file.
 
-    Raises MechanismError with the file, the line and the key for any error in the file.
+    values  take the place of entries of its table `values`: texts as in the file
+    Raises MechanismError with the file, the line and the key for any error in the file, and for a value that it does
+    not have.
     """
-    return _read(read_data(path, "mechanism", MechanismError), str(path))
+    text = read_data(path, "mechanism", MechanismError)
+    return _read(text._replace(data=with_values(text.data, values)) if values else text, str(path))
+
+
+def with_values(data: Any, values: Mapping[str, object]) -> dict[str, Any]:
+    """Data of a file with other entries in its table `values`. Raises MechanismError, naming the nearest."""
+    known = data.get("values", {}) if isinstance(data, Mapping) else {}
+    for name in values:
+        if name not in known:
+            near = did_you_mean(name, known, otherwise=f"its values: {', '.join(known) or 'none'}")
+            raise MechanismError(f"unknown value {name!r} of the mechanism", do=near)
+    return {**data, "values": {**known, **values}}
 
 
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
@@ -163,7 +178,7 @@ def _machine(data: Table, source: SourceText) -> OwnMachine:
         paths_of(data.get("paths", ()), mechanism, source),
         transmission_of(data.get("transmission", ()), parts, source),
         {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
-        frozenset(name for name in mechanism.moving if not data["bodies"][name].keys() & STATED),
+        frozenset(name for name, table in data["bodies"].items() if name != GROUND and not table.keys() & STATED),
         actuators,
     )
 

@@ -10,7 +10,7 @@
 
 Times are nanoseconds. Inputs:
 
-    tie HEAD ROW NUMBER COLUMN TUBE      end ROW OPERATION           jog AXIS NANOMETRES
+    tie HEAD ROW NUMBER COLUMN TUBE      end ROW OPERATION           jog AXIS NANOMETRES      home AXIS
     change ROW PHASE WEFT... / HEAD TUBE YARN NANOMETRES ...         packages, as change
     door CLOSED    emergency PRESSED     tension LOW    repaired     speed PERMILLE    power    halt
     inject FAULT ROW COLUMN OPERATION    sensor NAME VALUE (- true false or a number)
@@ -26,7 +26,8 @@ from pathlib import Path
 
 from ilmek.errors import LoomError, restated, shortened
 from ilmek.io.text_file import read_text
-from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Jog, Tie
+from ilmek.loom.control.interlocks import LoomAxis
+from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Home, Jog, Tie
 from ilmek.loom.operations import RowEnd, Stop, TubeChange
 from ilmek.loom.twin.events import order_words, stop_words
 from ilmek.loom.twin.model import FaultRates
@@ -99,7 +100,7 @@ def read_recording(path: Path) -> Recording:
 
 def _words(one: PlantInput) -> str:
     match one:
-        case Tie() | EndRow() | ChangePackages() | Jog():
+        case Tie() | EndRow() | ChangePackages() | Jog() | Home():
             return order_words(one)
         case Door(value) | EmergencyStop(value) | Tension(value) | SetSpeed(value):
             return f"{_NAMES[type(one)]} {int(value)}"
@@ -136,6 +137,7 @@ _PARSERS: dict[str, tuple[int | None, Callable[[list[str]], PlantInput]]] = {
     "tie": (5, lambda rest: Tie(*(_whole(word, 0) for word in rest))),
     "end": (2, lambda rest: EndRow(_whole(rest[0], 0), _row_end(rest[1]))),
     "jog": (2, lambda rest: Jog(_name(rest[0]), _whole(rest[1]) / BILLION)),
+    "home": (1, lambda rest: Home(_axis(rest[0]))),
     "speed": (1, lambda rest: SetSpeed(_whole(rest[0], 1, 1000))),
     "change": (None, lambda rest: ChangePackages(_stop(rest))),
     "packages": (None, lambda rest: PackageChanged(_stop(rest))),
@@ -219,6 +221,12 @@ def _name(word: str) -> str:
     if _WORD.fullmatch(word) is None:
         raise LoomError(f"{shortened(word)!r}", allowed="a name of small letters, digits, _ + and -")
     return word.replace("+", " ")
+
+
+def _axis(word: str) -> LoomAxis:
+    if word not in set(LoomAxis):
+        raise LoomError(f"axis {shortened(word)!r}", allowed=", ".join(LoomAxis))
+    return LoomAxis(word)
 
 
 def _fault(word: str) -> Fault:

@@ -4,19 +4,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ilmek.carpet.picture_points import hex_colour
 from ilmek.carpet.quality import Quality
-from ilmek.carpet.yarn_plan import parse_count
 from ilmek.errors import ParameterError
-from ilmek.io.chart.formats import format_of
 from ilmek.io.gcode import write_gcode
 from ilmek.io.json_file import write_json
 from ilmek.io.output import Outputs, joined
-from ilmek.jobs.chart import ChartResult, job_json, make_charted
+from ilmek.jobs.chart import ChartResult, job_json
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.order import CarpetOrder
+from ilmek.jobs.tufted_chart import charted_for_tufts, cones_of, yarn_setting
 from ilmek.jobs.yarn_choice import kept_checks
-from ilmek.machines.tufting_gun.design import Cone, TuftedByGun, tufted_by_gun
+from ilmek.machines.tufting_gun.design import TuftedByGun, tufted_by_gun
 from ilmek.machines.tufting_gun.params import TuftingGunParams
 from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
@@ -53,6 +51,11 @@ class GunResult:
         return (*self.tufted.checks, *kept_checks(self.charted.chart, self.charted.order.order))
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What was changed of the picture."""
+        return self.charted.notes
+
+    @property
     def files(self) -> list[str]:
         """The paths of the files."""
         return [str(self.folder / name) for name in self.written]
@@ -67,10 +70,8 @@ def read_gun_order(order: CarpetOrder, settings: Mapping[str, Setting], deadline
     if order.quality is not None:
         given = f"--quality {order.quality} with --technique gun"
         raise ParameterError(given, allowed="the rows of the gun", do="set --gun row_spacing=3mm instead")
-    if order.plan.yarn_count is not None and "yarn_density" not in settings:
-        count, ply = parse_count(order.plan.yarn_count)
-        settings = {**settings, "yarn_density": f"{ply / count} g/m"}
-    return GunOrder(TuftingGunParams.read(settings), None if deadline is None else read_deadline(deadline))
+    params = TuftingGunParams.read({**yarn_setting(order), **settings})
+    return GunOrder(params, None if deadline is None else read_deadline(deadline))
 
 
 def weave_by_gun(
@@ -104,20 +105,13 @@ def weave_by_gun(
 def plan_by_gun(order: CarpetOrder, gun: GunOrder, folder: Path, progress: Progress = SILENT) -> GunResult:
     """The plan of a carpet by a gun; nothing is written."""
     per_metre = CELLS / gun.params.row_spacing
-    if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
-        order = replace(order, size=make_charted(order, progress.part(0.0, 0.2)).chart.size)
-    order = replace(order, quality=Quality(per_metre, per_metre), pdf=False, files=replace(order.files, rows="none"))
-    charted = make_charted(order, progress.part(0.2, 0.6))
-    chart, carpet = charted.chart, charted.order.order
-    wool = carpet.plan.price("pile", "wool")
-    cones = tuple(
-        Cone(yarn.name, hex_colour(yarn.srgb), wool if yarn.price is None else yarn.price) for yarn in chart.yarns
-    )
+    charted = charted_for_tufts(order, Quality(per_metre, per_metre), progress.part(0.0, 0.6))
+    chart = charted.chart
     size = (chart.columns / per_metre, chart.rows / per_metre)
     params, rows = gun.params, progress.part(0.6, 1.0)
     least = params.least_coverage
     plan = gun_plan(chart.knots, size, params.row_spacing, params.feature, least=least, progress=rows)
-    tufted = tufted_by_gun(gun.params, plan, cones, gun.deadline)
+    tufted = tufted_by_gun(gun.params, plan, cones_of(charted), gun.deadline)
     return GunResult(charted, gun, tufted, results_of(tufted), folder)
 
 
@@ -135,6 +129,6 @@ def gun_json(result: GunResult) -> JsonObject:
         {**result.charted.order.as_dict(), "gun": result.order.params.as_dict(), "deadline": result.order.deadline},
         results,
         checks=result.checks,
-        notes=list(result.charted.notes),
+        notes=list(result.notes),
         files=result.files,
     )

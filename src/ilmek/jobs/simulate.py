@@ -15,7 +15,7 @@ from ilmek.io.table_csv import csv_text
 from ilmek.jobs.deadline import read_deadline
 from ilmek.jobs.page import page_text
 from ilmek.jobs.simulate_report import fault_columns, row_columns, simulation_report
-from ilmek.jobs.simulate_runs import MOST_WORKERS, runs_of
+from ilmek.jobs.simulate_runs import runs_of
 from ilmek.loom.twin.carpet_run import CarpetRun, run_carpet
 from ilmek.loom.twin.faults import StopParams, fault_table
 from ilmek.loom.twin.row_motion import row_in_motion
@@ -25,6 +25,7 @@ from ilmek.params import Setting
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
 from ilmek.report import Report
+from ilmek.studies.workers import MOST_WORKERS
 
 GREATEST_SEED = 2**53
 """Largest seed, which JSON keeps."""

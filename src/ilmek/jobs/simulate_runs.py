@@ -4,6 +4,7 @@ import multiprocessing
 import os
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -11,15 +12,12 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import IntArray
-from ilmek.errors import ParameterError
 from ilmek.io.any_programme import open_any_programme
 from ilmek.loom.operations import LoomProgramme
 from ilmek.loom.twin.faults import StopParams, fault_table
 from ilmek.loom.twin.seed_runs import run_seeds
 from ilmek.progress import SILENT, Progress
-
-MOST_WORKERS = 64
-"""Largest number of processes."""
+from ilmek.studies.workers import MOST_WORKERS, cluster_client
 
 _WORTH = 20_000_000
 """Rows times seeds from which processes of their own are quicker: they start in a second."""
@@ -76,17 +74,8 @@ def _on_cluster(  # noqa: PLR0917
     path: Path, params: StopParams, first: int, count: int, address: str, progress: Progress
 ) -> IntArray:
     """The same on a Dask cluster, in a few parts for each of its workers."""
-    try:
-        import distributed
-    except ImportError:
-        raise ParameterError("--cluster needs the extra cluster", do="pip install 'ilmek[cluster]'") from None
-    try:
-        dask: Any = distributed
-        client = dask.Client(address, timeout=10)
-    except (OSError, ValueError, TimeoutError) as error:
-        raise ParameterError(f"--cluster {address}: no scheduler answers ({error})", do="check the address") from None
-    with client:
+    with cluster_client(address) as client:
         known = max(1, len(client.scheduler_info()["workers"]))
         parts = list(_parts(first, count, 4 * known))
         futures = [client.submit(run_part, str(path.resolve()), params, *part, pure=False) for part in parts]
-        return _gathered(futures, dask.as_completed(futures), progress)
+        return _gathered(futures, import_module("distributed").as_completed(futures), progress)

@@ -61,10 +61,13 @@ def _of_journal(folder: Path) -> dict[str, Json]:
     if found is None:
         return {"state": state_name(PackState.STOPPED), "knots": 0, "uncertain": 0}
     header, kinds = found.header, found.records["kind"]
-    knots = int(np.count_nonzero(kinds == RecordKind.KNOT))
-    ends = found.records["code"][kinds == RecordKind.ROW_END]
-    ended = int(np.count_nonzero(ends == RowEnd.TAKE_UP))
     states = found.records[kinds == RecordKind.STATE]
+    back = found.records[kinds == RecordKind.ROWS_BACK][-1:]
+    ended = int(back["row"].sum())  # rows that an operator has left on the loom
+    woven = found.records[int(np.flatnonzero(kinds == RecordKind.ROWS_BACK)[-1]) :] if len(back) else found.records
+    knots = ended * header.columns + int(np.count_nonzero(woven["kind"] == RecordKind.KNOT))
+    ends = woven["code"][woven["kind"] == RecordKind.ROW_END]
+    ended += int(np.count_nonzero(ends == RowEnd.TAKE_UP))
     moving = len(states) > 0 and bool(states["flag"][-1])
     return {
         "state": state_name(PackState.COMPLETE if ended == header.rows else PackState.STOPPED),

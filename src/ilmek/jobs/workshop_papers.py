@@ -12,6 +12,7 @@ from ilmek.io.plc.sequence_variables import PlcSize, ScanLimits
 from ilmek.io.table_csv import rows_csv
 from ilmek.loom.operations import ROW_ENDS
 from ilmek.machines.automated_loom import LoomDesign
+from ilmek.machines.automated_loom.papers.wiring import numbers_of, read_signals
 from ilmek.machines.component import AnyComponent
 from ilmek.machines.tree_papers import tree_papers
 from ilmek.records import JsonObject
@@ -43,10 +44,11 @@ def papers_of(machine: AnyComponent, design: Any, report: Report) -> Papers:
 
 
 def _io_list(loom: LoomDesign) -> Table:
-    """The list that `ilmek plc` writes: it is the same for each carpet of a loom."""
+    """The list that `ilmek plc` writes, the same for each carpet of a loom, with the parts and sensors of this loom."""
     any_time = ScanLimits(0, 1)  # the list has no times
-    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS)))
-    return Table("io", Sentence("paper.io"), tuple(map(Column, HEADER)), tuple(io_rows(program)))
+    *_, program = sequence_units(PlcSize(loom.heads, 1, loom.columns, any_time, (any_time,) * len(ROW_ENDS), any_time))
+    rows = io_rows(program, placed=numbers_of(loom), read=read_signals(loom))
+    return Table("io", Sentence("paper.io"), tuple(map(Column, HEADER)), tuple(rows))
 
 
 def write_papers(papers: Papers, report: Report, work: Path, issue: Issue) -> Iterator[JsonObject]:

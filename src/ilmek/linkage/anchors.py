@@ -4,23 +4,26 @@ A mechanism of 0.1 m at 100 m from the origin of its drawing has 13 digits of it
 differences. Inside a solution the world's origin is the ground's anchor.
 """
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
 from ilmek.linkage.body_motion import BodyMotion, PointMotion
-from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.model import GROUND, Body, Mechanism
 
 
 def anchor_name(mechanism: Mechanism, body: str) -> str | None:
     """The anchor of a body: its first point that belongs to a joint, or its first; None for a body without a point."""
-    joints = {joint.name for joint in mechanism.joints}
-    points = mechanism.body(body).points
-    return next((name for name in points if name in joints), next(iter(points), None))
+    return _anchor(mechanism.body(body), {joint.name for joint in mechanism.joints})
+
+
+def _anchor(body: Body, joints: Container[str]) -> str | None:
+    return next((name for name in body.points if name in joints), next(iter(body.points), None))
 
 
 def anchors(mechanism: Mechanism) -> Mapping[str, complex]:
     """Body -> its anchor in its frame [m]; 0 for a body without a point."""
-    names = {body.name: anchor_name(mechanism, body.name) for body in mechanism.bodies}
-    return {body: 0j if name is None else mechanism.point(body, name) for body, name in names.items()}
+    joints = {joint.name for joint in mechanism.joints}
+    names = ((body, _anchor(body, joints)) for body in mechanism.bodies)
+    return {body.name: 0j if name is None else body.points[name] for body, name in names}
 
 
 def span(mechanism: Mechanism) -> float:

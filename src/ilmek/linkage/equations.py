@@ -76,22 +76,32 @@ def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: InputMotion,
 
 
 def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField, bodies: Known) -> Equation:
-    """q_second - second_at - ratio (q_first - first_at) = 0; near: q_first [rad] to within half a turn."""
+    """q_second - second_at - f(q_first - first_at) = 0; near: q_first [rad] to within half a turn."""
     (first, _), (second, point) = coupling.first, coupling.second
     turned = angle_near(bodies[first].direction, bodies[coupling.carrier].direction, near) - coupling.first_at
-    required = coupling.second_at + coupling.ratio * turned
-    joint = mechanism.joint(point) if coupling.kind == "rack" else None
+    value, ratio, second_ratio, _ = coupling.transfer(turned)
+    required = coupling.second_at + value
+    joint = mechanism.joint(point) if coupling.slides else None
     share: RealField = 1.0
     if isinstance(joint, Slide):
         equation = _along(mechanism, joint, bodies, 1)
-        value, length = equation.value - required, 1
+        error, length = equation.value - required, 1
     else:
         equation = _angle(second, coupling.carrier, required, bodies)
-        share, value, length = equation.row[second][2], equation.value, 0
-    row, geared = dict(equation.row), share * coupling.ratio
+        share, error, length = equation.row[second][2], equation.value, 0
+    row, geared = dict(equation.row), share * ratio
     x, y, spin = row[coupling.carrier]
     row |= {first: (0, 0, -geared), coupling.carrier: (x, y, spin + geared)}
-    return Equation(value, row, equation.bias if length else 0.0, length=length)
+    bent = second_ratio * (bodies[first].omega - bodies[coupling.carrier].omega) ** 2
+    return Equation(error, row, (equation.bias if length else 0.0) - bent, length=length)
+
+
+def _bent_third(coupling: Coupling, bodies: Known) -> RealField:
+    """F''' q_1'^3 + 3 f'' q_1' q_1'' of a coupling's first body."""
+    first, carrier = bodies[coupling.first[0]], bodies[coupling.carrier]
+    _, _, second, third = coupling.transfer(angle_near(first.direction, carrier.direction, 0.0) - coupling.first_at)
+    speed, acceleration = first.omega - carrier.omega, first.alpha - carrier.alpha
+    return third * speed**3 + 3 * second * speed * acceleration
 
 
 def third_biases(group: Group, bodies: Known) -> list[RealField]:
@@ -104,10 +114,13 @@ def third_biases(group: Group, bodies: Known) -> list[RealField]:
             biases += [(first - second).real, (first - second).imag]
         else:
             biases += [_along_third(mechanism, joint, bodies, 1j), 0.0]
-    driven: list[Joint | None] = [mechanism.joint(entry.joint) for entry in group.inputs]
-    driven += [mechanism.joint(coupling.second[1]) if coupling.kind == "rack" else None for coupling in group.couplings]
-    for one in driven:
-        biases.append(_along_third(mechanism, one, bodies, 1) if isinstance(one, Slide) else 0.0)
+    driven: list[tuple[Joint | None, RealField]] = [(mechanism.joint(entry.joint), 0.0) for entry in group.inputs]
+    driven += [
+        (mechanism.joint(coupling.second[1]) if coupling.slides else None, _bent_third(coupling, bodies))
+        for coupling in group.couplings
+    ]
+    for one, bent in driven:
+        biases.append((_along_third(mechanism, one, bodies, 1) if isinstance(one, Slide) else 0.0) - bent)
     return biases
 
 

@@ -311,7 +311,8 @@ def _period(mechanism: Mechanism, name: str) -> int:
     if any(factor for (kind, _), factor in factors.items() if kind == "travel"):
         return 0
     for periods in range(1, MOST_PERIODS + 1):
-        if all(abs(periods * factor - round(periods * factor)) < periods * HALF for factor in factors.values()):
+        whole = all(abs(periods * factor - round(periods * factor)) < periods * HALF for factor in factors.values())
+        if whole and not any(pair.law is not None and periods % pair.law.turns for pair in mechanism.couplings):
             return periods
     return 0
 

@@ -14,9 +14,10 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TypeAlias, TypeVar
+from typing import Protocol, TypeAlias, TypeVar
 
 from ilmek.arguments import Arguments
+from ilmek.arrays import RealField
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.linkage.joints import GROUND, Body, Displacement, Pin, Rotation, Slide, about, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
@@ -43,13 +44,63 @@ GREATEST_PRESSURE_ANGLE = 45 * deg
 """Greatest pressure angle of a coupling [rad]; teeth have 14.5° to 30°."""
 
 
+class TransferLaw(Protocol):
+    """A law q_2 = f(q_1) of a higher pair, periodic in q_1 but for a constant; `geneva.Geneva`, the lift of a cam.
+
+    slides  whether q_2 is a displacement [m], not an angle      turns  of q_1 after which the second is as before
+    one_sided  whether the first body can only press on the second
+    """
+
+    @property
+    def slides(self) -> bool: ...
+
+    @property
+    def turns(self) -> int: ...
+
+    @property
+    def one_sided(self) -> bool: ...
+
+    def motion(self, angle: RealField, /) -> tuple[RealField, RealField, RealField, RealField]:
+        """F and its first three derivatives at angles [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class BeltSpans:
+    """The spans of a belt or chain between its pulleys, whose forces load their bearings.
+
+    radius      r_1 of the first pulley [m]; r_2 = r_1 / |ratio|
+    pretension  T_0 of each span at rest [N]; 0: a chain, whose slack span has no force
+    friction    mu of a flat belt on its pulleys; None: teeth, which do not slip
+
+    >>> BeltSpans("40mm", pretension="300N", friction=0.3).radius
+    0.04
+    """
+
+    radius: float
+    pretension: float = 0.0
+    friction: float | None = None
+
+    def __post_init__(self) -> None:
+        given = Arguments("a belt", MechanismError)
+        object.__setattr__(self, "radius", given.not_negative("radius", self.radius, "m"))
+        if not self.radius:
+            raise MechanismError("the radius of a pulley is 0", allowed="above 0")
+        object.__setattr__(self, "pretension", given.not_negative("pretension", self.pretension, "N"))
+        if self.friction is not None:
+            object.__setattr__(self, "friction", given.not_negative("friction", self.friction, ""))
+
+    def lean(self, ratio: float, distance: RealField) -> RealField:
+        """Sin alpha = (r_1 -+ r_2) / a: of the spans against the line of centres, at a distance a of these [m]."""
+        return self.radius * (1 - 1 / ratio) / distance
+
+
 @dataclass(frozen=True, slots=True)
 class Coupling:
-    """A fixed ratio between the motions of two bodies on one carrier: gears, a belt or chain, a rack and its pinion.
+    """A fixed relation of the motions of two bodies on one carrier: gears, belt or chain, rack, cam, Geneva wheel.
 
-        q_second - second_at = ratio (q_first - first_at)
+        q_second - second_at = ratio (q_first - first_at),   or  = f(q_first - first_at) by a law
 
-    kind     "gears", "belt" or "rack"
+    kind     "gears", "belt", "rack", "cam" or "geneva"
     first    body and its point in the middle of the wheel; q is its angle against the carrier [rad]
     second   the same of the other wheel; for a rack the sliding body and its slide, q the slide's displacement s [m]
     ratio    gears outside one another -z1/z2, one inside the other z1/z2; an open belt r1/r2, a crossed one -r1/r2;
@@ -57,6 +108,9 @@ class Coupling:
     first_at, second_at   both q in the assembled position: the mesh is given, never assumed
     carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
     pressure_angle   of gears and racks: of their teeth at the pitch point [rad]; a belt has none
+    law      f of a cam or Geneva wheel, in place of the ratio; the angle of a Geneva crank from the line of its centres
+    spans    of a belt or chain; None: the forces that depend on its tension are open
+    roller   point of a cam's follower in the middle of its roller; "": a flat face square to its slide
 
     Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
     to be within half a turn of `first_at` (`second_at`).
@@ -74,11 +128,14 @@ class Coupling:
     second_at: float
     carrier: str = GROUND
     pressure_angle: float = PRESSURE_ANGLE
+    law: TransferLaw | None = None
+    roller: str = ""
+    spans: BeltSpans | None = None
 
     def __post_init__(self) -> None:
-        set_texts(self, "name", "kind", "carrier")
+        set_texts(self, "name", "kind", "carrier", "roller")
         given = Arguments(f"coupling {self.name!r}", MechanismError)
-        rack = self.kind == "rack"
+        rack = self.slides
         with about("couplings", self.name):
             for name in ("first", "second"):
                 body, point = given.pair(name, getattr(self, name), "(body, point)")
@@ -94,8 +151,19 @@ class Coupling:
         """First, second, carrier."""
         return self.first[0], self.second[0], self.carrier
 
+    @property
+    def slides(self) -> bool:
+        """Whether the second body slides."""
+        return self.kind == "rack" if self.law is None else self.law.slides
 
-KINDS = ("gears", "belt", "rack")
+    def transfer(self, turned: RealField) -> tuple[RealField, RealField, RealField, RealField]:
+        """q_second - second_at and its derivatives by q_first, at q_first - first_at [rad]."""
+        if self.law is not None:
+            return self.law.motion(turned)
+        return self.ratio * turned, self.ratio, 0.0, 0.0
+
+
+KINDS = ("gears", "belt", "rack", "cam", "geneva")
 """Kinds of couplings."""
 
 Joint: TypeAlias = Pin | Slide
@@ -115,6 +183,7 @@ class Mechanism:
     pose      body -> (origin [m], angle [rad]) in some assembled position, roughly; needed only by groups without a
               closed form: the start of Newton's method. Default of a body: its frame coincides with the world.
     couplings  gears, belts, racks
+    redundant  joints that stand still by constraints elsewhere, which leave a force in them open: see `redundant`
 
     Raises MechanismError for a name used twice or unknown, a body that no joint holds, a link of zero length, a
     branch that is neither +1 nor -1, a pose that is not finite. The degrees of freedom are checked by `structure.plan`,
@@ -136,11 +205,13 @@ class Mechanism:
     name: str = "mechanism"
     pose: Mapping[str, tuple[complex, float]] = field(default_factory=dict)
     couplings: tuple[Coupling, ...] = ()
+    redundant: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         given = Arguments("a mechanism", MechanismError)
         kinds = {"bodies": Body, "joints": (Pin, Slide), "inputs": (Rotation, Displacement), "couplings": Coupling}
         object.__setattr__(self, "name", given.text("name", self.name))
+        object.__setattr__(self, "redundant", given.sequence("redundant", self.redundant, str))
         for name, kind in kinds.items():
             object.__setattr__(self, name, given.sequence(name, getattr(self, name), kind))
         branches = given.mapping("branches", self.branches, partial(given.whole, least=-1, most=1))
@@ -190,11 +261,12 @@ def degrees_of_freedom(mechanism: Mechanism) -> int:
 
 
 def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
-    known = {entry.name: entry for entry in among}
+    for entry in among:
+        if entry.name == name:
+            return entry
     if not isinstance(name, str):
         raise MechanismError(f"{shown_value(name)} given for a {kind} of {of}", allowed="its name")
-    if name in known:
-        return known[name]
+    known = [entry.name for entry in among]
     allowed = f"it has {', '.join(known) or 'none'}"
     raise MechanismError(f"{of} has no {kind} {name!r}", allowed=allowed, do=did_you_mean(name, known))
 
@@ -219,6 +291,9 @@ def _check(mechanism: Mechanism) -> None:
     for name in mechanism.pose:
         with about("pose", name):
             mechanism.body(name)
+    for name in mechanism.redundant:
+        with about("redundant"):
+            mechanism.joint(name)
 
 
 def _check_names(mechanism: Mechanism) -> None:
@@ -251,18 +326,34 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
     for body, point in (coupling.first, coupling.second):
         mechanism.point(body, point)
     mechanism.body(coupling.carrier)
-    if coupling.ratio == 0:
+    if coupling.ratio == 0 and coupling.law is None:
         raise MechanismError(f"{subject} has ratio 0", allowed="another number")
     if not 0 <= coupling.pressure_angle <= GREATEST_PRESSURE_ANGLE:
         given = f"{subject} has a pressure angle of {coupling.pressure_angle:g} rad"
         raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
-    if coupling.kind == "rack":
+    if coupling.spans is not None:
+        _check_spans(mechanism, coupling, coupling.spans)
+    if coupling.roller:
+        mechanism.point(coupling.second[0], coupling.roller)
+    if coupling.slides:
         slide = mechanism.joint(coupling.second[1])
         if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):
             given = (
                 f"{subject} requires a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
             )
             raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
+
+
+def _check_spans(mechanism: Mechanism, coupling: Coupling, spans: BeltSpans) -> None:
+    points = mechanism.body(coupling.carrier).points
+    if coupling.kind != "belt":
+        raise MechanismError(f"{coupling.name!r} has spans", allowed="a belt or chain has them")
+    if coupling.first[1] in points and coupling.second[1] in points:
+        distance = abs(points[coupling.first[1]] - points[coupling.second[1]])
+        if abs(spans.radius * (1 - 1 / coupling.ratio)) >= distance:
+            other = spans.radius / abs(coupling.ratio)
+            given = f"{coupling.name!r}: pulleys of radius {spans.radius:g} m and {other:g} m at {distance:g} m"
+            raise MechanismError(given, allowed="a distance at which a belt reaches around both")
 
 
 def _check_input(mechanism: Mechanism, entry: Input) -> None:

@@ -26,7 +26,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Check, at_most
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import mm, turn
 
 BRACKET = 20 * mm
 """Thickness of the plates that carry the bearings [m]; assumed by this project: their height follows from the load."""
@@ -147,8 +147,7 @@ class BearingSeat:
         if row.flange:
             return Occurrence(own, tuple(seat.after(flipped) for seat in at)), screws
         shape = Prism(Profile(rectangle(self.side, self.side), (circle(0j, row.outer / 2), *holes)), row.width)
-        size = f"square {format_quantity(self.side, 'mm')}, {format_quantity(row.width, 'mm')} thick"
-        housing = Part(ids[1], f"housing of the {title}", "laser-cut part", size, shape, STEEL, machined=True)
+        housing = Part(ids[1], f"housing of the {title}", "laser-cut part", shape, STEEL, machined=True)
         return Occurrence(own, at), Occurrence(housing, at), screws
 
 

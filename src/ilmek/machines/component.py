@@ -194,6 +194,7 @@ class Component(Generic[P, D, A]):
         illustrated: bool = True,
         drawn: bool = True,
         assembled: bool = True,
+        listed: bool = True,
     ) -> Report:
         """The report of a design, with those of the machines in it.
 
@@ -203,13 +204,14 @@ class Component(Generic[P, D, A]):
         illustrated  False: without tables and figures, which take as long as all the rest
         drawn        False: without figures
         assembled    False: without its parts against each other in space
+        listed       False: without lists of parts, plates and cam tables, for one of very many designs
         """
         analysis = self.analysis(design)
         records = self.results(analysis)
         whole = (self.assembly(design),) if self.assembly and assembled else ()
         figures, left_out = self.drawn(design, in_a_loom=in_a_loom) if illustrated and drawn else ((), ())
         tests = self.self_tests(analysis)
-        stand = Tree() if in_a_loom or self.stand is None else self.stand(design)
+        stand = Tree() if in_a_loom or self.stand is None or not listed else self.stand(design)
         report = Report(
             machine=self.name,
             title=self.title,
@@ -226,11 +228,13 @@ class Component(Generic[P, D, A]):
             else (),
             figures=figures,
             warnings=(*self.warnings(analysis), *left_out),
-            plates=(*self.plates(design), *plates_of(stand)),
-            cam_tables=self.cam_tables(design),
-            pieces=(*self.pieces(design), *pieces_of(stand)),
-            parts=(*self.parts(design), *bill(stand)),
-            children=tuple(child.reported(illustrated=illustrated, drawn=drawn) for child in self.children(design)),
+            plates=(*self.plates(design), *plates_of(stand)) if listed else (),
+            cam_tables=self.cam_tables(design) if listed else (),
+            pieces=(*self.pieces(design), *pieces_of(stand)) if listed else (),
+            parts=(*self.parts(design), *bill(stand)) if listed else (),
+            children=tuple(
+                child.reported(illustrated=illustrated, drawn=drawn, listed=listed) for child in self.children(design)
+            ),
             choices=self.choices(design),
             headline=tuple(name for name in self.headline if whole or name != BUILDABLE),
         )
@@ -293,12 +297,14 @@ class Child:
         """Work of its acts."""
         return self.component.work(self.design)
 
-    def reported(self, *, illustrated: bool = True, drawn: bool = True) -> Report:
-        """Its report, as a machine in a loom; `illustrated` and `drawn` as in `Component.report`."""
-        return self.made or _report_in_a_loom(self.component, self.design, illustrated, illustrated and drawn)
+    def reported(self, *, illustrated: bool = True, drawn: bool = True, listed: bool = True) -> Report:
+        """Its report, as a machine in a loom; `illustrated`, `drawn` and `listed` as in `Component.report`."""
+        return self.made or _report_in_a_loom(self.component, self.design, illustrated, illustrated and drawn, listed)
 
 
 @lru_cache(maxsize=32)
-def _report_in_a_loom(component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool) -> Report:
+def _report_in_a_loom(
+    component: AnyComponent, design: Hashable, illustrated: bool, drawn: bool, listed: bool
+) -> Report:
     """The report of a machine in a loom, made once for a design: looms that differ elsewhere share it."""
-    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn)
+    return component.report(design, in_a_loom=True, illustrated=illustrated, drawn=drawn, listed=listed)

@@ -28,7 +28,7 @@ from ilmek.plane.contours import rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
 from ilmek.report.scene import SceneMotion
-from ilmek.units import in_mm, round_size, turn
+from ilmek.units import turn
 
 GAP = 0.4
 """Distance of neighbouring levels, over the greatest thickness of a link: assumed by this project."""
@@ -114,18 +114,15 @@ def link_part(name: str, title: str, pins: Mapping[str, complex], size: LinkSize
     """
     points = np.array(list(pins.values()), dtype=complex)
     holes = [Hole(point, size.hole / 2) for point in bored(pins, BRIDGE * size.hole).values()]
-    reach = float(np.max(np.abs(points[:, None] - points[None, :])))
-    section = f"{in_mm(size.width)} x {in_mm(size.thickness)}"
     shape = Prism(drilled(rounded_hull(points, size.width / 2), holes), size.thickness)
     seats = {pin: Seat(placement(point.real, point.imag), size.hole) for pin, point in pins.items()}
-    return Part(name, title, "machined link", f"{section}, {in_mm(reach)}", shape, size.material, seats=seats)
+    return Part(name, title, "machined link", shape, size.material, seats=seats)
 
 
 def pin_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A pin about z from z = 0 [m]."""
-    size = f"{round_size(diameter)}, {in_mm(length)}"
     shape = bar(diameter, length)
-    return Part(name, title, "pin or bush", size, shape, PIN_STEEL, seats={JOURNAL: Seat(placement(), diameter)})
+    return Part(name, title, "pin or bush", shape, PIN_STEEL, seats={JOURNAL: Seat(placement(), diameter)})
 
 
 @record

@@ -20,7 +20,7 @@ from ilmek.part.shapes import Prism, rectangle, square_tube
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
-from ilmek.units import in_mm, mm, turn
+from ilmek.units import mm, turn
 
 GAP, EDGE, SAFETY = 20 * mm, 5 * mm, 1.5
 """Room beside the shafts, from a bearing to the edges of its bracket [m], yield over stress of a bracket; assumed."""
@@ -79,7 +79,7 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
     low, high = heights[-1] - shafts[-1].beside - GAP, heights[0] + shafts[0].beside
     for shaft, height in zip(shafts, heights, strict=True):
         own, title = _bracket(shaft, behind), f"bracket of the {shaft.name}"
-        part = Part(name(f"{shaft.key}-bracket"), title, LASER_CUT, "", own, STEEL, machined=True)
+        part = Part(name(f"{shaft.key}-bracket"), title, LASER_CUT, own, STEEL, machined=True)
         yield Occurrence(part, (placement(0.0, height, shaft.face), placement(0.0, height, -shaft.face - BRACKET)))
     upright = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4)
     column = _stock(name("side-column"), "column of the stand", section, high - low)
@@ -92,7 +92,7 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
 
 
 def _stock(name: str, title: str, section: HollowSquare, length: float) -> Part:
-    return Part(name, title, WELDED, section.name, square_tube(section.side, section.wall, length), STEEL)
+    return Part(name, title, WELDED, square_tube(section.side, section.wall, length), STEEL)
 
 
 def _height(shaft: CarriedShaft, behind: float) -> float:
@@ -119,4 +119,4 @@ def lantern(name: str, of: str, drive: Part, shaft: float, length: float) -> Par
     bore = shaft + 2 * CLEAR
     face = max(face_of(drive), 1.5 * bore)
     shape = Prism(Profile(rectangle(face, face), (circle(0j, bore / 2),)), length)
-    return Part(name, f"lantern of the {of}", "steel bar", f"square {in_mm(face)}", shape, STEEL, machined=True)
+    return Part(name, f"lantern of the {of}", "steel bar", shape, STEEL, machined=True)

@@ -153,7 +153,7 @@ def sold_as(part: Part) -> str:
 
     >>> from ilmek.elements.materials import find_material
     >>> from ilmek.part.shapes import bar
-    >>> sold_as(Part("probe/wire", "wire", "turned part", "", bar(0.9e-3, 0.1), find_material("heat-treatable steel")))
+    >>> sold_as(Part("probe/wire", "wire", "turned part", bar(0.9e-3, 0.1), find_material("heat-treatable steel")))
     'SH EN 10270-1'
     """
     if part.material is None:

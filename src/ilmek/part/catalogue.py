@@ -61,6 +61,19 @@ _SET_SCREWS = ((14 * mm, 3 * mm), (30 * mm, 4 * mm), (50 * mm, 5 * mm), (math.in
 _LOCKING = ((28 * mm, 27 * mm), (40 * mm, 25 * mm), (65 * mm, 30 * mm), (80 * mm, 35 * mm), (math.inf, 45 * mm))
 """Largest shaft, and how much larger the bore about its locking assembly is [m]: makers' usual sizes."""
 
+FEEDBACK = "absolute multi-turn encoder"
+"""What a motor of an axis has, so that its zero is set once and no axis must look for it after a power failure."""
+
+
+def stroke_of(travel: float) -> str:
+    """What the order of an axis states of its travel [m]: its length is the maker's.
+
+    >>> stroke_of(0.25)
+    'stroke at least 250 mm'
+    """
+    return f"stroke at least {in_mm(travel)}"
+
+
 FLANGE = 14 * mm
 """Thickness of the flange of a bearing's housing [m]; makers differ by some millimetres."""
 
@@ -74,16 +87,19 @@ def motor(  # noqa: PLR0917
     together: int = 1,
     *,
     shaft: tuple[float, float] | None = None,
+    rear: bool = False,
 ) -> Part:
     """A motor, which drives an axis of the control: its flange at z = 0, its shaft towards +z.
 
     together  how many of them move one body      shaft  diameter and length of its end in a hub [m]; None: not drawn
     row  of the table; None: a special servo for a torque [N m] at a speed [rad/s], priced by its power
+    rear  it has a rear shaft end, for a brake or an encoder behind it
     """
+    feedback = f"{FEEDBACK}, rear shaft end" if rear else FEEDBACK
     holes = flange_holes(row)
     if row is not None:
         peak = "holding" if row.kind == STEPPER else "peak"
-        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}"
+        data = f"{peak} {format_quantity(row.peak, 'Nm', 3)}, {_flange_of(row)}, {feedback}"
         bought = Bought(row.name, row.mass, power=row.power, drives=together, data=data, holes=holes)
         room, kind = box(row.face, row.face, row.length), row.kind
     else:
@@ -120,7 +136,8 @@ def holding_brake(name: str, title: str, motor: Part, torque: float) -> Part:
     assert motor.shape is not None
     row, rear = brake_for(torque), float(shape_box(motor.shape)[0][2])
     room = Sum((Placed(bar(row.diameter, row.length), (placement(z=rear - row.length),)),))
-    bought = Bought(row.name, row.mass, power=row.power)
+    assert motor.purchase is not None
+    bought = Bought(row.name, row.mass, power=row.power, data=f"built by its maker onto {motor.purchase.row}")
     return bought_part(name, title, HOLDING_BRAKE, room, bought, fixing="built onto its motor by the maker")
 
 
@@ -347,7 +364,12 @@ def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:
     holes = HolePattern(0.0, row.pitch, row.rail_screw, in_rows=True, faces=(0,))
     bought = Bought(f"rail {row.name}", row.line_mass * length, length=length, holes=(holes,))
     return Part(
-        name, title, "linear guide", format_quantity(length, "mm", 4), Prism(Profile(section), length), purchase=bought
+        name,
+        title,
+        "linear guide",
+        Prism(Profile(section), length),
+        purchase=bought,
+        size=format_quantity(length, "mm", 4),
     )
 
 

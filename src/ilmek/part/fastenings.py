@@ -38,7 +38,7 @@ class Means(StrEnum):
 
 
 OWN = {
-    "axis of the control": "in its row of the cabinet",
+    "axis of the control": "its screws in the threads of the plate",
     "levelling foot": "its thread with a nut",
     "belt": "lies round its pulleys",
     "belt and pulleys": "lies round its pulleys",

@@ -111,7 +111,6 @@ class Part:
     """A kind of thing: what it is, how it is made, of what, and where others sit on it.
 
     id       unique: machine and part, `tension-compensator/lever`         title   for people
-    size     of a bought part, for people; default: the catalogue's row. That of a made one is its blank's [`blanks`]
     process  how it is made [`making`], or the kind by which it is bought      shape   in the part's own axes
     material  of a part that is made          purchase  of a bought one     seats   by name
     envelope  the shape is the room that the part takes: its form is not designed, or the maker's
@@ -123,6 +122,7 @@ class Part:
     joins     ids of the parts that a fastener holds together, or that a made part is welded to
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
     fixing    by what it holds itself where it stands, with no screw, weld or fit of this tree; ""
+    size      of a bought part, for people; default: the catalogue's row. That of a made one is its blank's [`blanks`]
 
     A made part has a shape and a material, and weighs what these say. A bought part weighs what its catalogue says.
     Raises ParameterError for a part that is both or neither.
@@ -131,7 +131,6 @@ class Part:
     id: str
     title: str
     process: str
-    size: str = ""
     shape: Shape | None = None
     material: Material | None = None
     purchase: Bought | None = None
@@ -146,6 +145,7 @@ class Part:
     machined: bool = False
     joins: tuple[str, ...] = ()
     fixing: str = ""
+    size: str = ""
 
     def __post_init__(self) -> None:
         if (self.purchase is None) == (self.material is None):
@@ -192,4 +192,4 @@ def bought_part(
     name: str, title: str, process: str, shape: Shape, purchase: Bought, *, size: str = "", fixing: str = ""
 ) -> Part:
     """A bought part whose shape is the room that it takes: its form is the maker's, or not designed."""
-    return Part(name, title, process, size, shape, purchase=purchase, envelope=True, fixing=fixing)
+    return Part(name, title, process, shape, purchase=purchase, envelope=True, fixing=fixing, size=size)

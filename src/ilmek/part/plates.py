@@ -46,11 +46,13 @@ View = TypeVar("View", Plate, WorkPiece)
 
 
 def of_tree(made: View, tree: object) -> View:
-    """A plate or piece of a part as that is in a tree, with its holes for what it meets there."""
-    if not isinstance(made.part, Part) or not isinstance(tree, Tree) or made.part.drawing is not None:
+    """A plate or piece of a part as that is in a tree: its pieces there, its holes for what it meets there."""
+    if not isinstance(made.part, Part) or not isinstance(tree, Tree):
         return made
-    part = _parts(tree).get(made.part.id, made.part)
-    if part is made.part:
+    own_part = made.part
+    part, number = _parts(tree).get(own_part.id, (own_part, made.number))
+    made = replace(made, number=number)
+    if part is own_part or own_part.drawing is not None:
         return made
     own = _plate(part, made.number, tree) if isinstance(made, Plate) else _piece(part, made.number, tree)
     return replace(made, **{name: getattr(own, name) for name in _HOLED[type(made)]})
@@ -64,8 +66,8 @@ _HOLED: dict[type, tuple[str, ...]] = {
 
 
 @lru_cache(maxsize=4)
-def _parts(tree: Tree) -> dict[str, Part]:
-    return {part.id: part for part, _ in tree.occurrences()}
+def _parts(tree: Tree) -> dict[str, tuple[Part, int]]:
+    return {part.id: (part, number) for part, number in tree.occurrences()}
 
 
 def tolerated(made: View) -> View:

@@ -48,7 +48,7 @@ def specification(part: Part) -> PartSpecification:
 
     >>> from ilmek.elements.materials import find_material
     >>> from ilmek.part.shapes import bar
-    >>> pin = Part("pin", "pin", "pin or bush", "", bar(0.008, 0.1), find_material("induction-hardened steel"))
+    >>> pin = Part("pin", "pin", "pin or bush", bar(0.008, 0.1), find_material("induction-hardened steel"))
     >>> specification(pin).designation, round(specification(pin).depth, 6)
     ('C45+QT EN 10083-2', 0.001)
     """

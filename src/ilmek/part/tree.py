@@ -92,13 +92,7 @@ class RigidBody:
     @property
     def moments(self) -> Moments:
         """Moments of its mass in its own frame (kg, kg m, kg m²), of the parts that are weighed."""
-        return together(
-            moments.placed(position)
-            for occurrence in self.occurrences
-            for moments in [occurrence.part.moments]
-            if moments is not None
-            for position in occurrence.positions
-        )
+        return _moments(self)
 
 
 @record
@@ -227,6 +221,17 @@ def depth_of(part: Part) -> float:
     """Length along z of a part from z = 0 [m]."""
     assert part.shape is not None
     return max(float(piece[:, 2].max()) for piece in part.shape.pieces(1 * mm))
+
+
+@lru_cache(maxsize=1024)
+def _moments(body: RigidBody) -> Moments:
+    return together(
+        moments.placed(position)
+        for occurrence in body.occurrences
+        for moments in [occurrence.part.moments]
+        if moments is not None
+        for position in occurrence.positions
+    )
 
 
 @lru_cache(maxsize=64)

@@ -36,9 +36,10 @@ ELECTRIC = {
     "electric.terminal": "terminal",
     "electric.parts": "parts",
     "electric.safety": "Safety circuit",
-    "electric.safety-how": "Two channels of {relay}. Each device opens both; the relay halts the motion controller at "
-    "once over {halt}, which brakes all axes (stop category 1 of IEC 60204-1), and then takes the torque from all "
-    "amplifiers. The circuit responds in {circuit}; the last axis, {axis}, stands after {whole}.",
+    "electric.safety-how": "{stops} and {guards}, {relay}: emergency stops open both channels of {stops}, guards those "
+    "of {guards}; their contacts are in series. A relay that opens halts the motion controller at once over {halt}, "
+    "which brakes all axes (stop category 1 of IEC 60204-1), and then takes the torque from all amplifiers. The "
+    "circuit responds in {circuit}; the last axis, {axis}, stands after {whole}.",
     "electric.residual": "Amplifiers keep a dangerous voltage after they are switched off: measure below 60 V before "
     "their covers are opened (IEC 60204-1, 6.2.4).",
     "electric.single-line": "Supply and motors in a single line",
@@ -51,7 +52,7 @@ ELECTRIC = {
     "electric.volts": "voltage [V]",
     "electric.all-power": "power of all",
     "electric.fed-by": "fed by",
-    "electric.source": "{sign}, {row}: loaded with {load} of {rated}.",
+    "electric.source": "{sign}, {row}: loaded with {load} of {rated}; bars have at least {bar} mm² of copper.",
     "electric.braking": "The braking module R1 on the bars of 48 V burns what steppers give back while they brake.",
     "electric.braking-title": "Braking",
     "electric.braking-how": "What a motor gives back, with its rotor and without friction: the capacitors of its "
@@ -68,10 +69,12 @@ ELECTRIC = {
     "electric.piece": "pieces, by number",
     "electric.connected-at": "connected at",
     "electric.cabinet": "Cabinet",
-    "electric.cabinet-how": "{size} mm of sheet steel, IP54; with what stands on its rails {mass}. Its devices lose "
+    "electric.cabinet-how": "{size} mm of sheet steel, IP54; with all that stands in it {mass}. Its devices lose "
     "{heat} at their rated power, which walls and fan carry at {rise} over the room.",
-    "electric.enabling-how": "The enabling switch {sign} lets one axis jog at a reduced speed while the guards are "
-    "open (IEC 60204-1, 9.2.4): both of its channels bridge the guards in the relay.",
+    "electric.enabling-how": "At setting the mode selector {mode}, whose key is taken out, puts both channels of the "
+    "enabling switch {sign} in the position of those of the guards alone, and takes the inputs of full speed from all "
+    "amplifiers: their safely limited speed (SLS of IEC 61800-5-2, 250 mm/s at most) watches the axis that jogs "
+    "(IEC 60204-1, 9.2.3.5 and 9.2.4). Emergency stops act in both modes.",
     "electric.sign": "sign",
     "electric.amplifier": "amplifier [A]",
     "electric.relay": "safety relay",

@@ -37,9 +37,10 @@ ELECTRIC = {
     "electric.terminal": "klemens",
     "electric.parts": "parçalar",
     "electric.safety": "Güvenlik devresi",
-    "electric.safety-how": "{relay} iki kanallıdır. Her aygıt ikisini de açar; röle hareket denetleyicisini {halt} "
-    "üzerinden hemen durdurur, bu da bütün eksenleri frenler (IEC 60204-1'in 1 numaralı durdurma kategorisi), sonra "
-    "bütün sürücülerin torkunu keser. Devre {circuit} içinde tepki verir; son eksen, {axis}, {whole} sonra durur.",
+    "electric.safety-how": "{stops} ve {guards}, {relay}: acil durdurmalar {stops} rölesinin, koruyucular {guards} "
+    "rölesinin iki kanalını açar; kontakları seridir. Açılan röle hareket denetleyicisini {halt} üzerinden hemen "
+    "durdurur, bu da bütün eksenleri frenler (IEC 60204-1'in 1 numaralı durdurma kategorisi), sonra bütün sürücülerin "
+    "torkunu keser. Devre {circuit} içinde tepki verir; son eksen, {axis}, {whole} sonra durur.",
     "electric.residual": "Sürücüler kapatıldıktan sonra da tehlikeli gerilim taşır: kapaklar açılmadan 60 V'un altı "
     "ölçülmelidir (IEC 60204-1, 6.2.4).",
     "electric.single-line": "Tek hat şeması: besleme ve motorlar",
@@ -51,7 +52,7 @@ ELECTRIC = {
     "electric.volts": "gerilim [V]",
     "electric.all-power": "hepsinin gücü",
     "electric.fed-by": "besleyen",
-    "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklüdür.",
+    "electric.source": "{sign}, {row}: {rated} anma gücünden {load} yüklü; + ve - baraları en az {bar} mm² bakır.",
     "electric.braking": "48 V baralarındaki frenleme modülü R1, adım motorlarının frenlerken geri verdiğini yakar.",
     "electric.braking-title": "Frenleme",
     "electric.braking-how": "Bir motorun rotoruyla ve sürtünmesiz geri verdiği: sürücüsünün kondansatörleri bunu "
@@ -68,10 +69,12 @@ ELECTRIC = {
     "electric.piece": "parçalar, numarayla",
     "electric.connected-at": "bağlandığı yer",
     "electric.cabinet": "Pano",
-    "electric.cabinet-how": "{size} mm çelik sac, IP54; raylarındaki aygıtlarla {mass}. Aygıtları anma güçlerinde "
+    "electric.cabinet-how": "{size} mm çelik sac, IP54; içindeki her şeyle {mass}. Aygıtları anma güçlerinde "
     "{heat} ısı verir; duvarlar ve fan bunu odanın {rise} üstünde taşır.",
-    "electric.enabling-how": "Onay anahtarı {sign}, koruyucular açıkken tek bir eksenin düşük hızla yürütülmesine "
-    "izin verir (IEC 60204-1, 9.2.4): iki kanalı rölede koruyucuları köprüler.",
+    "electric.enabling-how": "Ayar konumunda, anahtarı çıkarılabilen mod seçici {mode}, onay anahtarı {sign} "
+    "kanallarını yalnız koruyucuların yerine koyar ve bütün sürücülerin tam hız girişlerini keser: güvenli sınırlı "
+    "hız (IEC 61800-5-2 SLS, en çok 250 mm/s) yürütülen ekseni izler (IEC 60204-1, 9.2.3.5 ve 9.2.4). Acil "
+    "durdurmalar iki modda da etkilidir.",
     "electric.sign": "işaret",
     "electric.amplifier": "sürücü [A]",
     "electric.relay": "emniyet rölesi",

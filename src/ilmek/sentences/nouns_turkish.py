@@ -10,7 +10,17 @@ from functools import lru_cache
 
 _NOUNS = """
 amplifier = yükselteç | brake = fren | braking module = frenleme modül+ü | cabinet = pano | fuse = sigorta
-enabling switch for setting up = ayar için onay anahtar+ı | eye bolt = mapa | fuses of 24 V = 24 V sigortaları+
+enabling switch for setting up = ayar için onay anahtar+ı | mode selector = mod seçici
+mounting plate of the cabinet = pano montaj levha+sı | height of the shed = ağızlık yüksekliğ+i
+opener between two warps = iki çözgü arasında açıcı | gripper beside a warp = çözgü yanında kıskaç
+profile of the upper cam = üst kam profil+i | profile of the lower cam = alt kam profil+i
+upper cam on its bar = çubuğunda üst kam | lower cam on its bar = çubuğunda alt kam
+opener on its rods = çubuklarında açıcı | bores of the rods = çubuk delikler+i | teeth of the opener = açıcı dişler+i
+cam of the warp = çözgü kam+ı | warp between its guides = kılavuzları arasında çözgü
+head on its rail = rayında kafa | gripper in the face = alında kıskaç | bore of the face = alın deliğ+i
+gripper in the opener's cross-bar = açıcı köprüsünde kıskaç | bore of the opener's cross-bar = açıcı köprü deliğ+i
+relay of the emergency stops = acil durdurma röle+si | relay of the guards = koruyucu röle+si
+eye bolt = mapa | fuses of 24 V = 24 V sigortaları+
 fan in the door of the cabinet = pano kapağı fan+ı | inputs = girişler | main switch = ana şalter | outputs = çıkışlar
 inputs for the yarns of a head = kafa ipliklerinin girişleri+ | steppers = adım motorları | strain = gerinim
 plate of an eye bolt on a column = kolondaki mapa levha+sı | lifting eyes = kaldırma mapaları+ | eye-bolt = mapa

@@ -104,7 +104,9 @@ PAPERS = {
     "setting.cam-belt": "belt of a head's cam shaft: span {span}, {tension} at rest",
     "setting.axes": "Directions of the motors",
     "setting.axes-how": "Jog each axis in the direction of increasing positions of its table. It moves, or turns "
-    "by the right-hand rule about, the direction that is named, as the weaver sees it from the front.",
+    "by the right-hand rule about, the direction that is named, as the weaver sees it from the front. "
+    "Then set the zero of its motor once, at the begin of its table: its encoder is absolute over many turns, so that "
+    "no axis looks for its zero at power on.",
     "setting.body": "body",
     "setting.motor": "motor",
     "setting.direction": "direction",
@@ -176,7 +178,7 @@ PAPERS = {
     "risk.level": "Required performance level of the safety circuit: S2, {frequency}, P2, so PL {level} (ISO "
     "13849-1, annex A).",
     "risk.remains": "What remains: crushing while the fence is open for setting up. Jog one axis at a time at a "
-    "reduced speed, with the enabling switch (IEC 60204-1, 9.2.4).",
+    "safely limited speed, with the enabling switch and the mode selector at setting (IEC 60204-1, 9.2.4).",
     "risk.body-moves": "body",
     "risk.mass": "mass",
     "risk.gap": "least distance [mm]",
@@ -328,4 +330,36 @@ PAPERS = {
     "list.cut": "Stock to be cut",
     "list.purchase": "Bought parts",
     "list.fasteners": "Fasteners",
+    "chain.title": "Tolerance chains",
+    "chain.lead": "Deviations that add up between parts, against the room that the work needs",
+    "chain.how": "Sizes are normal, a play lies anywhere in it. "
+    "A link moves the closure by its deviation times its ratio. Worst case: every link at its "
+    "limit. Statistical: what 99.7 % of all assemblies keep.",
+    "chain.kind": "kind",
+    "chain.play": "play",
+    "chain.size": "size",
+    "chain.kept": "The worst case keeps the room: nothing must be measured.",
+    "chain.measured": "The worst case does not keep the room: measure the closure by the commissioning list.",
+    "chain.link": "link",
+    "chain.deviation": "to each side",
+    "chain.ratio": "ratio",
+    "chain.share": "share",
+    "chain.worst": "worst case",
+    "chain.statistical": "statistical",
+    "chain.room": "room",
+    "chain.sheets": "Sheets on the cam shafts",
+    "chain.sheets-how": "From one pile of shims to the next (EN 10131): the shims take up the worst case; the "
+    "distance of a cam from its warp is at most the allowed one; the groove of a warp is at least"
+    " as wide as the warp.",
+    "chain.shaft": "cam shaft",
+    "chain.interval": "pitches",
+    "chain.shims": "shims",
+    "chain.offset": "allowed",
+    "chain.groove": "groove",
+    "chain.warp": "warp",
+    "risk.approach": "Distances of the guards that open",
+    "risk.approach-how": "S = K T + C (ISO 13855): K = {speed}, T from the opening to the standstill of the axis, C = "
+    "{reach}. Of a body whose axis is not known, T is that of the slowest axis.",
+    "risk.stands": "stands after",
+    "risk.front": "distance",
 }

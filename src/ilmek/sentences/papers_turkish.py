@@ -104,7 +104,9 @@ PAPERS = {
     "setting.cam-belt": "kafanın kam milinin kayışı: açıklık {span}, durgun gerginlik {tension}",
     "setting.axes": "Motor yönleri",
     "setting.axes-how": "Her ekseni tablosundaki artan konumlar yönünde elle sürün. Eksen, adı verilen yönde "
-    "ilerler ya da o yönün çevresinde sağ el kuralıyla döner; yönler önde duran dokuyucuya göredir.",
+    "ilerler ya da o yönün çevresinde sağ el kuralıyla döner; yönler önde duran dokuyucuya göredir. "
+    "Sonra motorunun sıfırını tablosunun başında bir kez ayarlayın: kodlayıcısı çok turlu ve mutlaktır, "
+    "açılışta hiçbir eksen sıfır aramaz.",
     "setting.body": "gövde",
     "setting.motor": "motor",
     "setting.direction": "yön",
@@ -175,8 +177,8 @@ PAPERS = {
     "risk.grid": "önde ışık perdesi ve her dokuyucuya iki düğme",
     "risk.level": "Güvenlik devresinin gerekli performans seviyesi: S2, {frequency}, P2, yani PL {level} (ISO "
     "13849-1, ek A).",
-    "risk.remains": "Kalan risk: ayar için çit açıkken ezilme. Eksenleri tek tek, düşük hızda, onay "
-    "anahtarıyla sürün (IEC 60204-1, 9.2.4).",
+    "risk.remains": "Kalan risk: ayar için çit açıkken ezilme. Eksenleri tek tek, güvenli sınırlı hızda, mod seçici "
+    "ayarda iken onay anahtarıyla sürün (IEC 60204-1, 9.2.4).",
     "risk.body-moves": "gövde",
     "risk.mass": "kütle",
     "risk.gap": "en küçük uzaklık [mm]",
@@ -327,4 +329,35 @@ PAPERS = {
     "list.cut": "Kesilecek yarı mamul",
     "list.purchase": "Satın alınan parçalar",
     "list.fasteners": "Bağlantı elemanları",
+    "chain.title": "Tolerans zincirleri",
+    "chain.lead": "Parçalar arasında toplanan sapmalar ve işin gerektirdiği boşluk",
+    "chain.how": "Ölçüler normal dağılır, boşluk payı içinde her yerdedir. "
+    "Bir halka kapanışı sapmasıyla oranının çarpımı kadar kaydırır. En kötü durum: her halka "
+    "sınırında. İstatistik: montajların %99,7'sinin koruduğu.",
+    "chain.kind": "tür",
+    "chain.play": "boşluk payı",
+    "chain.size": "ölçü",
+    "chain.kept": "En kötü durum boşluğa sığar: ölçmek gerekmez.",
+    "chain.measured": "En kötü durum boşluğa sığmaz: kapanış devreye alma listesiyle ölçülür.",
+    "chain.link": "halka",
+    "chain.deviation": "her yana",
+    "chain.ratio": "oran",
+    "chain.share": "pay",
+    "chain.worst": "en kötü durum",
+    "chain.statistical": "istatistik",
+    "chain.room": "boşluk",
+    "chain.sheets": "Kam millerindeki saclar",
+    "chain.sheets-how": "Bir şim yığınından ötekine (EN 10131): şimler en kötü durumu karşılar; kamın çözgüsünden "
+    "uzaklığı izin verileni aşmaz; çözgü oluğu çözgüden dar değildir.",
+    "chain.shaft": "kam mili",
+    "chain.interval": "adım",
+    "chain.shims": "şimler",
+    "chain.offset": "izin verilen",
+    "chain.groove": "oluk",
+    "chain.warp": "çözgü",
+    "risk.approach": "Açılan koruyucuların uzaklıkları",
+    "risk.approach-how": "S = K T + C (ISO 13855): K = {speed}, T açılmadan eksenin durmasına kadar, C = {reach}. "
+    "Ekseni bilinmeyen gövdede T en yavaş eksenindir.",
+    "risk.stands": "durma",
+    "risk.front": "uzaklık",
 }

@@ -88,6 +88,14 @@ class DrawnCarpet:
         self.image.save(path, format="PNG", compress_level=1, compress_type=zlib.Z_HUFFMAN_ONLY)
 
     @property
+    def of_pile(self) -> "DrawnCarpet":
+        """The pile alone, as of a tufted carpet, which has no fringes."""
+        (width, height), pile = self.image.size, self.pile
+        left, top = round(pile.left * width), round(pile.top * height)
+        right, low = left + round(pile.width * width), top + round(pile.height * height)
+        return DrawnCarpet(self.image.crop((left, top, right, low)), WHOLE)
+
+    @property
     def jpeg(self) -> bytes:
         """The picture as a JPEG file."""
         return _jpeg(self.image, 84)

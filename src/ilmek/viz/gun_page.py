@@ -5,10 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ilmek.machines.tufting_gun.design import TuftedByGun
-from ilmek.report import Check, Json, Result, reasons
+from ilmek.report import Check, Json, Result
 from ilmek.units import format_quantity, mm
-from ilmek.viz.page import FIRST_CHECKS, render
-from ilmek.viz.sections import PageVerdict, failures_first, judged
+from ilmek.viz.tufted_page import tufted_page
 
 _STEP = 0.1 * mm
 """Step of the points of the picture in motion [m]."""
@@ -19,26 +18,19 @@ def gun_page(
 ) -> str:
     """The page as self-contained HTML; results  of `tufted`, declared; files  names of those of the folder."""
     plan = tufted.plan
-    grouped = ("gun_colours", "gun_cost")
-    return render(
+    return tufted_page(
         "gun.html.j2",
-        title=f"{title}: by the tufting gun",
-        lead=f"{plan.width / mm:.0f} × {plan.length / mm:.0f} mm, rows of {format_quantity(plan.spacing, 'mm')}",
-        verdict=PageVerdict(
-            "The gun tufts this carpet.",
-            "The gun cannot tuft this carpet as it is, and there is no programme.",
-            len(checks),
-            reasons(checks),
-        ),
-        colours=[
-            {**row, "colour": tufted.cones[own.label].colour}
-            for row, own in zip(tufted.gun_colours, plan.colours, strict=True)
-        ],
-        cost=tufted.gun_cost,
-        results=[result for result in results if result.name not in grouped],
-        checks=failures_first(judged(checks, ())),
-        first_checks_shown=FIRST_CHECKS,
+        f"{title}: by the tufting gun",
+        maker="gun",
+        results=results,
+        checks=checks,
         files=files,
+        cones=[tufted.cones[own.label] for own in plan.colours],
+        colours=tufted.gun_colours,
+        amounts=(("Strokes", "strokes", 0), ("Rows [m]", "rows", 1)),
+        cost=tufted.gun_cost,
+        apart=("gun_colours", "gun_cost"),
+        lead=f"{plan.width / mm:.0f} × {plan.length / mm:.0f} mm, rows of {format_quantity(plan.spacing, 'mm')}",
         data=_data(tufted),
     )
 

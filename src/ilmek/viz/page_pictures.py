@@ -163,9 +163,9 @@ def _of_the_source(source: Rgb, chart: Chart) -> PagePicture:
     stream, alt = io.BytesIO(), "The picture, as it is fitted to the carpet"
     if source.shape[:2] == chart.knots.shape and chart.columns <= _SHARP:
         Image.fromarray(source).save(stream, format="PNG")
-        return PagePicture(_address(stream.getvalue(), "png"), *_proportions(chart), alt, sharp=True)
+        return PagePicture(address(stream.getvalue(), "png"), *_proportions(chart), alt, sharp=True)
     Image.fromarray(source).save(stream, format="JPEG", quality=88)
-    return PagePicture(_address(stream.getvalue(), "jpeg"), *_proportions(chart), alt)
+    return PagePicture(address(stream.getvalue(), "jpeg"), *_proportions(chart), alt)
 
 
 @record
@@ -190,7 +190,7 @@ def cut_picture(whole: Rgb, fit: Fit, left_out: list[str]) -> CutPicture | None:
     def made() -> PagePicture:
         stream = io.BytesIO()
         Image.fromarray(whole).save(stream, format="JPEG", quality=85)
-        return PagePicture(_address(stream.getvalue(), "jpeg"), width, height, "The picture before it is cropped")
+        return PagePicture(address(stream.getvalue(), "jpeg"), width, height, "The picture before it is cropped")
 
     picture = made_or_left_out("the picture of what is cut", made, left_out)
     if picture is None:
@@ -207,17 +207,17 @@ def _of_the_chart(chart: Chart, step: int, codes: Sequence[tuple[int, int, int]]
     picture.save(stream, format="PNG")
     sharp = knots.shape[1] <= _SHARP
     return PagePicture(
-        _address(stream.getvalue(), "png"), *_proportions(chart), f"Knot chart, {_knots(chart)}", sharp=sharp
+        address(stream.getvalue(), "png"), *_proportions(chart), f"Knot chart, {_knots(chart)}", sharp=sharp
     )
 
 
 def _of_the_carpet(chart: Chart, drawn: DrawnCarpet) -> PagePicture:
-    return PagePicture(_address(drawn.jpeg, "jpeg"), *drawn.image.size, f"Simulated carpet, {_knots(chart)}")
+    return PagePicture(address(drawn.jpeg, "jpeg"), *drawn.image.size, f"Simulated carpet, {_knots(chart)}")
 
 
 def _of_the_knots(chart: Chart) -> PagePicture:
     near = close_up(chart)
-    return PagePicture(_address(near, "jpeg"), *_size(near), "Simulated close-up of single tufts")
+    return PagePicture(address(near, "jpeg"), *_size(near), "Simulated close-up of single tufts")
 
 
 def _proportions(chart: Chart) -> tuple[int, int]:
@@ -233,5 +233,6 @@ def _size(picture: bytes) -> tuple[int, int]:
         return opened.size
 
 
-def _address(picture: bytes, kind: str) -> str:
+def address(picture: bytes, kind: str) -> str:
+    """The picture as the address of an image in a page that stands alone."""
     return f"data:image/{kind};base64,{base64.b64encode(picture).decode('ascii')}"

@@ -1,10 +1,24 @@
-"""The yarn of a tuft.
+"""The yarn of a tuft, and the cone that it comes from.
 
 l = 2 (h + t) + k d        two legs through the backing, and the back stitch over the distance d to the next tuft
 [geometry; the trade's calculators leave out t, or take k = 0.1 for the stitch in full]
 """
 
 from ilmek.arrays import RealField
+from ilmek.records import record
+
+
+@record
+class Cone:
+    """A colour of the creel: name, colour as #rrggbb, price of a kilogram [EUR]; None: not known."""
+
+    name: str
+    colour: str
+    price: float | None
+
+    def price_of(self, mass: float) -> float | None:
+        """Price of a mass [kg]; None: not known."""
+        return None if self.price is None else self.price * mass
 
 
 def tuft_yarn(height: RealField, backing: RealField, distance: RealField, back: RealField = 1.0) -> RealField:

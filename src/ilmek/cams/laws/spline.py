@@ -10,6 +10,7 @@ the derivatives m + 1..2m there is the linear system for them.              [de 
 import itertools
 import math
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 
@@ -69,6 +70,7 @@ def pieces(knots: FloatArray, values: FloatArray, ends: tuple[FloatArray, FloatA
     return _rows(hermite, values, lengths, unknown)
 
 
+@cache
 def _hermite(m: int) -> FloatArray:
     """Coefficients of the polynomials for each of s..s^(m) at t = 0, then at t = 1: (2m + 2) x (2m + 2)."""
     spots = [(at, order) for at in (0.0, 1.0) for order in range(m + 1)]

@@ -1,4 +1,4 @@
-"""Joints of a mechanism file. A pin of several bodies becomes pins of two bodies each.
+"""Joints of a mechanism file. A pin of several bodies becomes pins of two bodies each, a pin in a slot one of a block.
 
 All pins of one point are attached to the body that is located first, outward from the ground and the inputs: so each
 dyad keeps its closed form. The first of these pins has the joint's name, the others `NAME.BODY`.
@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from itertools import combinations
 
 from ilmek.io.schema import Table
-from ilmek.linkage.model import GROUND, KINDS, Joint, Pin, Slide
+from ilmek.linkage.model import GROUND, KINDS, Body, Joint, Pin, Slide
 
 Members = Mapping[str, tuple[str, ...]]
 """Joint -> its bodies, two or more."""
@@ -19,7 +19,18 @@ Members = Mapping[str, tuple[str, ...]]
 
 def members_of(tables: Table) -> Members:
     """The bodies of each joint of the file."""
-    return {name: tuple(table.get("pin") or table["slide"]) for name, table in tables.items()}
+    return {name: tuple(table.get("pin") or table.get("slot") or table["slide"]) for name, table in tables.items()}
+
+
+def blocks_of(tables: Table, points: Mapping[str, Mapping[str, complex]]) -> Iterator[Body]:
+    """The massless blocks of all slots: in the frame of the pin's body, which is that of the drawing.
+
+    points  body -> name -> position in its frame [m]
+    """
+    for name, table in tables.items():
+        if "slot" in table:
+            at = points[table["slot"][0]][name]
+            yield Body(f"{name}.block", {name: at, f"{name}.slot": at})
 
 
 def joints_of(tables: Table, inputs: Mapping[str, str], couplings: Table) -> tuple[Joint, ...]:
@@ -37,6 +48,11 @@ def _joints(name: str, table: Table, rank: Mapping[str, int]) -> Iterator[Joint]
     if "slide" in table:
         body, guide = table["slide"]
         yield Slide(name, body, guide, along=table.get("along", 0.0), turned=table.get("turned", 0.0))
+        return
+    if "slot" in table:
+        body, slotted = table["slot"]
+        yield Pin(name, body, f"{name}.block")
+        yield Slide(f"{name}.slot", f"{name}.block", slotted, along=table.get("along", 0.0))
         return
     bodies = table["pin"]
     if len(bodies) == 2:

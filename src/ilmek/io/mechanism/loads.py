@@ -155,7 +155,8 @@ def _frictions(
     with source.located("friction", name):
         if name not in parts:
             raise unknown("joint", name, parts)
-        for joint in parts[name]:
+        slots = [joint for joint in parts[name] if isinstance(joint, Slide)]
+        for joint in slots or parts[name]:
             slides = isinstance(joint, Slide)
             size, other = ("breadth", "radius") if slides else ("radius", "breadth")
             if other in table:
@@ -163,9 +164,11 @@ def _frictions(
                 raise MechanismError(f"{other} is given for {name!r}, a {kind}", allowed=f"a {kind} has a {size}")
             drag = value_of(table["drag"], "N*s/m" if slides else "N*m*s/rad", "drag") if "drag" in table else 0.0
             if slides:
-                if "breadth" not in table:
+                in_slot = joint.name != name
+                if "breadth" not in table and not in_slot:
                     raise MechanismError(f"slide {name!r} has no breadth", do="give the length of its guide")
-                yield SlideFriction(joint.name, table["breadth"], table["coefficient"], drag)
+                breadth = table.get("breadth", 1.0)  # a pin in a slot transmits no couple, which it would depend on
+                yield SlideFriction(joint.name, breadth, table["coefficient"], drag)
                 continue
             if "radius" not in table and joint.name not in pins:
                 raise MechanismError(f"pin {name!r} has no radius", do="give it, or the pin's diameter in [pins]")

@@ -185,7 +185,7 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
             if not table.get("life", 0.0) >= 0:
                 raise MechanismError(f"life of a bearing is {table['life']:g} s", allowed="0 or more")
             member = PinMember(**_pin_of(table))
-            pin_members |= {joint.name: member for joint in parts[name]}
+            pin_members |= {joint.name: member for joint in parts[name] if isinstance(joint, Pin)}
     return pin_members
 
 

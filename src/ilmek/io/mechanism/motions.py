@@ -36,7 +36,10 @@ class ConstantSpeed:
 
 @dataclass(frozen=True, slots=True)
 class MotionStep:
-    """A motion to a value [rad; m] within a time [s] by a law; the same value again is a dwell."""
+    """A motion to a value [rad; m] within a time [s] by a law; the same value again is a dwell.
+
+    Of a cam's lift the time is its angle [rad].
+    """
 
     to: float
     time: float
@@ -139,7 +142,7 @@ def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:
         return GivenMotion(ConstantSpeed(start, speed), None, (), speed)
     if "table" in table:
         return _table_motion(table, unit)
-    steps = _steps(table["steps"], unit, start)
+    steps = steps_of(table["steps"], unit, start)
     repeats = _repeats(table.get("repeat"), start, steps[-1].to, turning=turning)
     law = MotionSequence(start, steps, repeats)
     breaks = sorted(
@@ -151,13 +154,17 @@ def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:
     return GivenMotion(law, law.ends[-1] if repeats else None, tuple(breaks))
 
 
-def _steps(rows: Sequence[Table], unit: str, start: float) -> tuple[MotionStep, ...]:
+def steps_of(rows: Sequence[Table], unit: str, start: float, over: str = "time") -> tuple[MotionStep, ...]:
+    """The steps of a motion over time [s], or of a cam's lift over its angle [rad]; over: the key of the durations.
+
+    Raises MechanismError.
+    """
     steps: list[MotionStep] = []
     at = start
     for number, row in enumerate(rows, start=1):
-        duration = row["dwell"] if "dwell" in row else row["time"]
+        duration = row["dwell"] if "dwell" in row else row[over]
         if not duration > 0:
-            raise MechanismError(f"step {number} lasts {duration:g} s", allowed="above 0")
+            raise MechanismError(f"step {number} lasts {duration:g} in SI", allowed="above 0")
         at = value_of(row["to"], unit, "to") if "to" in row else at
         law = _law(row.get("law", "3-4-5"))
         if not math.isfinite(law.acceleration_peak):

@@ -23,9 +23,11 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism.loads import TIME
 from ilmek.io.mechanism.motions import ConstantSpeed, MotionSequence, MotionStep, TableMotion
 from ilmek.io.mechanism.names import driven_body
+from ilmek.io.mechanism.pairs import CamLift, LiftTable
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.mechanism.tasks import effort_of
 from ilmek.io.toml_text import written_quantity
+from ilmek.linkage.geneva import Geneva
 from ilmek.linkage.model import Body, Coupling, Joint, Mechanism, Pin, Rotation
 from ilmek.report import Json
 
@@ -73,6 +75,7 @@ class _Writer:
             "servo": one.servo,
             "actuators": {name: effort_of(mechanism.joint(name)) for name in one.actuators},
             "paths": [list(spot) for spot in one.paths],
+            "redundant": list(mechanism.redundant),
             "transmission": list(one.transmission),
         }
         data |= {key: value for key, value in further.items() if value}
@@ -128,12 +131,33 @@ class _Writer:
         return {"slide": list(joint.bodies), **angles}
 
     def coupling(self, one: Coupling) -> dict[str, Json]:
-        rack = one.kind == "rack"
-        units = {"ratio": "mm/rad" if rack else "1", "first_at": "deg", "second_at": "mm" if rack else "deg"}
-        if one.kind != "belt":
+        units = {"first_at": "deg", "second_at": "mm" if one.slides else "deg"}
+        if one.law is None:
+            units["ratio"] = "mm/rad" if one.slides else "1"
+        if one.kind in ("gears", "rack"):
             units["pressure_angle"] = "deg"
         numbers = {key: self.quantity(float(getattr(one, key)), unit) for key, unit in units.items()}
-        return {one.kind: [list(one.first), list(one.second)], "carrier": one.carrier, **numbers}
+        ends: list[Json] = [list(one.first), list(one.second)]
+        units = {"radius": "mm", "pretension": "N", "friction": "1"}
+        given = {key: getattr(one.spans, key, None) for key in units}
+        spans = {key: self.quantity(value, units[key]) for key, value in given.items() if value is not None}
+        return {one.kind: ends, "carrier": one.carrier, **numbers, **spans, **self.pair(one)}
+
+    def pair(self, one: Coupling) -> dict[str, Json]:
+        """The law and the contact of a higher pair."""
+        law, roller = one.law, {"roller": one.roller} if one.roller else {}
+        if law is None:
+            return {}
+        if isinstance(law, Geneva):
+            return {"slots": law.slots}
+        unit = "mm" if law.slides else "deg"
+        if isinstance(law, LiftTable):
+            pairs = zip(law.angles, law.lifts, strict=True)
+            rows: list[Json] = [[self.quantity(at, "deg"), self.quantity(lift, unit)] for at, lift in pairs]
+            return {**roller, "groove": law.groove, "table": rows}
+        if isinstance(law, CamLift):
+            return {**roller, "groove": law.groove, "lift": [self.step(step, unit, "over") for step in law.steps]}
+        raise MechanismError(f"the law of {one.name!r} is a function that no file expresses")
 
     def load(self, name: str, load: Load, turning: Mapping[str, bool]) -> dict[str, Json]:
         if isinstance(load, WindowedLoad) and _is_default(load.side):
@@ -206,12 +230,13 @@ class _Writer:
             return {"start": self.quantity(law.start, unit), "steps": steps, "repeat": law.repeats}
         raise MechanismError(f"the motion of {name!r} is a function that no file expresses")
 
-    def step(self, step: MotionStep, unit: str) -> dict[str, Json]:
+    def step(self, step: MotionStep, unit: str, over: str = "time") -> dict[str, Json]:
         parameters = {
             key: list(value) if isinstance(value, tuple) else value for key, value in step.law.parameters.items()
         }
         law = {"name": step.law.name, **parameters} if parameters else step.law.name
-        return {"to": self.quantity(step.to, unit), "time": self.quantity(step.time, "s"), "law": law}
+        duration = self.quantity(step.time, "s" if over == "time" else "deg")
+        return {"to": self.quantity(step.to, unit), over: duration, "law": law}
 
     def forward(self, task: ForwardTask, turning: bool) -> dict[str, Json]:
         unit, speed = ("deg", "rad/s") if turning else ("mm", "m/s")

@@ -11,13 +11,11 @@ from ilmek.io.plc.sequence_variables import DIGEST_WORDS, PlcSize
 from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable, indented, loop
 from ilmek.loom.control.alarms import ControlFault, JournalFault
 from ilmek.loom.control.packml import PackMode, PackState
+from ilmek.loom.control.sequence import ROWS_BACK
 from ilmek.loom.operations import EMPTY, ROW_ENDS
 
 HOST_PATIENCE = 1000
 """Scans for which the program waits for the host, 10 s."""
-
-ROWS_BACK = 20
-"""Most rows that are taken out at once: a length of carpet that is still before the cloth beam (assumed)."""
 
 ITEMS = 32
 """Values of a row that are checked in a scan: a row of 300 knots is checked in 100 ms."""

@@ -68,7 +68,6 @@ def interlock_unit(heads: int, limits: TensionLimits) -> PlcUnit:
         lines += _operation_lines(name, axes, heads)
     inner = (
         PlcVariable("Satisfied", PlcArray(len(INTERLOCKS), "BOOL")),
-        PlcVariable("AllOpen", "BOOL"),
         PlcVariable("Head", "INT"),
     )
     sections = (
@@ -98,6 +97,7 @@ def _outputs(heads: int) -> list[PlcVariable]:
     outputs = [
         PlcVariable("Slack", "BOOL", "a rule that suspends the machine is not satisfied"),
         PlcVariable("Contradiction", "BOOL", "two sensors contradict each other"),
+        PlcVariable("AllOpen", "BOOL", "no gripper is closed on warps"),
     ]
     for name in OPERATIONS:
         kind = PlcArray(heads, "BOOL") if name == KNOT else "BOOL"

@@ -5,12 +5,13 @@ words and double words as they are: that differs between controllers. Signals of
 of the operator's panel are variables without an address.
 """
 
+from collections.abc import Container, Iterable
 from dataclasses import dataclass
 
 from ilmek.errors import LoomError
 from ilmek.io.csv_cells import csv_rows
 from ilmek.io.plc.units import PlcUnit
-from ilmek.machines.automated_loom.equipment.signals import SIGNALS
+from ilmek.machines.automated_loom.equipment.signals import SIGNALS, DeviceSignal
 
 _SIZES = {"BOOL": 0, "USINT": 1, "INT": 2, "DINT": 4, "REAL": 4}
 _LETTERS = {0: "X", 1: "B", 2: "W", 4: "D"}
@@ -40,9 +41,16 @@ USUAL_STYLE = AddressStyle(by_bytes=False)
 """Words by their number."""
 
 
-def io_rows(program: PlcUnit, style: AddressStyle = USUAL_STYLE) -> list[IoRow]:
+def io_rows(
+    program: PlcUnit,
+    style: AddressStyle = USUAL_STYLE,
+    placed: Container[str] | None = None,
+    read: Iterable[tuple[str, DeviceSignal]] = (),
+) -> list[IoRow]:
     """A row for each signal: variable, direction, type, address, meaning, ids of its parts; those of the host last.
 
+    placed  ids of the parts of a loom, of which alone rows name some; None: of looms of all kinds
+    read    inputs of this loom that the motion controller reads besides, each with its variable
     Raises LoomError for a signal with an address that no part of the loom gives or takes.
     """
     field: list[IoRow] = []
@@ -55,9 +63,14 @@ def io_rows(program: PlcUnit, style: AddressStyle = USUAL_STYLE) -> list[IoRow]:
                 continue
             if variable.name not in SIGNALS:
                 raise LoomError(f"signal {variable.name} without a part", allowed=", ".join(SIGNALS))
-            parts = " ".join(SIGNALS[variable.name])
+            parts = " ".join(part for part in SIGNALS[variable.name] if placed is None or part in placed)
             for name, element in variable.elements:
                 field.append((name, direction, element, addresses.next(element), variable.meaning, parts))
+        if direction == "input":
+            field += (
+                (name, direction, "BOOL", addresses.next("BOOL"), own.meaning, f"{own.part} {own.module}")
+                for name, own in read
+            )
     return [*field, *host]
 
 

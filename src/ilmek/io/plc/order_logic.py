@@ -9,6 +9,7 @@ first missed grip is taken at its word: the knot is tried again.
 """
 
 from ilmek.io.plc.alarm_logic import raised
+from ilmek.io.plc.homing_logic import FIRST_HOME, homed
 from ilmek.io.plc.interlock_logic import SENSOR_NAMES
 from ilmek.io.plc.sequence_variables import ACCEPTED, PlcSize, watch_name
 from ilmek.io.plc.units import cases, indented, loop
@@ -42,6 +43,10 @@ FOR Station := 0 TO {size.heads} DO
     Most := {size.knot.most};
     IF Station = {size.heads} THEN
 {indented(indented(most))}
+    END_IF;
+    IF Station = {size.heads} AND EndCode >= {FIRST_HOME} THEN
+        Least := {size.home.least};
+        Most := {size.home.most};
     END_IF;
     Fault := 0;
     IF Order[Station] THEN
@@ -101,8 +106,15 @@ ELSIF Status[Station] <> 0 AND Status[Station] <> {ACCEPTED} THEN
     Fault := {ALARMS[ControlFault.UNEXPECTED].number};
 ELSIF Done[Station] AND Accepted[Station] AND Elapsed[Station] >= Least THEN
     Order[Station] := FALSE;
-    Now.Busy[Station] := FALSE;
-{indented(_counted(size))}
+    IF Station = {size.heads} AND EndCode >= {FIRST_HOME} THEN
+{indented(indented(homed()))}
+        IF NOT Plausible THEN
+            Fault := {ALARMS[ControlFault.NOT_HOME].number};
+        END_IF;
+    ELSE
+        Now.Busy[Station] := FALSE;
+{indented(indented(_counted(size)))}
+    END_IF;
     IF Station < {size.heads} THEN
         Retried[Station] := FALSE;
         StepDone := StepDone OR StepKnot;
@@ -116,6 +128,9 @@ ELSIF Elapsed[Station] > Most OR (Elapsed[Station] > {ACCEPT_SCANS} AND NOT Acce
 END_IF;
 IF Fault > 0 THEN
     Order[Station] := FALSE;
+    IF Station = {size.heads} AND EndCode >= {FIRST_HOME} THEN
+        Fault := {ALARMS[ControlFault.NOT_HOME].number};
+    END_IF;
     IF Station < {size.heads} THEN
         IF Fault = {ALARMS[Fault.MISSED_GRIP].number} AND NOT Retried[Station] THEN
             Retried[Station] := TRUE;
@@ -149,8 +164,8 @@ def questions(size: PlcSize) -> str:
     asking = " OR ".join(f"StateCurrent = {int(state)}" for state in sorted(ASKING))
     return f"""\
 (* uncertain operations *)
-Waiting := FALSE;
-Asking := {asking};
+Waiting := Homing;
+Asking := ({asking}) AND NOT Homing AND NOT Order[{size.heads}];
 {loop("Head", size.heads, "Answer[Head] := TieAnswer[Head];")}
 Answer[{size.heads}] := EndAnswer;
 FOR Station := 0 TO {size.heads} DO

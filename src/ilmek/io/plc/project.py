@@ -12,7 +12,8 @@ from ilmek.io.plc.state_model import state_units
 from ilmek.io.plc.units import PlcProject
 from ilmek.loom.control.interlocks import usual_limits
 from ilmek.loom.operations import LoomProgramme, LoomSetup
-from ilmek.loom.twin.model import WATCHDOG
+from ilmek.loom.twin.model import HOMING, WATCHDOG
+from ilmek.units import BILLION
 
 CYCLE = 0.010
 """Cycle of the controller's task [s]."""
@@ -53,7 +54,8 @@ def size_of(programme: LoomProgramme, cycle: float = CYCLE) -> PlcSize:
     times = setup.times
     longest = times.knot + times.colour_change + setup.columns * times.travel
     ends = tuple(scan_limits(then - first, then - first, cycle) for first, then in pairwise((0.0, *times.row_ends)))
-    return PlcSize(setup.heads, phases, setup.columns, scan_limits(times.knot, longest, cycle), ends)
+    knot, home = scan_limits(times.knot, longest, cycle), scan_limits(0.0, HOMING / BILLION, cycle)
+    return PlcSize(setup.heads, phases, setup.columns, knot, ends, home)
 
 
 def scan_limits(shortest: float, longest: float, cycle: float) -> ScanLimits:

@@ -6,6 +6,7 @@ after the knots. An operation is `Busy` from the scan of its order until it is c
 
 from ilmek.io.plc.alarm_logic import alarm_units, raised
 from ilmek.io.plc.carpet_logic import crc_unit, giving_up, next_row, recipe_check, row_check, rows_back, saving, waking
+from ilmek.io.plc.homing_logic import home_guards, homing
 from ilmek.io.plc.interlock_logic import KNOT, SENSOR_NAMES, TENSION_KNOWN, capitalised
 from ilmek.io.plc.order_logic import questions, reports, watch_begins
 from ilmek.io.plc.sequence_variables import (
@@ -47,6 +48,7 @@ def sequence_units(size: PlcSize) -> tuple[PlcUnit, ...]:
         rows_back(size),
         next_row(size),
         _alarms(size),
+        homing(size.heads),
         questions(size),
         recipe_check(size),
         _state(size),
@@ -90,7 +92,7 @@ IF Busy AND NOT Rules.Guard{KNOT} THEN
     {raised(f"Rules.Blocked{KNOT}")}
 END_IF;
 IF Order[{size.heads}] THEN
-{indented(cases("EndCode", guards))}
+{indented(cases("EndCode", (*guards, *home_guards())))}
 END_IF;
 """
 
@@ -101,7 +103,7 @@ def _state(size: PlcSize) -> str:
     completions = {
         PackState.EXECUTE: f"Complete := UnitModeCurrent <> {int(PackMode.MANUAL)} AND NOT Busy AND ({ended});",
         **dict.fromkeys(sorted(ENDING), "Complete := NOT Busy;"),
-        **dict.fromkeys(sorted(ASKING), "Complete := NOT Waiting;"),
+        **dict.fromkeys(sorted(ASKING), f"Complete := NOT Waiting AND NOT Order[{size.heads}];"),
     }
     jogs = (
         (number, f"JogStart := Rules.PermitJog{capitalised(axis.value)}; (* {axis.value} *)")
@@ -117,7 +119,7 @@ END_IF;
 Model(CntrlCmd := CntrlCmd, CmdChangeRequest := CmdChangeRequest, UnitMode := UnitMode,
     UnitModeChangeRequest := UnitModeChangeRequest, StateComplete := Complete,
     AlarmReaction := ReactionOf(Alarm := Now.Alarm),
-    Forbidden := Now.Alarm > 0 AND UnitModeCurrent <> {int(PackMode.MANUAL)},
+    Forbidden := Homing OR (Now.Alarm > 0 AND UnitModeCurrent <> {int(PackMode.MANUAL)}),
     Resume := ByAlarm AND Now.Alarm = 0 AND StateCurrent = {int(PackState.SUSPENDED)},
     StateCurrent => StateCurrent, UnitModeCurrent => UnitModeCurrent, Refused => Refused);
 Halt := StateCurrent = {int(PackState.ABORTING)} OR StateCurrent = {int(PackState.ABORTED)};

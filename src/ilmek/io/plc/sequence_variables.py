@@ -3,6 +3,7 @@
 A station is a head, or behind the last head the loom as a whole, which carries out the operations after the knots.
 """
 
+from ilmek.io.plc.homing_logic import HOME_CODES
 from ilmek.io.plc.interlock_logic import sensor_variables
 from ilmek.io.plc.units import PlcArray, PlcStructure, PlcVariable
 from ilmek.loom.control.interlocks import WATCHED, LoomAxis
@@ -27,13 +28,17 @@ class ScanLimits:
 
 @value_record
 class PlcSize:
-    """Sizes for which a program is written: heads, most phases and knots of a row; limits of the operations."""
+    """Sizes for which a program is written: heads, most phases and knots of a row; limits of the operations.
+
+    home  of the homing of an axis
+    """
 
     heads: int
     phases: int
     columns: int
     knot: ScanLimits
     row_ends: tuple[ScanLimits, ...]
+    home: ScanLimits
 
     @property
     def stations(self) -> int:
@@ -128,8 +133,18 @@ def block_outputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("TieStart", per_head, "tie a knot, until it is done or has failed"),
         PlcVariable("TieColumn", codes, "at this warp pair; while asked: the knot in question"),
         PlcVariable("TieTube", PlcArray(size.heads, "USINT"), "from this tube"),
-        PlcVariable("EndStart", "BOOL", "carry out an operation after the knots"),
-        PlcVariable("EndCode", "INT", "its number: " + ", ".join(f"{int(end)} {_words(end.name)}" for end in ROW_ENDS)),
+        PlcVariable("EndStart", "BOOL", "carry out an operation after the knots, or home an axis"),
+        PlcVariable(
+            "EndCode",
+            "INT",
+            "its number: "
+            + ", ".join(
+                (
+                    *(f"{int(end)} {_words(end.name)}" for end in ROW_ENDS),
+                    *(f"{code} home {axis.value}" for axis, code in HOME_CODES.items()),
+                )
+            ),
+        ),
         PlcVariable("ChangeStart", "BOOL", "the operator is to change packages"),
         PlcVariable("JogStart", "BOOL", "the axis may move"),
         PlcVariable("AskTie", per_head, "is the knot of the head in the carpet"),
@@ -156,6 +171,7 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Rules", "Interlocks"),
         PlcVariable("Now", "LoomPosition", "what is in the carpet"),
         PlcVariable("Work", "LoomRow", "the row in work"),
+        PlcVariable("Home", PlcArray(len(LoomAxis), "BOOL"), "the axis is at home since power-up"),
         PlcVariable("RowReady", "BOOL", "that row is checked"),
         PlcVariable("Awake", "BOOL", "the last record is read"),
         *(PlcVariable(name, flags, meaning) for name, meaning in (
@@ -168,13 +184,13 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Retried", PlcArray(size.heads, "BOOL"), "the knot was tried again"),
         PlcVariable("Seen", PlcArray(size.columns, "BOOL"), "the row has a knot on the warp pair"),
         *(PlcVariable(name, "INT") for name in
-          ("Head", "Station", "Index", "Pass", "Fault", "Least", "Most", "Waited", "Tube", "Before",
+          ("Head", "Station", "Axis", "Index", "Pass", "Fault", "Least", "Most", "Waited", "Tube", "Before",
            "PhaseEnd")),
         *(PlcVariable(name, "DINT") for name in ("Item", "Rest", "HostScans", "Sum")),
         PlcVariable("Crc", "DWORD"),
         *(PlcVariable(name, "BOOL") for name in
-          ("Busy", "Waiting", "Asking", "StepDone", "Complete", "MayBegin", "Plausible", "Loading", "ByAlarm",
-           "AcknowledgeSeen", "GiveUpSeen", "RowsBackSeen", "ChangeSeen")),
+          ("Busy", "Waiting", "Asking", "StepDone", "Homing", "AllHome", "Complete", "MayBegin", "Plausible",
+           "Loading", "ByAlarm", "AcknowledgeSeen", "GiveUpSeen", "RowsBackSeen", "ChangeSeen")),
         *(PlcVariable(watch_name(sensor), "BOOL", "the sensor has not changed in this operation")
           for sensor in WATCHED.values()),
     )  # fmt: skip

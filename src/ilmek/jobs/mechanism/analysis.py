@@ -8,17 +8,22 @@ import numpy as np
 
 from ilmek.dynamics.equations import STILL
 from ilmek.dynamics.inverse import joint_rate
-from ilmek.dynamics.inverse_run import InverseRun
+from ilmek.dynamics.inverse_run import InverseRun, greatest
+from ilmek.dynamics.machine_balance import MachineBalance, machine_balance
 from ilmek.dynamics.machine_checks import determined, locking
 from ilmek.dynamics.machine_strength import MachineStrength, machine_strength
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.dynamics.pose_block import characteristic_length, pose_block
 from ilmek.dynamics.servo_choice import ServoChoice, servo_choice
 from ilmek.dynamics.speed_study import StudyOfSpeeds, speed_study
 from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.run import MechanismRun
+from ilmek.linkage.model import Pin
+from ilmek.linkage.outputs import RelativeAngle, Travel, output_history
 from ilmek.linkage.solve import solve
 from ilmek.linkage.status import Status
 from ilmek.linkage.transmission import transmission_angles
+from ilmek.plane.vectors import dot
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -26,6 +31,9 @@ from ilmek.report import Check, at_least, at_most
 if TYPE_CHECKING:
     from ilmek.arrays import FloatArray
     from ilmek.dynamics.own_forward import OwnForward
+
+STANDS = 1e-6
+"""Greatest motion of a joint that stands still [rad], or relative to the mechanism's length."""
 
 BALANCE, ENERGY = 1e-9, 1e-6
 """Greatest relative residual of the balances of power and forces, and of the energy of a forward run."""
@@ -43,6 +51,7 @@ class Analysis:
     transmission  pin -> acute transmission angle [rad] by sample
     servo, strength, forward, study  None: not required
     start_strength  strength over the forward run; None: not required
+    balance  best counterweight and flywheel; None: not required
     """
 
     run: MechanismRun
@@ -52,6 +61,7 @@ class Analysis:
     forward: "OwnForward | None"
     study: StudyOfSpeeds | None
     start_strength: MachineStrength | None = None
+    balance: MachineBalance | None = None
 
     @property
     def checks(self) -> tuple[Check, ...]:
@@ -63,7 +73,20 @@ class Analysis:
         started = tuple(replace(check, name=f"forward run: {check.name}") for check in started)
         ended = self.forward.checks if self.forward else ()
         failed = tuple(test for test in self.self_tests if not test.ok)
-        return (*self._closes, *self._defined, *self._driven, *locked, *strength, *ended, *started, *servo, *failed)
+        return (
+            *self._closes,
+            *self._standing,
+            *self._defined,
+            *self._driven,
+            *self._pressed,
+            *self._grip,
+            *locked,
+            *strength,
+            *ended,
+            *started,
+            *servo,
+            *failed,
+        )
 
     @property
     def _closes(self) -> tuple[Check, ...]:
@@ -74,6 +97,21 @@ class Analysis:
         return (
             at_least("closes over its range", self.run.closed_share, 1.0, "%", "range of the drive").with_cure(cure),
         )
+
+    @property
+    def _standing(self) -> tuple[Check, ...]:
+        """Whether the joints of redundant constraints stand still: else a constraint is violated, and not redundant."""
+        run, checks = self.run, []
+        for name in run.plan.mechanism.redundant:
+            joint, size = run.plan.mechanism.joint(name), characteristic_length(run.plan.mechanism)
+            turns = isinstance(joint, Pin)
+            moved = output_history(run.motion, RelativeAngle(*joint.bodies) if turns else Travel(name)).value
+            limit, unit = (STANDS, "deg") if turns else (STANDS * size, "mm")
+            most = float(np.max(np.abs(moved[run.motion.status == Status.OK]), initial=0.0))
+            source = "the constraints elsewhere keep it still: its own is redundant"
+            cure = "give lengths at which it is, or leave the body out"
+            checks.append(at_most(f"{name}: stands still", most, limit, unit, source).with_cure(cure))
+        return tuple(checks)
 
     @property
     def _defined(self) -> tuple[Check, ...]:
@@ -101,6 +139,46 @@ class Analysis:
         source = "its joint moves wherever the input does"
         cure = "put the motor at another joint, or keep away from there: --over FROM..TO"
         return (at_most(f"dead centres of actuator {names[0]}", dead, 0, "1", source).with_cure(cure),)
+
+    @property
+    def _pressed(self) -> tuple[Check, ...]:
+        """Whether the followers of cams that can only press are pressed on at every sample."""
+        if self.run.forces is None:
+            return ()
+        forces, checks = self.run.forces.forces, []
+        for cam in self.run.plan.mechanism.couplings:
+            contact = pose_block(forces.motion, {}).joints[cam.name].tooth
+            if cam.law is None or not cam.law.one_sided or contact is None:
+                continue
+            pressed = np.asarray(dot(contact.force, forces.reactions[cam.name]))
+            least = float(np.min(pressed[np.isfinite(pressed)], initial=np.inf))
+            source = "a cam without a groove can only press on its follower"
+            cure = "a stronger or longer spring, a lower speed, or groove = true"
+            checks.append(at_least(f"{cam.name}: force on the follower", least, 0.0, "N", source).with_cure(cure))
+        return tuple(checks)
+
+    @property
+    def _grip(self) -> tuple[Check, ...]:
+        """Whether flat belts do not slip: the difference of their spans against the limit of Euler and Eytelwein.
+
+        |T_1 - T_2| <= 2 T_0 tanh(mu beta / 2),   beta = pi - 2 |alpha| of an open, pi + 2 |alpha| of a crossed belt
+        """
+        if self.run.forces is None:
+            return ()
+        forces, checks = self.run.forces.forces, []
+        poses = pose_block(forces.motion, {})
+        for belt in self.run.plan.mechanism.couplings:
+            joint = poses.joints[belt.name]
+            if belt.spans is None or belt.spans.friction is None or joint.middle is None:
+                continue
+            lean = np.arcsin(belt.spans.lean(belt.ratio, np.nanmax(np.abs(joint.middle - joint.at))))
+            wrap = np.pi - 2 * float(np.abs(lean)) * np.sign(belt.ratio)
+            limit = 2 * belt.spans.pretension * np.tanh(belt.spans.friction * wrap / 2)
+            apart = greatest(forces.torques[belt.name]) * abs(belt.ratio) / belt.spans.radius
+            source = f"difference of its spans, by T_1/T_2 = exp(mu beta) at {np.degrees(wrap):.0f} deg of wrap"
+            cure = "a higher pretension, a larger pulley, or a toothed belt"
+            checks.append(at_most(f"{belt.name}: grip of the belt", apart, float(limit), "N", source).with_cure(cure))
+        return tuple(checks)
 
     @property
     def self_tests(self) -> tuple[Check, ...]:
@@ -139,8 +217,8 @@ class Analysis:
             yield run.left_out
         unknown = run.forces.forces.undetermined if run.forces is not None else None
         if unknown:
-            names = ", ".join(sorted(unknown.joints | unknown.inputs)) or "none but its own"
-            yield f"not determined without the tension of {', '.join(sorted(unknown.couplings))}: the forces of {names}"
+            names = ", ".join(name for name in unknown.listed if name not in unknown.couplings) or "none but its own"
+            yield f"not determined without {unknown.cause}: the forces of {names}"
         if not run.machine.has_forces:
             yield HINT
         if run.assumed and run.forces is not None:
@@ -167,9 +245,21 @@ def analysis(run: MechanismRun, progress: Progress = SILENT) -> Analysis:
 
         forward = own_forward(machine, run.plan, machine.forward)
         started = machine_strength(machine, forward.inverse)
+    balance = _balance(run)
     progress(0.5)
     servo = _servo(machine, forces) if machine.servo and forces is not None and forces.time is not None else None
-    return Analysis(run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started)
+    return Analysis(
+        run, angles, servo, strength, forward, _study(run, progress.part(0.5, 1.0, "study")), started, balance
+    )
+
+
+def _balance(run: MechanismRun) -> MachineBalance | None:
+    """The balance of a machine; None: not required. Raises MechanismError where it has none."""
+    if run.fluctuation is None:
+        return None
+    if run.forces is None or run.speed is None:
+        raise MechanismError("balance without masses at constant speed", do="give bodies a mass, and --speed")
+    return machine_balance(run.forces, run.speed, run.fluctuation)
 
 
 def _servo(machine: OwnMachine, forces: InverseRun) -> ServoChoice | None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from ilmek.dynamics.inverse_run import inverse_run
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.errors import MechanismError
 from ilmek.jobs.mechanism.analysis import Analysis, analysis
 from ilmek.jobs.mechanism.parts import cam_tables, full_travel
 from ilmek.jobs.mechanism.report import report
@@ -50,8 +51,13 @@ class MadeMechanism:
 def made_mechanism(run: MechanismRun, progress: Progress = SILENT, *, drawn: bool = False) -> MadeMechanism:
     """The parts of a mechanism in motion, and its analysis and report with them; drawn: with figures.
 
-    Raises MechanismError for a link that is too short for its pins; ParameterError for a pin without a ring; Cancelled.
+    Raises MechanismError for a link that is too short for its pins, and for redundant constraints, whose forces are
+    open; ParameterError for a pin without a ring; Cancelled.
     """
+    redundant = run.plan.mechanism.redundant
+    if redundant:
+        given = f"no parts of {run.name}: the forces of its redundant constraints at {', '.join(redundant)} are open"
+        raise MechanismError(given, do="leave out the bodies or joints that are redundant")
     way = full_travel(run)
     built = construction(run.machine, way, run.forces)
     for _ in range(ROUNDS):

@@ -75,9 +75,11 @@ def _forces(found: Analysis) -> tuple[Result, ...]:
     angles = Result("transmission_angle_min", least, "deg", "least transmission angle of each free pin", shown=False)
     if run.forces is None:
         return (angles, *NO_FORCES)
-    return (angles, *results_of(run.forces, found.strength, found.servo, found.study, found.forward))
+    return (angles, *results_of(run.forces, found.strength, found.servo, found.study, found.forward, found.balance))
 
 
 def _mobility(run: MechanismRun) -> str:
     first = int(np.flatnonzero(run.motion.status == Status.OK)[0])
-    return mobility(run.plan.mechanism, run.motion.pose(first)).description
+    mechanism = run.plan.mechanism
+    without = f", without the redundant constraints at {', '.join(mechanism.redundant)}" if mechanism.redundant else ""
+    return mobility(mechanism, run.motion.pose(first)).description + without

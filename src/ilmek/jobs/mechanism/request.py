@@ -32,12 +32,14 @@ class MotionRequest:
     over   range "FROM..TO" of the driving input, or its ends; default: a full turn, or the period of its motion
     speed  of the driving input; default: that of its motion in the file, else 1 rad/s or 1 m/s
     steps  number of steps of the range
+    fluctuation  of the speed for which a flywheel is sized, with the best counterweight on the crank; "": none
     """
 
     fixed: Mapping[str, Quantity]
     over: str | tuple[Quantity, Quantity] = ""
     speed: Quantity = ""
     steps: int = STEPS
+    fluctuation: Quantity = ""
 
 
 @record

@@ -1,7 +1,10 @@
 """The motion of a mechanism of a file over a range of one input."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from ilmek.arguments import Arguments
 from ilmek.arrays import FloatArray, RealField
 from ilmek.dynamics.inverse_run import InverseRun, inverse_run
 from ilmek.dynamics.own_machine import OwnMachine
@@ -42,6 +45,7 @@ class MechanismRun:
     time     of the samples [s]; None: nothing moves
     forces   None: without masses, loads and friction, or as `left_out` states
     assumed  whether the speed is neither that of the call nor of the file
+    fluctuation  of the speed for which a flywheel is sized [1]; None: no balance is wanted
     required  whether the range is: given by the call, or that of a speed or motion of call or file
     """
 
@@ -56,6 +60,7 @@ class MechanismRun:
     left_out: str = ""
     assumed: bool = False
     required: bool = False
+    fluctuation: float | None = None
 
     @property
     def name(self) -> str:
@@ -174,7 +179,10 @@ def run(file: MechanismFile, request: MotionRequest, progress: Progress = SILENT
         raise _closes_elsewhere(plan, motion, driven)
     run = run_of(machine, plan, motion, driven, over=request.over)
     _check_ranges(run)
-    return run
+    if request.fluctuation == "":
+        return run
+    fluctuation = Arguments("a balance", MechanismError).number("fluctuation", request.fluctuation, "1")
+    return replace(run, fluctuation=fluctuation)
 
 
 def run_of(

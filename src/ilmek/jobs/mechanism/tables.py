@@ -107,13 +107,15 @@ def _force_rows(run: MechanismRun) -> Iterator[Row]:
         force = forces.reactions[one.name]
         level = ROUNDING * greatest(force)
         kind = "pin" if isinstance(one, Pin) else "slide" if isinstance(one, Slide) else one.kind
-        couple = greatest(forces.couples[one.name]) if one.name in forces.couples else ""
+        couple: float | str = greatest(forces.couples[one.name]) if one.name in forces.couples else ""
         on = one.bodies[1] if not isinstance(one, Slide) else one.body
         name = f"{one.name} ({kind})"
         if one.name in forces.undetermined.names:
             couple = greatest(forces.torques[one.name]) if one.name in forces.torques else ""
             yield name, f"on {on}", "not determined", "", "", "", "", "", couple
             continue
+        if one.name in forces.undetermined.couples:
+            couple = "not determined"
         yield (
             name,
             f"on {on}",

@@ -21,7 +21,7 @@ from ilmek.io.programme_file import ProgrammeFile
 from ilmek.io.recording_file import recording_text
 from ilmek.io.woven_file import open_woven
 from ilmek.jobs.check import check_programme
-from ilmek.jobs.run.commands import RESUME, give_command, lead_on, waits
+from ilmek.jobs.run.commands import RESUME, ROWS_BACK, give_command, lead_on, waits
 from ilmek.jobs.run.operator import Operator
 from ilmek.jobs.run.order import RunOrder
 from ilmek.jobs.run.picture import carpet_png
@@ -84,6 +84,10 @@ class LoomRun:
                 self.programme.setup, self.woven, speed=order.speed, rates=rates, record=self._recorder
             )
             self._session = self._opened()
+            if order.rows_back is not None:
+                answer = self._given(f"{ROWS_BACK} {order.rows_back}")
+                if not answer.ok:
+                    raise LoomError(answer.reason)
             self._channel = CommandServer(self.folder.path / CHANNEL)
             stack.callback(self._channel.close)
             self._stack = stack.pop_all()
@@ -216,11 +220,19 @@ class LoomRun:
             if waits(self._session):
                 self._operator.repair(self._session)
             return lead_on(self._session)
-        answer = give_command(self._session, name)
+        answer = self._given(name)
         if answer.ok:
             self._operator.commanded(name)
             if name == "stop" and not self.order.serves:
                 self.stop()
+        return answer
+
+    def _given(self, name: str) -> Answer:
+        """Give a command; rows that its operator has taken out are out of the simulated carpet."""
+        before = self._session.status().row
+        answer = give_command(self._session, name)
+        if answer.ok and name.partition(" ")[0] == ROWS_BACK:
+            self.woven.take_out(self._session.status().row, before)
         return answer
 
     def __enter__(self) -> "LoomRun":

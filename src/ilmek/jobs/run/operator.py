@@ -3,6 +3,7 @@
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.jobs.run.commands import lead_on, waits
 from ilmek.jobs.run.session import ControlSession
+from ilmek.loom.control.alarms import ControlFault
 from ilmek.loom.control.exchange import Answered, ControllerStatus, Operation
 from ilmek.loom.control.packml import PackState
 from ilmek.loom.control.ports import EndRow, Tie
@@ -47,7 +48,10 @@ class Operator:
                 session.react((Answered(request.number, self._in_carpet(request.operation)),))
         if self.waiting:
             return True
-        if session.state not in _FAULTY:
+        lost = session.state is PackState.STOPPED and any(
+            alarm.kind.name == ControlFault.NOT_HOME for alarm in status.alarms
+        )
+        if session.state not in _FAULTY and not (lost and self.weaving):
             asked = session.state is PackState.IDLE and status.alarms and not self.automatic
             if self.weaving and waits(session) and not asked:
                 lead_on(session)

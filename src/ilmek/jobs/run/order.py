@@ -7,6 +7,7 @@ from types import MappingProxyType
 from ilmek.errors import ParameterError, shortened
 from ilmek.io.stops_file import read_stops
 from ilmek.loom.control.opening import LARGEST_GROUP
+from ilmek.loom.control.sequence import ROWS_BACK
 from ilmek.loom.operations import LoomSetup
 from ilmek.loom.twin.faults import RATES, StopParams
 from ilmek.loom.twin.model import NO_FAULTS, FaultRates, fault_rates
@@ -35,6 +36,7 @@ class RunOrder:
     start      weave at once; else wait for commands
     serves     go on after the carpet and after a stop, for commands; else end with them
     record     keep all inputs of the simulated loom
+    rows_back  whole rows that were taken out before the row in work, and that row; None: none
     """
 
     programme: Path
@@ -48,6 +50,7 @@ class RunOrder:
     start: bool = True
     serves: bool = False
     record: bool = False
+    rows_back: int | None = None
 
     @property
     def folder(self) -> Path:
@@ -70,6 +73,7 @@ def read_run_order(
     stops: Path | None = None,
     settings: Mapping[str, Setting] = MappingProxyType({}),
     operator: str = "auto",
+    rows_back: int | None = None,
 ) -> RunOrder:
     """A run from the options of a command, as texts.
 
@@ -89,7 +93,10 @@ def read_run_order(
         if name not in RATES:
             raise ParameterError(f"--set {shortened(name)}", allowed=f"rates of faults: {', '.join(RATES)}")
     seed = None if faults is None else _seed(faults)
-    return RunOrder(programme, journal, new, factor, commit, seed, read_stops(stops, settings), operator == "auto")
+    if rows_back is not None and not 0 <= rows_back <= ROWS_BACK:
+        raise ParameterError(f"--rows-back {rows_back}", allowed=f"0 to {ROWS_BACK}")
+    rates, automatic = read_stops(stops, settings), operator == "auto"
+    return RunOrder(programme, journal, new, factor, commit, seed, rates, automatic, rows_back=rows_back)
 
 
 def _speed(text: str) -> float | None:

@@ -1,13 +1,15 @@
-"""A body driven through a coupling by a moving source that inputs alone do not determine: a wheel on a rocker.
+"""A body driven through a coupling by a moving source: a wheel on a rocker, the follower of a cam, a Geneva wheel.
 
-    q = at + scale (q_source - source_at)
+    q = at + f(q_source - source_at),   q' = f' q_source',   q'' = f' q_source'' + f'' q_source'^2
 
-q is an angle against the carrier, of a rack the displacement of its slide; the angle of a source is assumed to be
-within half a turn of `source_at`. [Willis, Principles of Mechanism: relative angles of epicyclic trains]
+f is the ratio times its argument, or the law of a higher pair. q is an angle against the carrier, of a slide its
+displacement; the angle of a source is assumed to be within half a turn of `source_at`, where inputs alone do not
+determine it with its full turns.
+[Willis, Principles of Mechanism: relative angles of epicyclic trains]
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
@@ -18,6 +20,7 @@ from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.equations import angle_near
 from ilmek.linkage.groups.attachment import Attachment, find_attachments
 from ilmek.linkage.groups.group import Columns, Group, GroupSolution, InputMotion, Known, KnownJerks, Step
+from ilmek.linkage.groups.winding import LinearRelation, angles
 from ilmek.linkage.model import Coupling, Slide
 from ilmek.plane.vectors import unit
 
@@ -29,6 +32,8 @@ class CoupledFollower(Step):
     source  the driving body
     slide   for a rack as source: its point in its own frame [m]; the slide's point [m] and direction in the guide's
             frame
+    pair    the coupling, its ratio that of the body to its source
+    turned  the source's angle and the carrier's with their full turns, where the inputs determine them
     """
 
     kind: ClassVar[str] = "gears"
@@ -39,8 +44,8 @@ class CoupledFollower(Step):
     slide: tuple[complex, complex, complex] | None
     source_at: float
     at: float
-    scale: float
-    coupling: str
+    pair: Coupling
+    turned: tuple[LinearRelation, LinearRelation] | None = None
 
     @property
     def bodies(self) -> tuple[str, ...]:
@@ -55,13 +60,14 @@ class CoupledFollower(Step):
     @property
     def description(self) -> str:
         """Description of the step for users."""
-        return f"{self.attachment.body} driven by {self.source} through {self.coupling}"
+        return f"{self.attachment.body} driven by {self.source} through {self.pair.name}"
 
-    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:  # noqa: ARG002 - needs no input
+    def solve(self, known: Known, drives: Mapping[str, InputMotion]) -> GroupSolution:
         """Direction, angular velocity and acceleration; on a slide displacement, speed and acceleration."""
-        source, carrier = self._source(known), known[self.carrier]
-        value = self.at + self.scale * (source.value - self.source_at)
-        speed, acceleration = self.scale * source.speed, self.scale * source.acceleration
+        source, carrier = self._source(known, drives), known[self.carrier]
+        change, first, second, _ = self.pair.transfer(source.value - self.source_at)
+        value, speed = self.at + change, first * source.speed
+        acceleration = first * source.acceleration + second * source.speed**2
         if self.attachment.track is not None:
             return GroupSolution({self.attachment.body: (value, speed, acceleration)})
         direction = carrier.direction * unit(value)
@@ -76,11 +82,14 @@ class CoupledFollower(Step):
         known: KnownJerks,
         located: Known,
         columns: Mapping[str, Columns],
-        drives: Mapping[str, InputMotion],  # noqa: ARG002 - common signature
+        drives: Mapping[str, InputMotion],
     ) -> Mapping[str, BodyJerk]:
-        """Jerk of the driven body: the scaled jerk of the source plus the carrier's."""
+        """Jerk of the driven body: f' q''' + 3 f'' q' q'' + f''' q'^3 of the source, plus the carrier's."""
         carrier, body = known[self.carrier], self.attachment.body
-        third = self.scale * self._source_jerk(known[self.source], carrier)
+        source = self._source({name: one.motion for name, one in known.items()}, drives)
+        _, first, second, rest = self.pair.transfer(source.value - self.source_at)
+        third = first * self._source_jerk(known[self.source], carrier)
+        third = third + 3 * second * source.speed * source.acceleration + rest * source.speed**3
         beta = third if self.attachment.track is not None else carrier.beta + third
         return {body: self.attachment.jerk(known[self.attachment.on], located[body], columns[body], beta)}
 
@@ -95,11 +104,13 @@ class CoupledFollower(Step):
         jerk = source.carry(point) - carrier.carry(root) + back
         return np.real(jerk * np.conj(turns.direction * lead))
 
-    def _source(self, known: Known) -> InputMotion:
+    def _source(self, known: Known, drives: Mapping[str, InputMotion]) -> InputMotion:
         """The source's angle against the carrier, or the displacement of its slide, with its rates."""
         source, carrier = known[self.source], known[self.carrier]
         if self.slide is None:
             angle = angle_near(source.direction, carrier.direction, self.source_at)
+            if self.turned is not None and drives:
+                angle = self.turned[0].drive(drives).value - self.turned[1].drive(drives).value
             return InputMotion(angle, source.omega - carrier.omega, source.alpha - carrier.alpha)
         point, root, lead = self.slide
         p, g, w = source.carry(point), carrier.carry(root), carrier.omega
@@ -121,21 +132,25 @@ class CoupledFollower(Step):
         (one,), (coupling,) = attached, group.couplings
         (first, _), (second, _) = coupling.first, coupling.second
         if one.body == second:
-            if (coupling.kind == "rack") != (one.track is not None):
+            if coupling.slides != (one.track is not None):
                 return None
-            ends = coupling.first_at, coupling.second_at
-            return cls(one, coupling.carrier, first, None, *ends, coupling.ratio, coupling.name)
-        if one.body == first and one.track is None:
+            ends, turned = (coupling.first_at, coupling.second_at), None
+            if coupling.law is not None:
+                known = angles(group.mechanism)
+                source, carrier = known.get(first), known.get(coupling.carrier)
+                turned = None if source is None or carrier is None else (source, carrier)
+            return cls(one, coupling.carrier, first, None, *ends, coupling, turned)
+        if one.body == first and one.track is None and coupling.law is None:
             ends = coupling.second_at, coupling.first_at
-            line = _line(group, coupling)
-            return cls(one, coupling.carrier, second, line, *ends, 1 / coupling.ratio, coupling.name)
+            back = replace(coupling, ratio=1 / coupling.ratio)
+            return cls(one, coupling.carrier, second, _line(group, coupling), *ends, back)
         return None
 
 
 def _line(group: Group, coupling: Coupling) -> tuple[complex, complex, complex] | None:
     """A rack's point in its own frame, and its slide's point and direction in the guide's; None for wheels."""
     body, name = coupling.second
-    joint = group.mechanism.joint(name) if coupling.kind == "rack" else None
+    joint = group.mechanism.joint(name) if coupling.slides else None
     if not isinstance(joint, Slide):
         return None
     points = group.mechanism.point(body, name), group.mechanism.point(joint.guide, name)

@@ -154,12 +154,14 @@ def _rows(mechanism: Mechanism) -> Iterator[Row]:
         else:
             yield ((("travel", entry.slide), 1.0),), 0.0, entry.name
     for coupling in mechanism.couplings:
+        if coupling.law is not None:  # not linear
+            continue
         yield _coupled(coupling), coupling.second_at - coupling.ratio * coupling.first_at, ""
 
 
 def _coupled(coupling: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
     first, carrier = (("angle", coupling.first[0]), -coupling.ratio), ("angle", coupling.carrier)
-    if coupling.kind == "rack":
+    if coupling.slides:
         return (("travel", coupling.second[1]), 1.0), first, (carrier, coupling.ratio)
     return (("angle", coupling.second[0]), 1.0), first, (carrier, coupling.ratio - 1)
 

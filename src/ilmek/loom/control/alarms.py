@@ -36,6 +36,7 @@ class ControlFault(StrEnum):
     CLOCK_BACKWARDS = "clock going backwards"
     NO_SENSORS = "no sensors"
     NO_HOST = "host silent"
+    NOT_HOME = "axis not at home"
 
 
 @value_record
@@ -133,6 +134,8 @@ _CONTROL = (
               "check the connection to the loom; then unhold", Reaction.HOLD),
     AlarmKind(406, ControlFault.NO_HOST, 800, "the host has not given a row or carpet that was requested",
               "check the host and the connection to it; then unhold", Reaction.HOLD),
+    AlarmKind(407, ControlFault.NOT_HOME, 800, "an axis was not at its switch after homing, or could not be homed",
+              "free the axis, in manual mode by jogs, check its switch, then acknowledge and reset", Reaction.STOP),
 )  # fmt: skip
 
 ALARMS: Mapping[str, AlarmKind] = MappingProxyType(

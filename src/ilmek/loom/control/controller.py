@@ -12,7 +12,7 @@ from typing import Any
 
 from ilmek.loom.control import doubts, watching
 from ilmek.loom.control.alarms import ALARM_NUMBERS, ControlFault, JournalFault
-from ilmek.loom.control.core import ASKING, JOG, ControlCore
+from ilmek.loom.control.core import ASKING, ControlCore
 from ilmek.loom.control.exchange import (
     Acknowledged,
     Answered,
@@ -24,18 +24,20 @@ from ilmek.loom.control.exchange import (
     JogRequested,
     ModeChosen,
     Operation,
+    RowsTakenOut,
     Sensed,
     SpeedChosen,
     StateChanged,
     StoreFailed,
 )
-from ilmek.loom.control.interlocks import JOG_LIMITS, WATCHED, axes_of, jog_axis, violated
+from ilmek.loom.control.interlocks import WATCHED, axes_of, violated
+from ilmek.loom.control.jogs import jog_refused
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import PackMode, PackState, Refusal, commanded, mode_refused, state_name
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, Order, SensorsChanged, Tie
-from ilmek.loom.control.sequence import LOOM, key_of
-from ilmek.loom.control.state import MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Home, Jog, Order, SensorsChanged, Tie
+from ilmek.loom.control.sequence import LOOM, Sequence, key_of
+from ilmek.loom.control.state import AXIS, MOST_UNSYNCED, USUAL_SETTINGS, ControllerSettings, Doubt, Draft
 from ilmek.loom.operations import LoomProgramme
 
 SHOWN_KNOTS = 8
@@ -62,6 +64,7 @@ class Controller(ControlCore):
             SpeedChosen: self._speed_chosen,
             Acknowledged: self._acknowledged,
             Answered: self._answered,
+            RowsTakenOut: self._rows_taken_out,
             Sensed: self._sensed,
             StoreFailed: self._store_failed,
         }
@@ -86,6 +89,9 @@ class Controller(ControlCore):
         if halted and state.state is PackState.ABORTING:
             self.stopped_moving(draft)
         self.advance(draft)
+        if self.homing:
+            self.home(draft)
+            self.advance(draft)
         weaves = state.state is PackState.EXECUTE and state.mode is not PackMode.MANUAL
         if weaves and self._dispatch(draft):
             self.advance(draft)
@@ -159,7 +165,7 @@ class Controller(ControlCore):
     def _done(self, report: Done, draft: Draft) -> None:
         self._at(report.time, draft)
         state, order = self.state, report.order
-        key = JOG if isinstance(order, Jog) else key_of(order)
+        key = AXIS if isinstance(order, Jog | Home) else key_of(order)
         if state.progress.get(key) != order:
             if self._doubted(key, order):
                 self._resolve(key, found=True, origin=Origin.REPORT, draft=draft)
@@ -167,7 +173,9 @@ class Controller(ControlCore):
                 self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
             return
         del state.progress[key]
-        if isinstance(order, Jog):
+        if isinstance(order, Home):
+            self.homed(order, draft)
+        if isinstance(order, Jog | Home):
             return
         self.completed(order, Origin.REPORT, draft)
         if isinstance(order, EndRow) and state.watch:
@@ -185,7 +193,7 @@ class Controller(ControlCore):
     def _failed(self, report: Failed, draft: Draft) -> None:
         self._at(report.time, draft)
         state, order = self.state, report.order
-        key = JOG if isinstance(order, Jog) else key_of(order)
+        key = AXIS if isinstance(order, Jog | Home) else key_of(order)
         if state.progress.get(key) == order:
             del state.progress[key]
         elif self._doubted(key, order):
@@ -194,6 +202,9 @@ class Controller(ControlCore):
             self.raise_alarm(ControlFault.UNEXPECTED, draft, note=repr(order))
             return
         state.faults += 1
+        if isinstance(order, Home):
+            self.raise_alarm(ControlFault.NOT_HOME, draft, note=f"{order.axis}: {report.fault}")
+            return
         if state.allowance is not None:
             state.allowance += 1
         if report.fault is Fault.MISSED_GRIP and key not in state.retried:
@@ -240,32 +251,13 @@ class Controller(ControlCore):
         draft.events.append(StateChanged(self.state.state, given.mode, self.state.time))
 
     def _jog_requested(self, given: JogRequested, draft: Draft) -> None:
-        refused = self._jog_refused(given)
+        refused = jog_refused(self.state, given, self.tension)
         if refused is not None:
             draft.refusals.append(refused)
             return
         jog = Jog(given.axis, given.distance)
-        self.state.progress[JOG] = jog
+        self.state.progress[AXIS] = jog
         draft.orders.append(jog)
-
-    def _jog_refused(self, given: JogRequested) -> Refusal | None:
-        state = self.state
-        name = f"a jog of {given.axis[:40]!r} by {given.distance:g}"
-        if state.mode is not PackMode.MANUAL or state.state is not PackState.EXECUTE:
-            now = f"{state_name(state.state)} of {state.mode.name.lower()} mode"
-            return Refusal(f"{name} in {now}", "allowed in Execute of manual mode")
-        axis = jog_axis(given.axis)
-        if axis is None:
-            return Refusal(name, f"axes are {', '.join(JOG_LIMITS)}")
-        limit = JOG_LIMITS[axis]
-        if not 0 < abs(given.distance) <= limit.distance:
-            return Refusal(name, f"up to {limit.distance:g} {limit.unit}, not 0")
-        if JOG in state.progress:
-            return Refusal(name, "one axis moves at a time", "wait until the jog has ended")
-        if state.sensors is None:
-            return Refusal(name, "the sensors must be known", "check the connection to the loom")
-        broken = violated(frozenset((axis,)), state.sensors, self.tension)
-        return Refusal(name, f"{broken[0].name}: {broken[0].why}") if broken else None
 
     def _speed_chosen(self, given: SpeedChosen, draft: Draft) -> None:
         settings = self.settings
@@ -294,6 +286,23 @@ class Controller(ControlCore):
         draft.record(state, RecordKind.ANSWER, int(given.yes), state.sequence.row, head, 0, item)
         draft.sync = True
         self._resolve(key_of(operation), found=given.yes, origin=Origin.OPERATOR, draft=draft)
+
+    def _rows_taken_out(self, given: RowsTakenOut, draft: Draft) -> None:
+        """In state Stopped; what was uncertain is taken out as well. The sensor then looks whether the rows are out."""
+        state, sequence = self.state, self.state.sequence
+        name = f"{given.rows} rows back in row {sequence.row + 1}"
+        if state.state is not PackState.STOPPED:
+            draft.refusals.append(Refusal(f"{name}, state {state_name(state.state)}", "allowed in Stopped"))
+        elif not 0 <= given.rows <= sequence.most_back:
+            draft.refusals.append(Refusal(name, rows_back_range(sequence)))
+        else:
+            sequence.take_out(given.rows)
+            state.doubts.clear()
+            state.requests.clear()
+            state.retried.clear()
+            state.verified = False
+            draft.record(state, RecordKind.ROWS_BACK, 0, sequence.row, 0, 0, given.rows)
+            self.record_state(draft)
 
     def _sensed(self, given: Sensed, draft: Draft) -> None:
         key = key_of(given.operation)
@@ -355,3 +364,10 @@ class Controller(ControlCore):
             requests=tuple(state.requests.values()),
             complete=sequence.finished,
         )
+
+
+def rows_back_range(sequence: Sequence) -> str:
+    """How many whole rows may be taken out, in words."""
+    if sequence.most_back < 0:
+        return "none: the packages were changed within the row in work"
+    return f"0 (the row in work alone) to {sequence.most_back}"

@@ -3,17 +3,16 @@
 from typing import Any
 
 from ilmek.loom.control import doubts, watching
+from ilmek.loom.control.alarms import ControlFault
 from ilmek.loom.control.exchange import Operation, StateChanged, WeavingStep
-from ilmek.loom.control.interlocks import Reaction, usual_limits
+from ilmek.loom.control.homing import HOMED, at_home, next_axis
+from ilmek.loom.control.interlocks import Interlock, LoomAxis, Reaction, usual_limits
 from ilmek.loom.control.journal import Origin, RecordKind
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import COMPLETED, MODE_STATES, PackCommand, PackMode, PackState, commanded
-from ilmek.loom.control.ports import EndRow, Jog, Tie
-from ilmek.loom.control.state import ControllerSettings, Doubt, Draft, state_of
+from ilmek.loom.control.ports import EndRow, Home, Jog, Tie
+from ilmek.loom.control.state import AXIS, ControllerSettings, Doubt, Draft, state_of
 from ilmek.loom.operations import LoomProgramme
-
-JOG = -2
-"""Key of a jog in progress."""
 
 ASKING = frozenset((PackState.RESETTING, PackState.UNHOLDING, PackState.UNSUSPENDING))
 """States in which sensor and operator are queried about uncertain operations; they end when none is left."""
@@ -55,7 +54,7 @@ class ControlCore:
         state = self.state
         weaves = state.state is PackState.EXECUTE and state.mode is not PackMode.MANUAL
         unsure = any(not doubt.trusted for doubt in state.doubts.values())
-        moving = weaves or unsure or any(key != JOG for key in state.progress)
+        moving = weaves or unsure or any(key != AXIS for key in state.progress)
         draft.record(state, RecordKind.STATE, state.state, state.sequence.row, state.mode, int(moving), 0)
         draft.sync = True
 
@@ -77,7 +76,7 @@ class ControlCore:
             state.allowance = 1 if single else None
         elif following is PackState.SUSPENDING:
             state.suspended_by_alarm = False
-        if following in ASKING:
+        if following in ASKING and not self.homing:
             doubts.ask_all(state, draft)
         self.record_state(draft)
         draft.events.append(StateChanged(following, state.mode, state.time))
@@ -93,10 +92,43 @@ class ControlCore:
         if now is PackState.EXECUTE:
             return state.mode is not PackMode.MANUAL and not state.progress and self._goal_reached()
         if now in ASKING:
-            return not state.doubts
+            return not state.doubts and not self.homing
         if now in ENDING:
             return not state.progress
         return now in {PackState.CLEARING, PackState.STARTING}
+
+    @property
+    def homing(self) -> bool:
+        """Whether axes are to be homed before anything else."""
+        state = self.state
+        waits = state.state is PackState.RESETTING and state.mode is not PackMode.MANUAL
+        return waits and len(state.homed) < len(HOMED)
+
+    def home(self, draft: Draft) -> None:
+        """Begin to home the next axis; where none may move, homing ends with an alarm."""
+        state = self.state
+        if state.progress:
+            return
+        if state.sensors is None:
+            self.raise_alarm(ControlFault.NO_SENSORS, draft)
+            return
+        following = next_axis(state.homed, state.sensors, self.tension)
+        if isinstance(following, Interlock):
+            self.raise_alarm(ControlFault.NOT_HOME, draft, note=following.name)
+        elif following is not None:
+            state.progress[AXIS] = Home(following.value)
+            draft.orders.append(Home(following.value))
+
+    def homed(self, order: Home, draft: Draft) -> None:
+        """A drive has homed its axis: true if the axis is at its switch. Behind the last one, doubts are resolved."""
+        state, axis = self.state, LoomAxis(order.axis)
+        if state.sensors is None or not at_home(axis, state.sensors):
+            self.raise_alarm(ControlFault.NOT_HOME, draft, note=order.axis)
+            return
+        state.homed.add(axis)
+        draft.record(state, RecordKind.HOMED, list(LoomAxis).index(axis), state.sequence.row, 0, 0, 0)
+        if state.state is PackState.RESETTING and not self.homing:
+            doubts.ask_all(state, draft)
 
     def _goal_reached(self) -> bool:
         state = self.state
@@ -110,7 +142,7 @@ class ControlCore:
         """What was in progress when the loom was halted, and has not been reported since, is uncertain."""
         state = self.state
         for key, order in state.progress.items():
-            if not isinstance(order, Jog):
+            if not isinstance(order, Jog | Home):
                 state.doubts[key] = Doubt(order, onward=False)
         state.progress.clear()
         state.halted = False

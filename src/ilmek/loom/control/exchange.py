@@ -73,6 +73,13 @@ class Answered:
 
 
 @value_record
+class RowsTakenOut:
+    """An operator has taken out the row in work and whole rows before it; they are to be woven again."""
+
+    rows: int
+
+
+@value_record
 class Sensed:
     """The sensor's answer to a question: whether the operation is in the carpet; None: it cannot tell."""
 
@@ -89,7 +96,16 @@ class StoreFailed:
 
 
 ControlInput: TypeAlias = (
-    Commanded | ModeChosen | JogRequested | SpeedChosen | Acknowledged | Answered | Sensed | StoreFailed | PortReport
+    Commanded
+    | ModeChosen
+    | JogRequested
+    | SpeedChosen
+    | Acknowledged
+    | Answered
+    | RowsTakenOut
+    | Sensed
+    | StoreFailed
+    | PortReport
 )
 
 

@@ -49,6 +49,8 @@ class RecordKind(IntEnum):
     ANSWER   of the operator to a request: code: 1 yes, 0 no; row, head, number of the operation
     SPEED    number: speed [1/1000 of the programme's]
     START    the journal was opened: number: how often before
+    HOMED    an axis is at home: code: its number in the list of axes; row
+    ROWS_BACK  an operator has taken out all from a row on: row; number: whole rows before the row in work
     """
 
     KNOT = 1
@@ -59,6 +61,8 @@ class RecordKind(IntEnum):
     ANSWER = 6
     SPEED = 7
     START = 8
+    ROWS_BACK = 9
+    HOMED = 10
 
 
 class Origin(IntEnum):

@@ -25,7 +25,7 @@ from ilmek.units import counted
 LARGEST_GROUP = 10_000
 """Most knots in a group commit."""
 
-_OPERATIONS = (RecordKind.KNOT, RecordKind.ROW_END, RecordKind.CHANGE)
+_OPERATIONS = (RecordKind.KNOT, RecordKind.ROW_END, RecordKind.CHANGE, RecordKind.ROWS_BACK)
 
 
 @record
@@ -120,31 +120,55 @@ def _active(records: RecordArray) -> tuple[int, ...]:
 def _position(records: RecordArray, programme: LoomProgramme) -> Sequence:
     """The position behind the recorded operations. Raises JournalError where they do not follow the programme."""
     records = records[np.isin(records["kind"], _OPERATIONS)]
-    if not len(records):
-        return Sequence(programme)
-    last = int(records["row"][-1])
-    if last >= programme.setup.rows:
-        raise _misfit(records[-1:])
-    begin = int(np.searchsorted(records["row"], last)) if _whole_rows(records, last, programme) else 0
-    sequence = Sequence(programme, last if begin else 0)
-    for one in _decoded(records[begin:]):
-        try:
-            sequence.done(_operation(one, sequence))
-        except (LoomError, IndexError) as error:
-            raise JournalError(
-                f"record {one.sequence} of the journal does not follow the programme: {error}",
-                do="restore journal and programme from copies that belong together",
-            ) from error
+    sequence = Sequence(programme)
+    for woven in np.split(records, np.flatnonzero(records["kind"] == RecordKind.ROWS_BACK)):
+        begin = int(len(woven) > 0 and woven["kind"][0] == RecordKind.ROWS_BACK)
+        if begin:
+            _follow(sequence, JournalRecord(*woven[0].item()[:-1]))
+        if len(woven) > begin:
+            sequence = _woven(woven[begin:], sequence, programme)
     return sequence
 
 
-def _whole_rows(records: RecordArray, last: int, programme: LoomProgramme) -> bool:
-    """Whether the rows before the last one are recorded whole and in order: each knot of each head once."""
+def _woven(records: RecordArray, sequence: Sequence, programme: LoomProgramme) -> Sequence:
+    """The position behind recorded operations that were done from a position on."""
+    last = int(records["row"][-1])
+    if last >= programme.setup.rows:
+        raise _misfit(records[-1:])
+    begin = 0
+    if _whole_rows(records, sequence.row, last, programme):
+        begin = int(np.searchsorted(records["row"], last))
+        changes = records[:begin][records[:begin]["kind"] == RecordKind.CHANGE]
+        for row, number in zip(changes["row"][-1:].tolist(), changes["number"][-1:].tolist(), strict=True):
+            sequence.stop_row = row + (programme.operations(row).stops[number].phase > 0)
+        if begin:
+            sequence = Sequence(programme, last, sequence.stop_row)
+    for one in _decoded(records[begin:]):
+        _follow(sequence, one)
+    return sequence
+
+
+def _follow(sequence: Sequence, one: JournalRecord) -> None:
+    """What a record states is done. Raises JournalError where it does not follow the programme."""
+    try:
+        if one.kind == RecordKind.ROWS_BACK:
+            sequence.take_out(sequence.row - one.row)
+        else:
+            sequence.done(_operation(one, sequence))
+    except (LoomError, IndexError) as error:
+        raise JournalError(
+            f"record {one.sequence} of the journal does not follow the programme: {error}",
+            do="restore journal and programme from copies that belong together",
+        ) from error
+
+
+def _whole_rows(records: RecordArray, first: int, last: int, programme: LoomProgramme) -> bool:
+    """Whether the rows from the first to before the last one are recorded whole and in order: each knot once."""
     rows = records["row"]
     setup = programme.setup
     if np.any(np.diff(rows.astype(np.int64)) < 0):
         return False
-    bounds = np.searchsorted(rows, np.arange(last + 1))
+    bounds = np.searchsorted(rows, np.arange(first, last + 1))
     for begin, end in zip(bounds[:-1].tolist(), bounds[1:].tolist(), strict=True):
         row = records[begin:end]
         knots = row[row["kind"] == RecordKind.KNOT]

@@ -46,7 +46,14 @@ class Jog:
     distance: float
 
 
-Order: TypeAlias = Tie | EndRow | ChangePackages | Jog
+@value_record
+class Home:
+    """An axis goes to its switch and takes its position there, after power-up."""
+
+    axis: str
+
+
+Order: TypeAlias = Tie | EndRow | ChangePackages | Jog | Home
 
 
 class Fault(StrEnum):

@@ -11,6 +11,9 @@ from ilmek.loom.control.exchange import Operation
 from ilmek.loom.control.ports import ChangePackages, EndRow, Tie
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
 
+ROWS_BACK = 20
+"""Most whole rows that are taken out at once: a length of carpet that is still before the cloth beam (assumed)."""
+
 LOOM = -1
 """Key of an operation of the whole loom, where a head's is its number."""
 
@@ -41,12 +44,13 @@ class Sequence:
 
     row, phase  in work            upcoming  number of each head's next knot in the row
     stops_done, ends_done          of the row
+    stop_row                       first row that needs nothing but the packages of the last stop
     """
 
-    __slots__ = ("_left", "_programme", "_work", "ends_done", "phase", "row", "stops_done", "upcoming")
+    __slots__ = ("_left", "_programme", "_work", "ends_done", "phase", "row", "stop_row", "stops_done", "upcoming")
 
-    def __init__(self, programme: LoomProgramme, row: int = 0) -> None:
-        self._programme = programme
+    def __init__(self, programme: LoomProgramme, row: int = 0, stop_row: int = 0) -> None:
+        self._programme, self.stop_row = programme, stop_row
         self._begin(row)
 
     def copy(self) -> "Sequence":
@@ -123,10 +127,25 @@ class Sequence:
             raise LoomError(f"{operation!r} is not the next operation of the loom")
         elif isinstance(operation, ChangePackages):
             self.stops_done += 1
+            self.stop_row = operation.stop.row + (operation.stop.phase > 0)
         else:
             self.ends_done += 1
         self._advance()
         return True
+
+    @property
+    def most_back(self) -> int:
+        """Whole rows that may be taken out before the row in work; -1: not even that row.
+
+        Not beyond the last change of packages: the rows before it need the packages that were taken off.
+        """
+        return -1 if self.row < self.stop_row else min(ROWS_BACK, self.row - self.stop_row)
+
+    def take_out(self, rows: int) -> None:
+        """The row in work and whole rows before it were taken out. Raises LoomError for more than `most_back`."""
+        if not 0 <= rows <= self.most_back:
+            raise LoomError(f"{rows} rows back", allowed=f"up to {self.most_back}")
+        self._begin(self.row - rows)
 
     def _stop(self) -> Stop | None:
         if self.finished or self.stops_done >= len(self._work.stops):

@@ -4,13 +4,16 @@ from dataclasses import dataclass, field
 
 from ilmek.loom.control.alarms import ActiveAlarm
 from ilmek.loom.control.exchange import ControlEvent, ControlOutputs, Operation, OperatorRequest, WeavingStep
-from ilmek.loom.control.interlocks import TensionLimits
+from ilmek.loom.control.interlocks import LoomAxis, TensionLimits
 from ilmek.loom.control.journal import MOST_LAG, encode_record
 from ilmek.loom.control.opening import OpenedJournal
 from ilmek.loom.control.packml import PackMode, PackState, Refusal
-from ilmek.loom.control.ports import EndRow, Jog, Order, Sensors, Tie
+from ilmek.loom.control.ports import EndRow, Home, Jog, Order, Sensors, Tie
 from ilmek.loom.control.sequence import Sequence
 from ilmek.records import value_record
+
+AXIS = -2
+"""Key of an axis that moves alone: a jog, or homing."""
 
 MOST_UNSYNCED = 60_000
 """Records after which the journal is synchronised in any case."""
@@ -54,6 +57,7 @@ class Doubt:
 class ControllerState:
     """Everything that changes while a controller works.
 
+    homed       axes that are at home since power-up
     progress    orders that were sent and have not ended, by key   doubts   uncertain operations, by key
     retried     keys whose operation missed its grip once          alarms   by name and head
     watch       sensors that have yet to change in the row's end in progress
@@ -74,7 +78,8 @@ class ControllerState:
     step: WeavingStep = WeavingStep.ROW
     goal: int = 0
     allowance: int | None = None
-    progress: dict[int, Operation | Jog] = field(default_factory=dict)
+    homed: set[LoomAxis] = field(default_factory=set)
+    progress: dict[int, Operation | Jog | Home] = field(default_factory=dict)
     doubts: dict[int, Doubt] = field(default_factory=dict)
     retried: set[int] = field(default_factory=set)
     alarms: dict[tuple[str, int | None], ActiveAlarm] = field(default_factory=dict)

@@ -112,5 +112,6 @@ class ControllerView(Protocol):
 
         Commands are those of PackML, for example "hold"; "production", "maintenance" and "manual", which choose the
         mode; "resume", which goes on with the carpet from any state; "acknowledge", all alarms;
-        "yes" and "no", which answer the first request.
+        "yes" and "no", which answer the first request; "rows-back 3", three whole rows and the row in work were taken
+        out; "jog beater 0.05rad".
         """

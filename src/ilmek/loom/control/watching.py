@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from ilmek.loom.control.alarms import ALARMS, ActiveAlarm, AlarmKind, ControlFault
 from ilmek.loom.control.exchange import AlarmChanged
+from ilmek.loom.control.homing import HOMED
 from ilmek.loom.control.interlocks import (
     INTERLOCKS,
     LoomAxis,
@@ -73,6 +74,8 @@ def refused(state: ControllerState, command: PackCommand) -> Refusal | None:
             return Refusal("Clear while the journal cannot be written", "the journal must be opened again")
         grave = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is Reaction.ABORT and alarm.present]
         return Refusal(f"Clear with {grave[0].kind.name}", grave[0].kind.remedy) if grave else None
+    if command is PackCommand.START and state.mode is not PackMode.MANUAL and len(state.homed) < len(HOMED):
+        return Refusal("Start before the axes are at home", "Reset homes them", "stop, then reset")
     if command in GOING_ON and state.mode is not PackMode.MANUAL:
         stopping = [alarm for alarm in state.alarms.values() if alarm.kind.reaction is not Reaction.NONE]
         if stopping:

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ilmek.errors import LoomError
-from ilmek.loom.control.ports import Fault, Jog
+from ilmek.loom.control.interlocks import LoomAxis
+from ilmek.loom.control.ports import Fault, Home, Jog
 from ilmek.loom.operations import Stop
 from ilmek.loom.twin.model import PlantModel, nanometres
 from ilmek.loom.twin.state import (
@@ -31,6 +32,9 @@ Heads = Sequence[PlantHead]
 
 def acted(plant: PlantModel, loom: LoomCondition, heads: Heads, one: PlantInput) -> tuple[LoomCondition, Heads]:
     """The loom and its heads after an act. Raises LoomError for a package or a sensor that does not exist."""
+    if isinstance(one, Jog | Home):
+        forward = one.distance > 0 if isinstance(one, Jog) else one.axis not in _OUTWARD
+        return _moved(loom, heads, one.axis, forward=forward)
     match one:
         case Door(closed):
             loom = replace(loom, door_closed=closed)
@@ -49,8 +53,6 @@ def acted(plant: PlantModel, loom: LoomCondition, heads: Heads, one: PlantInput)
             loom = _injected(plant, loom, one)
         case Repaired():
             loom, heads = _repaired(plant, loom, heads)
-        case Jog():
-            loom, heads = _jogged(loom, heads, one)
     return loom, heads
 
 
@@ -115,20 +117,23 @@ _SENSORS = ("door_closed", "emergency_stop", "warp_tension", "heads_clear", "bea
             "knotted", "ended")  # fmt: skip
 
 
-def _jogged(loom: LoomCondition, heads: Heads, jog: Jog) -> tuple[LoomCondition, Heads]:
+_OUTWARD = (LoomAxis.BEATER, LoomAxis.SHED)
+"""Axes that leave their switch when they move forward."""
+
+
+def _moved(loom: LoomCondition, heads: Heads, axis: str, *, forward: bool) -> tuple[LoomCondition, Heads]:
     """Forward: grippers open, heads retreat, beater and shed leave their rest; backward: the opposite."""
-    forward = jog.distance > 0
-    if jog.axis in ("grippers", *(f"gripper {index}" for index in range(len(heads)))):
+    if axis in ("grippers", *(f"gripper {index}" for index in range(len(heads)))):
         return loom, [
             replace(head, condition=replace(head.condition, closed=not forward))
-            if jog.axis in ("grippers", f"gripper {index}")
+            if axis in ("grippers", f"gripper {index}")
             else head
             for index, head in enumerate(heads)
         ]
-    if jog.axis == "heads":
+    if axis == "heads":
         return replace(loom, between=not forward), heads
-    if jog.axis == "beater":
+    if axis == "beater":
         return replace(loom, beater_back=not forward), heads
-    if jog.axis == "shed":
+    if axis == "shed":
         return replace(loom, shed_closed=not forward), heads
     return loom, heads

@@ -3,7 +3,7 @@
 import hashlib
 import struct
 
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Order, PortReport, SensorsChanged, Tie
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Home, Order, PortReport, SensorsChanged, Tie
 from ilmek.loom.operations import Stop
 from ilmek.units import BILLION
 
@@ -33,6 +33,8 @@ def order_words(order: Order) -> str:
         return f"end {order.row} {int(order.operation)}"
     if isinstance(order, ChangePackages):
         return f"change {stop_words(order.stop)}"
+    if isinstance(order, Home):
+        return f"home {order.axis}"
     return f"jog {order.axis.replace(' ', '+')} {round(BILLION * order.distance)}"
 
 

@@ -27,6 +27,9 @@ Assumed by this project."""
 JOG = BILLION
 """Time of a jog [ns]. Assumed by this project."""
 
+HOMING = 3 * BILLION
+"""Time in which an axis finds its switch [ns]; one that is there takes its position where it stands. Assumed."""
+
 Limits: TypeAlias = tuple[tuple[int, Fault], ...]
 Mark: TypeAlias = tuple[int, str, bool]
 """Time after the begin of an operation [ns], a sensor, its new value."""

@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Jog, Order, Sensors, Tie
+from ilmek.loom.control.ports import ChangePackages, EndRow, Fault, Home, Jog, Order, Sensors, Tie
 from ilmek.loom.operations import EMPTY, RowEnd, Stop
 from ilmek.loom.twin.model import OPEN_SHED, SLACK, PlantModel, nanometres
 from ilmek.records import value_record
@@ -132,7 +132,7 @@ class LoomWork:
     marks  changes of sensors that are still to come: time [ns], sensor, value
     """
 
-    order: EndRow | ChangePackages | Jog
+    order: EndRow | ChangePackages | Jog | Home
     end: int
     fault: Fault | None
     marks: tuple[tuple[int, str, bool], ...]

@@ -17,11 +17,24 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from ilmek.errors import LoomError
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Jog, PortReport, SensorsChanged, Tie
+from ilmek.loom.control.homing import at_home
+from ilmek.loom.control.interlocks import LoomAxis
+from ilmek.loom.control.ports import (
+    ChangePackages,
+    Done,
+    EndRow,
+    Failed,
+    Fault,
+    Home,
+    Jog,
+    PortReport,
+    SensorsChanged,
+    Tie,
+)
 from ilmek.loom.twin.acts import acted, changed_packages, halted
 from ilmek.loom.twin.events import chained
 from ilmek.loom.twin.fates import after_end_fault, after_weft, end_fate, knot_fate, with_broken_warp
-from ilmek.loom.twin.model import JOG, WATCHDOG, Mark, PlantModel
+from ilmek.loom.twin.model import HOMING, JOG, WATCHDOG, Mark, PlantModel
 from ilmek.loom.twin.state import (
     NOWHERE,
     Halt,
@@ -69,7 +82,7 @@ class _Run:
     def take(self, one: PlantInput) -> None:
         if type(one) is Tie:
             self.begin_knot(one)
-        elif isinstance(one, EndRow | ChangePackages | Jog):
+        elif isinstance(one, EndRow | ChangePackages | Jog | Home):
             self.begin_work(one)
         elif isinstance(one, PowerOn):
             self.report_sensors()
@@ -122,7 +135,7 @@ class _Run:
             self.report_sensors()
         self.report(report)
 
-    def begin_work(self, order: EndRow | ChangePackages | Jog) -> None:
+    def begin_work(self, order: EndRow | ChangePackages | Jog | Home) -> None:
         plant, condition = self.plant, self.condition
         marks: tuple[Mark, ...] = ()
         fault: Fault | None = None
@@ -133,6 +146,8 @@ class _Run:
             duration = plant.times.of_end(order.operation)
             marks = plant.marks[order.operation]
             fault, condition = end_fate(plant, condition, order)
+        elif isinstance(order, Home):
+            duration = 0 if at_home(LoomAxis(order.axis), sensors_of(plant, self.state())) else HOMING
         else:
             duration = plant.change_time(order.stop) if isinstance(order, ChangePackages) else JOG
         if isinstance(order, EndRow) and condition.permille != 1000:
@@ -154,7 +169,7 @@ class _Run:
             condition, heads = changed_packages(self.plant, condition, self.heads, order.stop)
             self.heads = list(heads)
         self.condition = condition
-        if isinstance(order, Jog):
+        if isinstance(order, Jog | Home):
             self.act(order)
         self.report(Done(order, self.time) if fault is None else Failed(order, fault, self.time))
 

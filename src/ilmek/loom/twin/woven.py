@@ -51,6 +51,12 @@ class Woven:
         index = row * len(ROW_ENDS) + operation
         self._ends[index] = min(self._ends[index] + 1, MOST_TIMES)
 
+    def take_out(self, first: int, last: int) -> None:
+        """The rows from one to another are taken out."""
+        for row in range(first, min(last + 1, self.rows)):
+            self._ends[row * len(ROW_ENDS) : (row + 1) * len(ROW_ENDS)] = memoryview(bytes(len(ROW_ENDS)))
+            self._row(row)[:] = 0
+
     def times_tied(self, row: int, column: int) -> int:
         """How often a knot was tied at a warp pair of a row."""
         return self._knots[row * self.columns + column] & 255

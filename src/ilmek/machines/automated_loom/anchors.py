@@ -29,11 +29,11 @@ def anchored(
     """
     (wide, deep, thick), middles, places = size, tuple(holes), tuple(positions)
     section = Profile(rectangle(wide, deep), tuple(circle(hole, HOLE / 2) for hole in middles))
-    plate = Part(part_id(name), title, LASER_CUT, "", Prism(section, thick), STEEL)
+    plate = Part(part_id(name), title, LASER_CUT, Prism(section, thick), STEEL)
     yield Occurrence(plate, places)
     shape = stepped((ANCHOR, thick), _WASHER, _NUT, (ANCHOR, _OUT))
     row = Bought(f"wedge anchor M{ANCHOR / mm:.0f} x 75 EN 1992-4", 0.04)
-    anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, "", shape, purchase=row, envelope=True)
+    anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, shape, purchase=row, envelope=True)
     yield Occurrence(
         anchor, tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
     )

@@ -2,9 +2,11 @@
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 
 from ilmek.elements.prices import price_of, read_prices
 from ilmek.machines import BEATS
+from ilmek.machines.automated_loom.cyclogram import RowTiming
 from ilmek.machines.automated_loom.params import AUTO
 from ilmek.machines.beat import BeatDrive, PlannedBeat
 from ilmek.machines.catalogue import MACHINES
@@ -16,33 +18,57 @@ from ilmek.units import format_quantity
 
 @record
 class BeatOption:
-    """A kind of beat for the loom: its plan, the row's period with it [s], its drive, price and checks."""
+    """A kind of beat for the loom: its plan, its task with side view and period, and the timing of the row with it.
+
+    Its drive, the price of that and its checks are computed where they are read: a given beat is not compared.
+    """
 
     kind: str
     plan: PlannedBeat
-    period: float
-    drive: BeatDrive
-    price: float
-    checks: tuple[Check, ...]
+    task: LoomTask
+    timing: RowTiming
+
+    @property
+    def period(self) -> float:
+        """Time of a row's wefts and beats [s]."""
+        return self.task.period
+
+    @property
+    def drive(self) -> BeatDrive:
+        """Its drive at that period."""
+        return _drive(self)
+
+    @property
+    def price(self) -> float:
+        """Price of the parts of its drive."""
+        prices = read_prices(self.task.params.prices)
+        return sum(price_of(part, prices) for part in self.drive.parts)
+
+    @property
+    def checks(self) -> tuple[Check, ...]:
+        """Whether it does its work in the loom."""
+        return (row_check(self.drive), *self.drive.checks, *self.drive.machine_checks)
 
 
-def beat_options(task: LoomTask, task_of: Callable[[PlannedBeat], LoomTask]) -> tuple[BeatOption, ...]:
+@lru_cache(maxsize=64)
+def _drive(option: BeatOption) -> BeatDrive:
+    return option.plan.drive(option.task)
+
+
+def beat_options(task: LoomTask, timed: Callable[[PlannedBeat], tuple[LoomTask, RowTiming]]) -> tuple[BeatOption, ...]:
     """The kinds of beat that the loom may have, in ascending order of their prices.
 
-    task_of  plan of a beat -> the task with the side view for it, and the time of a row's wefts and beats
+    timed  plan of a beat -> the task with the side view for it and the period of the row, and the timing of the row
     """
-    params, prices = task.params, read_prices(task.params.prices)
     options: list[BeatOption] = []
-    for kind in BEATS if params.beat == AUTO else (params.beat,):
+    for kind in BEATS if task.params.beat == AUTO else (task.params.beat,):
         component = MACHINES[BEATS[kind]]
         assert component.beat is not None
         plan: PlannedBeat = component.beat(task, kind)
-        planned = task_of(plan)
-        drive = plan.drive(planned)
-        price = sum(price_of(part, prices) for part in drive.parts)
-        checks = (row_check(drive), *drive.checks, *drive.machine_checks)
-        options.append(BeatOption(kind, plan, planned.period, drive, price, checks))
-    return tuple(sorted(options, key=lambda one: (one.price, one.period)))
+        options.append(BeatOption(kind, plan, *timed(plan)))
+    if len(options) > 1:
+        options.sort(key=lambda option: (option.price, option.period))
+    return tuple(options)
 
 
 def deadline_check(

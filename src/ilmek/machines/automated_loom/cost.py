@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from ilmek.loom.twin.faults import Exposure, StopParams, expected_standstill
+from ilmek.machines.automated_loom.cabinet import AMPLIFIER
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost_rates import CostRates
@@ -15,7 +16,6 @@ from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.machine_cost import machine_cost, with_control
 from ilmek.machines.automated_loom.params import AUTO
 from ilmek.machines.automated_loom.parts import PartsList
-from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 
 
 def carpet_cost(loom: LoomDesign, listed: PartsList, time: float, energy: float) -> CarpetCost:

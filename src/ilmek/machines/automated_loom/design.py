@@ -230,12 +230,12 @@ def ready_loom(params: AutomatedLoomParams) -> ReadyLoom:
     task = replace(task, side=laid_out(task))
     cams = task.shedding
 
-    def task_of(plan: PlannedBeat) -> LoomTask:
+    def timed_with(plan: PlannedBeat) -> tuple[LoomTask, RowTiming]:
         planned = replace(task, side=laid_out(task, plan.path))
-        return replace(planned, period=_timed_row(params, _row_timing(planned, cams, plan.beat), cams)[1])
+        timing, period = _timed_row(params, _row_timing(planned, cams, plan.beat), cams)
+        return replace(planned, period=period), timing
 
-    options = beat_options(task, task_of)
-    return ReadyLoom(params, machines, task, knotting, options)
+    return ReadyLoom(params, machines, task, knotting, beat_options(task, timed_with))
 
 
 def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | None = None) -> LoomDesign:
@@ -245,11 +245,8 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
 
     Raises LoomError where more heads are given than fit.
     """
-    params, task, knotting = ready.params, ready.task, ready.head
-    machines, rows, columns = dict(ready.machines), task.rows, task.columns
-    weft, cams = task.weft, task.shedding
-    task = replace(task, side=laid_out(task, option.plan.path))
-    timing, period = _timed_row(params, _row_timing(task, cams, option.plan.beat), cams)
+    params, knotting, task, timing, period = ready.params, ready.head, option.task, option.timing, option.period
+    machines, rows, columns, weft = dict(ready.machines), task.rows, task.columns, task.weft
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
     times = times_at(params, knotting, task.cloth.knot_pitch, period)
     most = knotting.most(columns, task.cloth.knot_pitch)
@@ -257,7 +254,6 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
     task = replace(
         task,
         designs={name: child.design for name, child in machines.items()},
-        period=period,
         take_up_time=take_up_time(timing, period),
         row_time=knotting.least_time(1, columns, number, times),
     )

@@ -1,6 +1,6 @@
 """Whether motors drive all that can move, one for each degree of freedom, and whether each motor has its power."""
 
-from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
+from ilmek.machines.automated_loom.cabinet import AMPLIFIER
 from ilmek.part.drive_balance import drive_balance
 from ilmek.part.tree import Tree
 from ilmek.report import Check, at_least, at_most

@@ -64,7 +64,7 @@ class Foot:
         """The plate with its thread under a section of a side [m], upwards along z from 0."""
         wide = max(side - 2 * LEDGE, 2 * self.screw)
         section = Profile(rectangle(wide, wide), (circle(0j, self.screw / 2),))
-        return Part(name, "plate of a levelling foot", LASER_CUT, "", Prism(section, PLATE), STEEL, machined=True)
+        return Part(name, "plate of a levelling foot", LASER_CUT, Prism(section, PLATE), STEEL, machined=True)
 
 
 FEET = tuple(

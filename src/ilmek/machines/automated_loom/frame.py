@@ -57,7 +57,7 @@ def part_id(name: str) -> str:
 def member(name: str, title: str, section: HollowSquare, length: float) -> Part:
     """A piece of square hollow section, cut to length and welded."""
     shape = square_tube(section.side, section.wall, length)
-    return Part(part_id(name), title, "welded frame", section.name, shape, STEEL)
+    return Part(part_id(name), title, "welded frame", shape, STEEL)
 
 
 END_PLATE = 10 * mm

@@ -28,6 +28,7 @@ _WIRED = frozenset(
         "button",
         "emergency stop",
         "enabling device",
+        "mode selector",
         "holding brake",
     )
 )

@@ -34,6 +34,7 @@ from ilmek.elements.prices import PriceRates, read_prices
 from ilmek.errors import LoomError, ParameterError
 from ilmek.loom.times import Times
 from ilmek.machines import WEFT_CARRIERS
+from ilmek.machines.automated_loom.cabinet import AMPLIFIER
 from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.choice import BeatOption
 from ilmek.machines.automated_loom.cost import rates_of, standstill_of
@@ -54,7 +55,6 @@ from ilmek.machines.automated_loom.params import AUTO, COST, PRICE, TIME, Automa
 from ilmek.machines.automated_loom.parts import own_lines, parts_of_loom
 from ilmek.machines.automated_loom.report import LoomAnalysis
 from ilmek.machines.automated_loom.search import LoomOffer, SearchJournal
-from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.weaver.design import ties_in_time
 from ilmek.machines.weaver.params import WeaverParams

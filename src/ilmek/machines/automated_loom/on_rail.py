@@ -30,7 +30,7 @@ from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Corner, Placed, Prism, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 TROUGH, CHAIN = part_id("chain-trough"), part_id("energy-chain")
 """Ids of parts."""
@@ -59,7 +59,7 @@ def guide_parts(loom: LoomDesign) -> Iterator[Occurrence]:
     """Bar and rail of the heads' guide, and the heads' belt, in the axes of the rail."""
     row, wide = carriage_guide(loom.weaver), loom.task.rail_length
     spacer = box(row.block, RAIL_AXIS - row.height, wide)
-    under = Part(part_id("guide-bar"), "bar under the heads' guide", "machined link", "", spacer, ALUMINIUM)
+    under = Part(part_id("guide-bar"), "bar under the heads' guide", "machined link", spacer, ALUMINIUM)
     guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, wide)
     yield Occurrence(under, (placement(-wide / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH),))
     yield Occurrence(guide, (placement(-wide / 2, z=row.height - RAIL_AXIS).after(ON_RAIL),))
@@ -115,7 +115,7 @@ def trough_part(loom: LoomDesign, side: float) -> Part:
     (long, tall, wide), rear = map(float, high - low), chain_under(loom, side).outer[1]
     outside = np.array([complex(FLANGE, tall), 1j * tall, 0j, complex(wide), complex(wide, rear)])
     section = Prism(Profile(folded_section(outside, WALL, WALL)), long)
-    return Part(TROUGH, "trough of the energy chains", "laser-cut part", f"{in_mm(WALL)} sheet, bent", section, STEEL)
+    return Part(TROUGH, "trough of the energy chains", "laser-cut part", section, STEEL)
 
 
 def chain_room(loom: LoomDesign, side: float) -> float:

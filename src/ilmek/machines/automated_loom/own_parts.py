@@ -14,13 +14,14 @@ from ilmek.elements.motors import smallest_motor
 from ilmek.machines.arrangement.side_view import RAIL as RAIL_ROOM
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.brackets import brackets_of
+from ilmek.machines.automated_loom.cabinet import ControlNeeds
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.joints import seams, with_throats
 from ilmek.machines.automated_loom.on_rail import guide_parts
 from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
-from ilmek.machines.automated_loom.standing_frame import ControlNeeds, standing_frame
+from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
@@ -55,7 +56,6 @@ def _caps(loom: LoomDesign) -> Iterator[Occurrence]:
                 part_id(f"{bracket.name}-cap"),
                 f"cap of the {bracket.title}",
                 LASER_CUT,
-                "",
                 shape,
                 STEEL,
                 machined=True,
@@ -83,7 +83,9 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
     chosen = smallest_motor(torque, turning)
-    motor = catalogue.motor(RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning, together=2)
+    motor = catalogue.motor(
+        RETREAT_MOTOR, "motor of the rail's retreat", chosen, torque, turning, together=2, rear=True
+    )
     brake = catalogue.holding_brake(
         RETREAT_BRAKE, "brake of the rail's retreat", motor, -mass * GRAVITY * RETREAT.imag * PULLEY
     )
@@ -96,7 +98,11 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         "axis of the rail's retreat",
         "linear axis",
         box(RAIL_AXIS, RAIL_AXIS, low + room),
-        Bought("belt drive", length=heads.stroke, data=f"linear axis {in_mm(RAIL_AXIS)} wide, belt drive"),
+        Bought(
+            "belt drive",
+            length=heads.stroke,
+            data=f"linear axis {in_mm(RAIL_AXIS)} wide, belt drive, {catalogue.stroke_of(heads.stroke)}",
+        ),
         size="belt drive, one at each support of the rail",
     )
     slope, upper = -cmath.phase(RETREAT), placement(z=-room)

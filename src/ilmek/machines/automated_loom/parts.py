@@ -9,6 +9,7 @@ from itertools import chain
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.prices import PriceRates, price_of, read_prices
 from ilmek.machines.arrangement.side_view import RETREAT, SideBox, SideView, below
+from ilmek.machines.automated_loom.cabinet import ControlNeeds, control_needs
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.signals import signals_of
 from ilmek.machines.automated_loom.feet import foot_for
@@ -19,7 +20,7 @@ from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.shaking import least_frequency
-from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, ControlNeeds, control_needs, foot_reach
+from ilmek.machines.automated_loom.standing_frame import LEVELLING_FOOT, foot_reach
 from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import least_rail

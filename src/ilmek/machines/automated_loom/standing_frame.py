@@ -5,40 +5,26 @@ stand outside of all bearings; a bracket that ends before a column's face has a 
 """
 
 import cmath
-import math
 from collections.abc import Iterable, Iterator
 
-from ilmek.elements.cabinet_devices import fuse_of, supply_for
 from ilmek.elements.columns import STEEL
-from ilmek.elements.field_devices import TERMINAL
-from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
 from ilmek.elements.tubes import TUBES, Tube
 from ilmek.machines.automated_loom.brackets import Bracket, Brackets, CarriedBeam, brackets_of, compensator_beams
+from ilmek.machines.automated_loom.cabinet import ControlNeeds, control_parts
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT, PLATE
 from ilmek.machines.automated_loom.frame import END_PLATE, ROOM, LoomFrame, end_plate, member, part_id, welded_to
 from ilmek.machines.automated_loom.rail_supports import rail_supports, support_parts
 from ilmek.machines.automated_loom.steady_posts import cam_beam, cam_beam_section, steady_posts
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, support_bodies
-from ilmek.part.part import LASER_CUT, WELDED, Bought, Part, bought_part
+from ilmek.part.part import LASER_CUT, WELDED, Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, Placement, placement
-from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, box, rectangle, tube
+from ilmek.part.shapes import box, tube
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.records import record
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
-CABINET, WALL = (0.8, (1.0, 1.2, 1.4, 1.6, 1.8, 2.0), 0.3), 2 * mm
-"""Least width, heights and depth of the control's cabinet, and its wall [m]; assumed by this project."""
-
-RAIL_ENDS = 50 * mm
-"""Of the cabinet's height above and below a mounting rail [m]; assumed by this project."""
-
-_MODULE, _MODULE_PITCH, _MODULE_ROWS = (40 * mm, 170 * mm, 160 * mm), (50 * mm, 230 * mm), 4
-"""Width, height and depth of an axis' amplifier in the cabinet [m], distances of neighbours, rows; assumed."""
-
-AMPLIFIER, LEVELLING_FOOT = part_id("control-axis"), part_id("levelling-foot")
-"""Ids of the amplifier of a motor, with its cable and switch, and of the feet on the floor."""
+LEVELLING_FOOT = part_id("levelling-foot")
+"""Id of the feet on the floor."""
 
 _PACKED, _PAST = 30 * mm, 12 * mm
 """Spacers that are shorter are plates: the welds at both ends of a tube have no room beside each other; how far such a
@@ -53,31 +39,6 @@ def back_rest_tube(loom: LoomDesign) -> Tube:
     """The tube of the back rest: the thickest of the stock of its diameter."""
     outer = 2 * loom.side.back_rest.radius
     return max(TUBES.values(), key=lambda row: (-abs(row.outer - outer), row.wall))
-
-
-@record
-class ControlNeeds:
-    """What the cabinet has room for: amplifiers of axes, and the length of mounting rails [m]."""
-
-    axes: int
-    rail: float
-
-
-def control_needs(motors: Iterable[tuple[str, float, int]], signals: int) -> ControlNeeds:
-    """The needs of a control of so many signals; motors: kind, power [W] and number of those of each part."""
-    loads = [(MotorLoad(kind, power), number) for kind, power, number in motors]
-    fuses = (number * load.poles * load.fused.row.size[0] for load, number in loads)
-    steppers = math.fsum(number * load.apparent for load, number in loads if load.volts == STEPPER_VOLTS)
-    row, number = supply_for(STEPPER_VOLTS, steppers)
-    each = row.size[0] + row.phases * fuse_of(_LEAST_FUSE, MAINS).row.size[0]
-    terminals = (signals + _TERMINALS) * TERMINAL.size[0]
-    return ControlNeeds(sum(number for _, number in loads), _OTHERS + number * each + terminals + math.fsum(fuses))
-
-
-_OTHERS, _LEAST_FUSE, _TERMINALS = 0.75, 2.0, 20
-"""Length of what is on the rails beside fuses, supplies of steppers, terminals [m], and rating of their fuses [A];
-terminals of safety devices and of 24 V beside one for each signal.
-"""
 
 
 def standing_frame(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds) -> RigidBody:
@@ -192,8 +153,7 @@ def _feet(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> Iterator[Occurr
 
 def _bracket(loom: LoomDesign, frame: LoomFrame, made: Brackets, one: Bracket) -> Iterator[Occurrence]:
     """A bracket on both sides, and its spacers to the columns."""
-    size = f"plate {format_quantity(one.outer - one.inner, 'mm')}, {format_quantity(one.depth, 'mm')} high"
-    part = Part(part_id(one.name), one.title, "laser-cut part", size, one.plate, STEEL, machined=True)
+    part = Part(part_id(one.name), one.title, "laser-cut part", one.plate, STEEL, machined=True)
     yield _placed(part, (placement(x).after(IN_SIDE_VIEW) for x in (-one.inner, one.outer)))
     gap = made.face - one.outer
     section = welded_to(frame, one.depth)
@@ -217,7 +177,7 @@ def _carried(loom: LoomDesign, made: Brackets) -> Iterator[Occurrence]:
     inner, wide, rest = made.upper.inner, loom.task.width, loom.side.back_rest.at
     section = back_rest_tube(loom)
     shape = tube(section.outer, section.wall, wide)
-    roller = Part(part_id("back-rest"), "back rest", WELDED, f"tube {section.name} mm", shape, STEEL)
+    roller = Part(part_id("back-rest"), "back rest", WELDED, shape, STEEL)
     yield _placed(roller, (placement(-wide / 2, rest.imag, rest.real).after(ALONG_WIDTH),))
     beam = member("back-rest-beam", "beam of the back rest", made.beam, 2 * inner)
     yield _placed(beam, (placement(-inner, made.rest.imag, made.rest.real).after(ALONG_WIDTH),))
@@ -233,42 +193,6 @@ def _ends(beam: CarriedBeam, half: float, inner: float) -> Iterator[Placement]:
     turned = placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(beam.side))
     for x in (half, -inner):
         yield placement(x, beam.axis.imag, beam.axis.real).after(ALONG_WIDTH).after(turned)
-
-
-def control_parts(right: float, floor: float, rear: float, needs: ControlNeeds) -> Iterator[Occurrence]:
-    """The cabinet on the floor behind a rear foot, bolted to it, with the amplifiers row by row on its wall there.
-
-    right, rear  outer side of the column, and end of its rear foot [m]      needs  of the control
-    """
-    axes, (across, upwards), (least, heights, deep) = needs.axes, _MODULE_PITCH, CABINET
-    columns = -(-axes // _MODULE_ROWS)
-    high = next((high for high in heights if 2 * (high - 2 * RAIL_ENDS) >= needs.rail), heights[-1])
-    wide = max(least, columns * across + 2 * WALL)
-    inside = rectangle(wide - 2 * WALL, high - 2 * WALL)
-    sides = Prism(Profile(rectangle(wide, high), (inside,)), deep)
-    shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=deep - WALL),))))
-    named = "cabinet " + " x ".join(f"{size / mm:.0f}" for size in (wide, high, deep)) + " mm, sheet steel"
-    control = bought_part(part_id("control"), "control", "control", shape, Bought(named, shape.volume * STEEL.density))
-    module = bought_part(
-        AMPLIFIER,
-        "axis of the control",
-        "axis of the control",
-        box(*_MODULE),
-        Bought("amplifier"),
-        size="amplifier, cable, switch",
-    )
-    x, y = right - wide / 2, floor + high / 2
-    yield Occurrence(control, (placement(x, y, rear - deep),))
-    if axes:
-        positions = tuple(
-            placement(
-                x + (number % columns - (columns - 1) / 2) * across,
-                y + (number // columns - (_MODULE_ROWS - 1) / 2) * upwards,
-                rear - WALL - _MODULE[2],
-            )
-            for number in range(axes)
-        )
-        yield Occurrence(module, positions)
 
 
 def _both(sides: Iterable[float]) -> Iterator[float]:

@@ -16,7 +16,7 @@ from ilmek.part.part import Part
 from ilmek.part.shapes import square_tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, at_most, choose
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 BEAM = "beat-up/beam"
 """Id of the beam's part."""
@@ -56,9 +56,8 @@ class BeatBeam:
     @property
     def part(self) -> Part:
         """The beam, along z from z = 0."""
-        size = f"{self.section.name}, {format_quantity(self.length, 'mm', 4)}"
         shape = square_tube(self.section.side, self.section.wall, self.length)
-        return Part(BEAM, "beam of the beat-up", "welded frame", size, shape, STEEL, machined=True)
+        return Part(BEAM, "beam of the beat-up", "welded frame", shape, STEEL, machined=True)
 
     @property
     def checks(self) -> tuple[Check, ...]:

@@ -27,7 +27,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import polygon
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 STEEL = MATERIALS["structural steel"]
 
@@ -190,9 +190,7 @@ def across(  # noqa: PLR0917
     name: str, title: str, process: str, corners: ComplexArray, length: float, material: Material = STEEL
 ) -> Part:
     """A part of one section in the side view, with these corners, along the width from z = 0 [m]."""
-    sides = (float(np.ptp(side)) / mm for side in (corners.real, corners.imag))
-    size = f"{' x '.join(format_quantity(side, '', 4) for side in sides)} x {format_quantity(length, 'mm', 4)}"
-    return Part(name, title, process, size, Prism(Profile(polygon(corners)), length), material)
+    return Part(name, title, process, Prism(Profile(polygon(corners)), length), material)
 
 
 def _about(part: Part, pivot: complex) -> float:

@@ -33,7 +33,7 @@ from ilmek.part.tree import Occurrence, in_line
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.plane.curves import hull
 from ilmek.report import Check, Hole, at_least, at_most
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import in_mm, mm
 
 AXIS_SIDE = 80 * mm
 """Side of the section of the belt axis [m]; assumed by this project."""
@@ -111,7 +111,7 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
         holes.append(Hole(complex(in_links_axes(linkage, np.array([driving]))[0]), shared / 2))
     thickness = linkage.params.thickness
     shape = Prism(drilled(polygon(in_links_axes(linkage, corners)[::-1]), holes), thickness)
-    return Part(PLATE, "plate of crank and rocker", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
+    return Part(PLATE, "plate of crank and rocker", "laser-cut part", shape, STEEL, machined=True)
 
 
 def drive_plate(linkage: BeatUp, beam: float, driven: Part, shared: float) -> Part:
@@ -123,7 +123,7 @@ def drive_plate(linkage: BeatUp, beam: float, driven: Part, shared: float) -> Pa
     hole = Hole(complex(in_links_axes(linkage, np.array([axis]))[0]), _DRIVE_BORE * face)
     thickness = linkage.params.thickness
     shape = Prism(drilled(outline, [hole]), thickness)
-    return Part(DRIVE_PLATE, "plate of the drive", "laser-cut part", in_mm(thickness), shape, STEEL, machined=True)
+    return Part(DRIVE_PLATE, "plate of the drive", "laser-cut part", shape, STEEL, machined=True)
 
 
 def drive_shaft(linkage: BeatUp, driven: Part) -> Part:
@@ -131,7 +131,7 @@ def drive_shaft(linkage: BeatUp, driven: Part) -> Part:
     diameter = 2 * (_DRIVE_BORE * catalogue.face_of(driven) - CLEAR)
     shape, held = bar(diameter, DRIVE_GAP + linkage.params.thickness), "locking assemblies in flywheel and reducer"
     return Part(
-        *("beat-up/drive-shaft", "shaft of the drive", "turned part", round_size(diameter), shape, PIN_STEEL),
+        *("beat-up/drive-shaft", "shaft of the drive", "turned part", shape, PIN_STEEL),
         fixing=held,
     )
 
@@ -196,8 +196,8 @@ def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float], neck
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage, end.shaft)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
-    size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, neck))
-    shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", size, shape, PIN_STEEL)
+    shape = stepped((end.shaft, length), (end.journal, neck))
+    shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", shape, PIN_STEEL)
     teeth = _teeth(linkage, end.shaft)
     tips = BELT.tip_radius(teeth) + 0.05 * mm
     outer, inner = (rounded_hull(np.array([0, axis]), radius) for radius in (tips + BELT_BODY, tips))
@@ -230,16 +230,15 @@ def pivot_pin(linkage: BeatUp) -> Part:
 
 @lru_cache(maxsize=16)
 def _pivot_pin(diameter: float, thickness: float) -> Part:
-    size = round_size(diameter)
     shape = bar(diameter, layer("plate", thickness) + thickness)
-    return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", size, shape, PIN_STEEL)
+    return Part(PART_IDS["A"], "pin of the rocker's pivot", "pin or bush", shape, PIN_STEEL)
 
 
 @lru_cache(maxsize=16)
 def _belted_pin(diameter: float, length: float) -> Part:
     """The crank's pin where a belt drives it: it reaches through the plate and the pulley."""
     title, shape = "pin of the crank, with its pulley", bar(diameter, length)
-    return Part("beat-up/crank-pin", title, "pin or bush", round_size(diameter), shape, PIN_STEEL)
+    return Part("beat-up/crank-pin", title, "pin or bush", shape, PIN_STEEL)
 
 
 def carried(linkage: BeatUp, plate: Part, station: float = 0.0, *, belted: bool = False) -> tuple[Occurrence, ...]:

@@ -36,7 +36,7 @@ from ilmek.part.placement import placement
 from ilmek.part.shapes import Placed, Sum, Turned, bar, tube
 from ilmek.records import computed, record, result
 from ilmek.report import Alternative, Check, Choice, Json, at_most, choose, must
-from ilmek.units import format_quantity, in_mm, turn
+from ilmek.units import format_quantity, turn
 from ilmek.weaving.fell import Fabric
 
 MOTOR, CLUTCH, FLYWHEEL = "beat-up/motor", "beat-up/clutch", "beat-up/flywheel"
@@ -207,8 +207,7 @@ def _coupled(start: CrankStart) -> Iterator[Part]:
     yield bought_part(CLUTCH, f"{name} of the beat-up", name, bar(wide, wide / 2), bought, fixing=fixing)
     if start.start_flywheel > 0:
         wheel = _wheel(start.start_flywheel)
-        size_of = f"rim round {in_mm(2 * FLYWHEEL_RADIUS)}, on the motor's side"
-        yield Part(FLYWHEEL, "flywheel of the beat-up", "steel bar", size_of, wheel, STEEL)
+        yield Part(FLYWHEEL, "flywheel of the beat-up", "steel bar", wheel, STEEL)
 
 
 def _wheel(inertia: float) -> Sum:
@@ -247,7 +246,7 @@ def _geared(start: CrankStart) -> Iterator[Part]:
     if reducer.ratio != 1:
         yield catalogue.reducer("beat-up/reducer", "reducer of the beat-up", reducer, row)
     speed = start.duty.linkage.params.speed
-    yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed)
+    yield catalogue.motor(MOTOR, "motor of the beat-up", row, start.start_torque, speed, rear=True)
 
 
 def stroke_time(linkage: BeatUp, run_up: float, strokes: int = 1) -> float:

@@ -66,8 +66,7 @@ class BeatUp:
 
     links     ratios to the ground link        dead_centres  swing, crank rotation and beta of these links
     bodies    the moving bodies: the links, with their pins where they are as made, the beater on the rocker
-    state     over one turn, both ends included             peaks     greatest values over the turn
-    balance   shaking force and counterweights              at        state at the crank angle given, if any
+    state     over one turn, both ends included             at        state at the crank angle given, if any
     pin       diameter of the pins, for which the links are bored [m]     duty  by which it was chosen
     """
 
@@ -77,8 +76,6 @@ class BeatUp:
     bodies: Mapping[str, Inertia]
     plan: Plan
     state: BeatUpState
-    peaks: Mapping[str, Extremum]
-    balance: Balance
     at: BeatUpState | None
     pin: float
     duty: Duty
@@ -157,6 +154,16 @@ class BeatUp:
         return _run(in_motion(self.params), self.duty)
 
     @property
+    def peaks(self) -> Mapping[str, Extremum]:
+        """Greatest values over the turn."""
+        return _peaks(self)
+
+    @property
+    def balance(self) -> Balance:
+        """Shaking force, and counterweights."""
+        return _balance(self)
+
+    @property
     def hole(self) -> float:
         """Diameter of the holes of the links [m]."""
         return bore_for(self.pin, self.params.width)
@@ -211,6 +218,17 @@ def _strength(params: BeatUpParams, duty: Duty) -> BeatUpStrength:
 def _family(params: BeatUpParams, duty: Duty) -> FamilyResult:
     made = _moved(params, duty)
     return family_of(params, made.links, made.dead_centres, made.hole)
+
+
+@lru_cache(maxsize=16)
+def _peaks(linkage: BeatUp) -> Mapping[str, Extremum]:
+    return suprema(lambda at, _: magnitudes(linkage.state_at(at)), around(), samples=SAMPLES)
+
+
+@lru_cache(maxsize=4)
+def _balance(linkage: BeatUp) -> Balance:
+    share, radius = linkage.params.balance_share, linkage.params.counterweight_radius or linkage.lengths["crank"]
+    return balance(linkage.state.motion, linkage.lengths, linkage.bodies, share=share, radius=radius)
 
 
 @lru_cache(maxsize=4)
@@ -270,10 +288,6 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
     lengths, bodies, whole = loaded.lengths, loaded.bodies, loaded.state
     hole = bore_for(loaded.pin, params.width)
     links = {name: inertia_of(moments) for name, moments in link_masses(params, lengths, hole).items()}
-
-    def state(at: FloatArray) -> BeatUpState:
-        return evaluate(params, loaded.plan, bodies, at)
-
     return BeatUp(
         params=params,
         links=loaded.links,
@@ -284,15 +298,9 @@ def _moved(params: BeatUpParams, duty: Duty) -> BeatUp:
         bodies=bodies,
         plan=loaded.plan,
         state=whole,
-        peaks=suprema(lambda at, _: magnitudes(state(at)), around(), samples=SAMPLES),
-        balance=balance(
-            whole.motion,
-            lengths,
-            bodies,
-            share=params.balance_share,
-            radius=params.counterweight_radius or lengths["crank"],
-        ),
-        at=None if params.crank_angle is None else state(np.array([params.crank_angle])),
+        at=None
+        if params.crank_angle is None
+        else evaluate(params, loaded.plan, bodies, np.array([params.crank_angle])),
         pin=loaded.pin,
         duty=duty,
     )

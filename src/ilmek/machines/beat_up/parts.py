@@ -13,20 +13,17 @@ from ilmek.part.flat_link import flat_link
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.shapes import bar
-from ilmek.units import format_quantity, in_mm, mm, round_size
 
 
 def link_parts(linkage: BeatUp) -> dict[str, Part]:
     """Crank, coupler and rocker, bored for their pins."""
     params, drilled = linkage.params, pin_holes(linkage.lengths, linkage.hole)
     reaches = spans(linkage.lengths, params.before_beater)
-    section = f"{format_quantity(params.width / mm, '')} x {in_mm(params.thickness)}"
     return {
         name: Part(
             PART_IDS[name],
             f"{name} of the beat-up",
             "machined link",
-            f"{section}, {in_mm(linkage.lengths[name])}",
             flat_link(float(reaches[name]), params.width, params.thickness, drilled[name].values()),
             params.link_material,
             seats={pin: Seat(placement(float(hole.at)), float(hole.diameter)) for pin, hole in drilled[name].items()},
@@ -40,4 +37,4 @@ def pin_part(linkage: BeatUp) -> Part:
     """The pin of every joint."""
     diameter = linkage.pin
     shape, seats = bar(diameter, pin_length(linkage.params.thickness)), {JOURNAL: Seat(placement(), diameter)}
-    return Part(PART_IDS["B"], "pin of the beat-up", "pin or bush", round_size(diameter), shape, PIN_STEEL, seats=seats)
+    return Part(PART_IDS["B"], "pin of the beat-up", "pin or bush", shape, PIN_STEEL, seats=seats)

@@ -185,7 +185,9 @@ def travel_parts(found: BeaterTravel) -> tuple[Part, ...]:
     )
     size = "belt drive along the carpet"
     shape = box(AXIS_SIDE, AXIS_SIDE, length)
-    bought = Bought("belt axis", length=length, data=f"belt axis {in_mm(AXIS_SIDE)} wide, pulley {in_mm(2 * PULLEY)}")
+    stroke = catalogue.stroke_of(float(found.slide_run + 2 * found.params.park))
+    data = f"belt axis {in_mm(AXIS_SIDE)} wide, pulley {in_mm(2 * PULLEY)}, {stroke}"
+    bought = Bought("belt axis", length=length, data=data)
     return (
         bought_part(AXIS, "slide of the beater", "linear axis", shape, bought, size=size),
         *reducers,

@@ -99,7 +99,6 @@ def _disc(design: CamDesign, cam: CamRole, name: str, title: str) -> Part:
         name,
         title,
         "cam plate",
-        f"{in_mm(design.face_width)} thick",
         Prism(Profile(polygon(trace.surface), cutouts(design, cam), smooth=True), design.face_width),
         MATERIALS[params.material],
         paths=paths,
@@ -130,7 +129,6 @@ def _wedge(design: CamDesign, title: str) -> Part:
         CAM,
         title,
         "cam plate",
-        f"{in_mm(design.face_width)} thick",
         Prism(section, design.face_width),
         MATERIALS[design.params.material],
         notes=_cutter_note(design.params.cutter_radius or design.cam.roller_radius),
@@ -141,9 +139,8 @@ def _round(design: CamDesign, title: str) -> Part:
     """A barrel or an end cam, drawn laid flat."""
     ends = developed_cams.axial_ends(design)
     shape = flanked(design, ends)
-    size = round_size(2 * float(shape.radii[-1]))
     material = MATERIALS[design.params.material]
-    return Part(CAM, title, "turned part", size, shape, material, drawing=solid_plate(design, title, ends))
+    return Part(CAM, title, "turned part", shape, material, drawing=solid_plate(design, title, ends))
 
 
 def _grooved(design: CamDesign, title: str) -> Part:
@@ -173,7 +170,7 @@ def _grooved(design: CamDesign, title: str) -> Part:
         notes=(f"groove {wide} wide, {depth} deep", *hub_notes(design)),
         solid=WorkPiece("cam", title, size, params.material, 1, shape, shape.volume),
     )
-    return Part(CAM, title, "cam plate", size, shape, material, drawing=drawn)
+    return Part(CAM, title, "cam plate", shape, material, drawing=drawn)
 
 
 def _of_cam(design: CamDesign, angle: FloatArray, over: FloatArray) -> SceneMotion:

@@ -70,7 +70,6 @@ class CombLinkage:
     number: int = result("1", "crank-rockers that share the comb", name="beaters", least=0.0)
     ballast: float = result("kg", "mass added to the comb, for the force of the beat")
     force: float = result("N", "force of all at the beat, by the comb's inertia", name="linkage_force")
-    torque: float = result("Nm", "largest torque on their crank shaft, at constant speed", name="linkage_torque")
     energy: float = result("J", "kinetic energy of the comb at its largest speed", name="swing_energy")
     speed_needed: float | None = result(
         "rad/s", "speed of the crank that the required rows need with this comb", absent="no speed is enough"
@@ -82,6 +81,12 @@ class CombLinkage:
 
     transmission_angle_min = computed(
         "deg", "least transmission angle of the crank-rockers", lambda it: it.one.transmission_angle_min
+    )
+    torque = computed(
+        "Nm",
+        "largest torque on their crank shaft, at constant speed",
+        lambda it: it.number * it.one.drive_torque_max,
+        name="linkage_torque",
     )
     beat_speed = computed("rad/s", "speed of the crank", lambda it: it.one.params.speed)
 
@@ -262,7 +267,6 @@ def linkage_for(params: HammerParams, fabric: Fabric, needed: float) -> CombLink
         number=number,
         ballast=ballast,
         force=force,
-        torque=number * one.drive_torque_max,
         energy=mass * one.beater_velocity_max**2 / 2,
         # Without weight every force grows with the square of the speed.
         speed_needed=speed * math.sqrt(needed * params.cloth.warps / force) if force else None,

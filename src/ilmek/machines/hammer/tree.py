@@ -32,7 +32,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of
 from ilmek.plane.contours import polygon
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm
+from ilmek.units import in_mm, mm
 
 COMB = "hammer/comb"
 """Body of the comb."""
@@ -117,8 +117,7 @@ def _ballast(params: HammerParams, section: ComplexArray) -> Part:
     bars = (
         Placed(Prism(Profile(polygon(section)), high - low), (placement(z=-high),)) for low, high in _between(params)
     )
-    side = format_quantity(float(np.ptp(section.real)), "mm", 4)
-    return Part("hammer/ballast", "ballast of the comb", "steel bar", f"square {side}", Sum(tuple(bars)), STEEL)
+    return Part("hammer/ballast", "ballast of the comb", "steel bar", Sum(tuple(bars)), STEEL)
 
 
 def _brackets(hammer: Hammer, stations: Sequence[float]) -> Occurrence:
@@ -190,7 +189,7 @@ def _driving(hammer: Hammer) -> tuple[Part, ...]:
     drive, load = found.drive, found.cycle
     torque, speed = float(np.max(np.abs(load.torque))), float(np.max(np.abs(load.speed)))
     row = drive.motor if drive else None
-    motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count)
+    motor = catalogue.motor(MOTOR, "motor of a vertical axis", row, torque, speed, hammer.params.axis_count, rear=True)
     ratio = drive.reducer.ratio if drive else 1.0
     brake = catalogue.holding_brake(BRAKE, "brake of a vertical axis", motor, found.brake / ratio)
     if drive is None or ratio == 1:
@@ -204,7 +203,7 @@ def _axis_data(params: HammerParams) -> str:
     if params.axis == "screw":
         drive = f"lead {in_mm(params.screw_lead)}"
         drive = f"screw {in_mm(params.screw_diameter)}, {drive}" if params.screw_diameter else drive
-    return f"linear axis {in_mm(AXIS_SIDE)} wide, {params.axis} drive, {drive}"
+    return f"linear axis {in_mm(AXIS_SIDE)} wide, {params.axis} drive, {drive}, {catalogue.stroke_of(params.stroke)}"
 
 
 @lru_cache(maxsize=4)

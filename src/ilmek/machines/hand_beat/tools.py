@@ -14,7 +14,7 @@ from ilmek.part.part import Bought, Part
 from ilmek.part.placement import ALONG_WIDTH, Placement, placement
 from ilmek.part.shapes import box, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 HANDLE = 22 * mm, 2 * mm, 130 * mm
 """Diameter, wall and length of the comb's handle [m]; assumed by this project."""
@@ -42,12 +42,11 @@ def comb_parts(params: HandBeatParams, leaf: float, number: int) -> tuple[Occurr
     """
     high, deep, tall = params.head_height, params.head_depth, params.leaf_height
     wide = max((number - 1) * params.cloth.warp_pitch + leaf, HANDLE[0])
-    size = f"{in_mm(high)} x {in_mm(deep)}"
-    head = Part(part_id("comb-head"), "head of the comb", "machined link", size, box(wide, high, deep), STEEL)
+    head = Part(part_id("comb-head"), "head of the comb", "machined link", box(wide, high, deep), STEEL)
     plate, joins = box(leaf, tall, params.reach), (head.id,)
-    blade = Part(part_id("comb-leaf"), "leaf of the comb", "laser-cut part", in_mm(leaf), plate, STEEL, joins=joins)
-    title, size, shape = "handle of the comb", in_mm(HANDLE[0]), tube(*HANDLE)
-    grip = Part(part_id("comb-handle"), title, "turned part", size, shape, STEEL, joins=joins)
+    blade = Part(part_id("comb-leaf"), "leaf of the comb", "laser-cut part", plate, STEEL, joins=joins)
+    title, shape = "handle of the comb", tube(*HANDLE)
+    grip = Part(part_id("comb-handle"), title, "turned part", shape, STEEL, joins=joins)
     along = (np.arange(number) - (number - 1) / 2) * params.cloth.warp_pitch
     return (
         Occurrence(head, (placement(0.0, high / 2, HANDLE[2]),)),
@@ -73,7 +72,7 @@ def tool_bodies(shelf: Placement, comb: tuple[Occurrence, ...] = (), wide: float
     shelf  its axes      comb, wide  parts of the comb and its room [m]; none where the beat is driven
     """
     long = shelf_length(wide)
-    plate = Part(part_id("shelf"), "shelf of the tools", "laser-cut part", in_mm(SHELF), box(DEEP, SHELF, long), STEEL)
+    plate = Part(part_id("shelf"), "shelf of the tools", "laser-cut part", box(DEEP, SHELF, long), STEEL)
     lies = Occurrence(plate, (placement(-long / 2, -SHELF / 2, DEEP / 2).after(_FLAT),))
     yield RigidBody(part_id("shelf"), (lies,), positions=(shelf,))
     at = LOOSE - long / 2
@@ -81,7 +80,7 @@ def tool_bodies(shelf: Placement, comb: tuple[Occurrence, ...] = (), wide: float
         yield _lifted("comb", comb, "comb-handle", (shelf.after(placement(at + wide / 2, 0.0, LOOSE)),))
         at += wide + LOOSE
     for name, title, row, mass, size, count in TOOLS:
-        part = Part(part_id(name), title, "hand tool", row, box(*size), purchase=Bought(row, mass), envelope=True)
+        part = Part(part_id(name), title, "hand tool", box(*size), purchase=Bought(row, mass), envelope=True, size=row)
         own = tuple(
             shelf.after(placement(at + size[0] / 2 + k * (size[0] + LOOSE), size[1] / 2, LOOSE)) for k in range(count)
         )

@@ -9,6 +9,7 @@ from functools import lru_cache
 from ilmek.elements.columns import STEEL
 from ilmek.elements.materials import GRAVITY
 from ilmek.errors import LoomError
+from ilmek.machines.automated_loom.cabinet import control_needs, control_parts
 from ilmek.machines.automated_loom.equipment.bench import (
     BOARD,
     ELBOW,
@@ -26,7 +27,6 @@ from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.machines.automated_loom.in_space.beating import beat_branch
 from ilmek.machines.automated_loom.in_space.machines import joined
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.standing_frame import control_needs, control_parts
 from ilmek.machines.beat import BeatDrive
 from ilmek.machines.hand_beat import HandBeat
 from ilmek.machines.hand_beat.report import tree as tools_tree
@@ -40,7 +40,7 @@ from ilmek.machines.warp_tension.tree import tree as winding_tree
 from ilmek.part.part import Part
 from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, UPRIGHT, placement
 from ilmek.part.tree import Occurrence, RigidBody, Tree
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 SHELF_LEVEL = 0.45
 """Shelf of the tools above the fell [m]; assumed by this project."""
@@ -155,8 +155,7 @@ def _bracket(loom: HandLoom, own: CylinderBracket) -> Iterator[Occurrence]:
     """A bracket on both sides, and its spacers to the columns."""
     layout, name = loom.layout, own.cylinder.name
     title = f"bracket of the {name} cylinder"
-    size = f"plate {format_quantity(own.outer - own.inner, 'mm')}"
-    plate = Part(part_id(f"{name}-bracket"), title, "laser-cut part", size, own.plate, STEEL, machined=True)
+    plate = Part(part_id(f"{name}-bracket"), title, "laser-cut part", own.plate, STEEL, machined=True)
     yield Occurrence(plate, tuple(placement(x).after(IN_SIDE_VIEW) for x in (-own.inner, own.outer)))
     gap = layout.face - own.outer
     if gap > _LEAST:

@@ -25,7 +25,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report.scene import SceneMotion, ScenePhase
-from ilmek.units import format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import format_quantity, mm, turn
 
 SHED = "shed"
 """The drive of the picture in motion: a change of the shed and back."""
@@ -126,10 +126,8 @@ def beam_heights(shed: HandShed) -> tuple[float, float]:
 def _stand(shed: HandShed, made: ShedLayout, behind: float, long: float) -> RigidBody:
     """Two beams, and the side plates on them."""
     shape = square_tube(BEAM.side, BEAM.wall, 2 * long)
-    beam = _part("beam", "beam of the hand shed", "welded frame", BEAM.name, shape)
-    plate = _part(
-        "side-plate", "side plate of the hand shed", "laser-cut part", in_mm(SIDE_PLATE), _plate(shed, made, behind)
-    )
+    beam = _part("beam", "beam of the hand shed", "welded frame", shape)
+    plate = _part("side-plate", "side plate of the hand shed", "laser-cut part", _plate(shed, made, behind))
     inner = half_width(shed)
     return RigidBody(
         part_id("stand"),
@@ -168,13 +166,13 @@ def _rod(shed: HandShed) -> RigidBody:
     half, radius, deep = inner - GAP, shed.rod.outer_radius, INSIDE
     plug = 2 * turned_bore(shed.rod.inner_radius)
     shape = bored_ends(tube(shed.rod.outer, shed.rod.wall, 2 * half), plug / 2, deep)
-    shell = replace(_part("rod", "shed rod", "steel tube", f"tube {shed.rod.name} mm", shape), machined=True)
+    shell = replace(_part("rod", "shed rod", "steel tube", shape), machined=True)
     steps = (
         ((plug, deep), (ROD_END, GAP + SIDE_PLATE + 5 * mm))
         if plug > ROD_END
         else ((plug, deep), (2 * radius, GAP / 2), (ROD_END, GAP / 2 + SIDE_PLATE + 5 * mm))
     )
-    end = _part("rod-end", "end of the shed rod", "turned part", round_size(ROD_END), stepped(*steps), _SHAFT)
+    end = _part("rod-end", "end of the shed rod", "turned part", stepped(*steps), _SHAFT)
     motion = SceneMotion(
         SHED, ANGLES, np.outer(RISE, [0.0, shed.params.rod_high - shed.params.rod_low, 0.0]), 0 * ANGLES
     )
@@ -217,11 +215,11 @@ def _across(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:
         turns = own is SHAFT
         shell = bored_ends(shell, turned_bore(own.inner_radius), INSIDE) if turns else shell
         joins = () if turns else (part_id("arm"),)
-        part = replace(_part(name, title, "steel tube", f"tube {own.name} mm", shell), machined=turns, joins=joins)
+        part = replace(_part(name, title, "steel tube", shell), machined=turns, joins=joins)
         yield Occurrence(part, (placement(-cloth, at.imag, at.real).after(ALONG_WIDTH),))
     spigot = 2 * turned_bore(SHAFT.inner_radius), INSIDE
     journal = stepped(spigot, (PIVOT, half_width(shed) - cloth + SIDE_PLATE))
-    end = _part("shaft-end", "end of the heddle bar's shaft", "turned part", round_size(PIVOT), journal, _SHAFT)
+    end = _part("shaft-end", "end of the heddle bar's shaft", "turned part", journal, _SHAFT)
     yield Occurrence(end, _both_ends(cloth - INSIDE))
     yield _strings(shed, down)
 
@@ -237,7 +235,9 @@ def _strings(shed: HandShed, down: complex) -> Occurrence:
     twine, long = Bought("cotton twine 1 mm", 0.2e-3), format_quantity(shed.string, "mm")
     loop = bar(STRING, shed.string)
     size, fixing = f"loop of {long}", "its loop lies round the bar"
-    string = Part(part_id("string-heddle"), "string heddle", "string heddle", size, loop, purchase=twine, fixing=fixing)
+    string = Part(
+        part_id("string-heddle"), "string heddle", "string heddle", loop, purchase=twine, fixing=fixing, size=size
+    )
     begin = down - shed.bar.outer_radius * cmath.exp(-1j * shed.lift_angle)
     along = warps_across(shed)[::2][: shed.pulled_warps]
     tilt = turn / 2 + float(shed.lift_angle)
@@ -252,15 +252,13 @@ def _levers(shed: HandShed, made: ShedLayout) -> Iterator[Occurrence]:
     down, lever, lock = (point(swing) - made.pivot for point in (made.bar, made.end, made.lock))
     around = rounded_hull(np.array([0j, down]), max(made.hub, shed.bar.outer_radius))
     arm = Prism(Profile(around, (pivot,)), PLATE)
-    yield Occurrence(
-        _part("arm", "arm of the heddle bar", "laser-cut part", in_mm(PLATE), arm), _plates_at(cloth, cloth + PLATE)
-    )
+    yield Occurrence(_part("arm", "arm of the heddle bar", "laser-cut part", arm), _plates_at(cloth, cloth + PLATE))
     bores = (pivot, circle(lock, LOCK_PIN / 2))
     plate = Prism(Profile(rounded_hull(np.array([0j, lever]), made.hub), bores), PLATE)
-    own = _part("lever", "hand lever of the heddles", "laser-cut part", in_mm(PLATE), plate)
+    own = _part("lever", "hand lever of the heddles", "laser-cut part", plate)
     yield Occurrence(own, _plates_at(cloth + PLATE, cloth + 2 * PLATE))
     long, thick = HANDLE
-    handle = _part("handle", "handle of a lever", "turned part", round_size(thick), bar(thick, long))
+    handle = _part("handle", "handle of a lever", "turned part", bar(thick, long))
     yield Occurrence(handle, tuple(_handles(cloth + PLATE, lever)))
 
 
@@ -275,7 +273,7 @@ def _locks(shed: HandShed, made: ShedLayout) -> Iterator[RigidBody]:
     lock, inner = made.lock(shed.lift_angle / 2), half_width(shed)
     reach = PLATE + GAP
     shape = stepped((LOCK_PIN, SIDE_PLATE + reach + 5 * mm), (2 * LOCK_PIN, 20 * mm))
-    pin = _part("lock", "pin that locks a lever", "pin or bush", round_size(LOCK_PIN), shape, _SHAFT)
+    pin = _part("lock", "pin that locks a lever", "pin or bush", shape, _SHAFT)
     motion = SceneMotion(SHED, ANGLES, np.outer(LOCKED, [0.0, 0.0, -reach]), 0 * ANGLES)
     seats = (f"{pin.id}:shank", part_id("side-plate:lock"))
     joint = Joint(JointKind.SLIDE, motion=motion, seats=seats, hand=pin.id)
@@ -331,8 +329,6 @@ def _plates_at(inner: float, outer: float) -> tuple[Placement, Placement]:
     return placement(-inner).after(IN_SIDE_VIEW), placement(outer).after(IN_SIDE_VIEW)
 
 
-def _part(  # noqa: PLR0917
-    name: str, title: str, process: str, size: str, shape: Shape, material: Material = STEEL
-) -> Part:
+def _part(name: str, title: str, process: str, shape: Shape, material: Material = STEEL) -> Part:
     bored = process == "laser-cut part"
-    return Part(part_id(name), title, process, size, shape, material, machined=bored)
+    return Part(part_id(name), title, process, shape, material, machined=bored)

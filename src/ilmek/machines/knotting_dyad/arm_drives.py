@@ -31,7 +31,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import in_mm, mm, turn
 
 if TYPE_CHECKING:
     from ilmek.machines.knotting_dyad.drives import HeadMotion
@@ -127,7 +127,7 @@ def sleeve(levels: DriveLevels, hole: float) -> Occurrence:
     outer = hole + 2 * WALL
     pipe = Placed(tube(outer, WALL, levels.top - levels.first), (placement(z=levels.first),))
     ring = Placed(_pulley(outer), (placement(z=levels.first),))
-    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)), outer)
+    return _made(SLEEVE, "sleeve of a first link, with its pulley", Sum((pipe, ring)))
 
 
 def shaft(levels: DriveLevels, hole: float) -> tuple[Occurrence, Occurrence]:
@@ -136,8 +136,8 @@ def shaft(levels: DriveLevels, hole: float) -> tuple[Occurrence, Occurrence]:
     """
     rod = Placed(bar(hole, levels.elbow + BELT - levels.second), (placement(z=levels.second),))
     ring = Placed(_pulley(hole), (placement(z=levels.elbow),))
-    made = _made(SHAFT, "shaft of a second link, with its pulley", Sum((rod, ring)), hole)
-    pulley = _made(SHAFT_PULLEY, "pulley on the shaft of a second link", _pulley(hole), 2 * RADIUS)
+    made = _made(SHAFT, "shaft of a second link, with its pulley", Sum((rod, ring)))
+    pulley = _made(SHAFT_PULLEY, "pulley on the shaft of a second link", _pulley(hole))
     return made, Occurrence(pulley.part, (placement(z=levels.second),))
 
 
@@ -150,10 +150,10 @@ def elbow_hub(levels: DriveLevels, hole: float, around: float, belted: bool) -> 
     arc = outer * np.exp(1j * np.linspace(open_, turn - open_, 33))
     bore = inner * np.exp(1j * np.linspace(3, 1, 17) * turn / 4)
     hub = Prism(Profile(polygon(np.concatenate([arc, bore]))), HUB)
-    made = _made(ELBOW_HUB, "hub of an elbow", hub, 2 * outer)
+    made = _made(ELBOW_HUB, "hub of an elbow", hub)
     yield Occurrence(made.part, (placement(z=levels.elbow - ROOM - HUB),))
     if belted:
-        ring = _made(ELBOW_PULLEY, "pulley of an elbow", _pulley(around), 2 * RADIUS)
+        ring = _made(ELBOW_PULLEY, "pulley of an elbow", _pulley(around))
         yield Occurrence(ring.part, (placement(z=levels.elbow),))
 
 
@@ -185,7 +185,7 @@ def standing_drives(
         yield Occurrence(belt, positions)
         stub = bar(SERVO_SHAFT, levels.plate - z)
         pulley = Sum((Placed(stub), Placed(_pulley(SERVO_SHAFT))))
-        own = _made(f"{NAME}/servo-pulley-{number + 1}", "pulley on the shaft of a servo", pulley, SERVO_SHAFT)
+        own = _made(f"{NAME}/servo-pulley-{number + 1}", "pulley on the shaft of a servo", pulley)
         yield Occurrence(own.part, tuple(placement(at.real, at.imag, z) for at in both(head, servo)))
 
 
@@ -226,8 +226,7 @@ def _plate(
         bores += [Hole(at, SERVO_SHAFT / 2 + ROOM) for at in axes]
         far, half = max(rear, room + max(at.imag for at in axes)), max(half, params.room.aside + room)
     outline = polygon(rectangle(2 * half, far - near).points + complex(middle, (near + far) / 2))
-    size = f"{in_mm(PLATE)} thick"
-    part = Part(ARM_PLATE, "plate of the arms", "machined link", size, Prism(drilled(outline, bores), PLATE), ALUMINIUM)
+    part = Part(ARM_PLATE, "plate of the arms", "machined link", Prism(drilled(outline, bores), PLATE), ALUMINIUM)
     return Occurrence(part, (placement(z=levels.covered),))
 
 
@@ -238,12 +237,12 @@ def _belt(name: str, title: str, length: float) -> Part:
     whole = 2 * length + turn * RADIUS
     bought = Bought(PROFILE.name, PROFILE.mass * BELT * whole, length=whole)
     size = f"{PROFILE.name}, {in_mm(BELT)} wide"
-    return Part(name, title, "belt and pulleys", size, Prism(section, BELT), purchase=bought)
+    return Part(name, title, "belt and pulleys", Prism(section, BELT), purchase=bought, size=size)
 
 
 def _pulley(bore: float) -> Shape:
     return Prism(Profile(PROFILE.pulley_outline(TEETH), (circle(0j, bore / 2),)), BELT)
 
 
-def _made(name: str, title: str, shape: Shape, size: float) -> Occurrence:
-    return Occurrence(Part(name, title, "turned part", round_size(size), shape, STEEL))
+def _made(name: str, title: str, shape: Shape) -> Occurrence:
+    return Occurrence(Part(name, title, "turned part", shape, STEEL))

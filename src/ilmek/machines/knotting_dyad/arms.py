@@ -93,12 +93,10 @@ def _second_link(head: Head, size: LinkSize) -> Part:
     """The second link, from its elbow to the clamp of the needle."""
     clamp = complex(head.arm.second - head.section.needle_length)
     outline = stepped_link(0j, clamp, size.width)
-    section = f"{format_quantity(size.width, 'mm')} x {format_quantity(size.thickness, 'mm')}"
     return Part(
         f"{NAME}/link-2",
         f"link 2 {OF}",
         "machined link",
-        f"{section}, {format_quantity(clamp.real, 'mm')}",
         Prism(drilled(outline, [Hole(0j, size.hole / 2)]), size.thickness),
         size.material,
         seats={"E": Seat(placement(), size.hole), "clamp": Seat(placement(clamp.real), size.width)},

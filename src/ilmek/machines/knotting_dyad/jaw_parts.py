@@ -39,7 +39,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, rectangle, stepped
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
-from ilmek.units import deg, format_quantity, in_mm, mm
+from ilmek.units import deg, mm
 
 ROD, SOLENOID = f"{NAME}/rod", f"{NAME}/solenoid"
 """Ids of parts; of the centre gripper's own with a suffix."""
@@ -64,10 +64,9 @@ ALONG = placement(about=(0.0, 1.0, 0.0), angle=-90 * deg)
 
 def _blade(params: KnottingDyadParams, head: Head) -> Part:
     """The blade of a needle, with the fixed jaw at its end: from its clamp along x."""
-    thick, broad, length = params.needle_diameter, params.needle_breadth, head.section.needle_length
-    size = f"sheet {format_quantity(thick, 'mm')}, {format_quantity(broad, 'mm')} x {format_quantity(length, 'mm')}"
+    broad, length = params.needle_breadth, head.section.needle_length
     shape = Prism(_wedge(head, 0.0, length - PLAY), broad)
-    return _made("needle", "blade of a needle", "laser-cut part", size, shape)
+    return _made("needle", "blade of a needle", "laser-cut part", shape)
 
 
 def _wedge(head: Head, begin: float, end: float) -> Profile:
@@ -88,8 +87,8 @@ def on_link(params: KnottingDyadParams, head: Head, jaws: Jaws) -> tuple[Occurre
         [-near - 1j * TAIL, near - 1j * TAIL, near + 1j * (PIN / 2 + WALL / 2), -near + 1j * (PIN / 2 + WALL / 2)]
     )
     lug = Prism(Profile(polygon(corners), (circle(0j, PIN / 2),)), CHEEK)
-    lug_part = _made("lug", "lug of a finger's pin", "machined link", in_mm(CHEEK), lug)
-    pin = _made("finger-pin", "pin of a finger", "pin or bush", in_mm(PIN), bar(PIN, 2 * (side + CHEEK)))
+    lug_part = _made("lug", "lug of a finger's pin", "machined link", lug)
+    pin = _made("finger-pin", "pin of a finger", "pin or bush", bar(PIN, 2 * (side + CHEEK)))
     at = placement(jaws.arm, z=jaws.deep)
     return (
         blade,
@@ -124,7 +123,7 @@ def finger_part(params: KnottingDyadParams, head: Head, jaws: Jaws, centre: bool
         ),
     )
     name, of = ("finger", "an arm") if not centre else (f"finger{OF_CENTRE}", "the centre gripper")
-    return _made(name, f"finger of {of}", "machined link", in_mm(2 * half), Sum(members))
+    return _made(name, f"finger of {of}", "machined link", Sum(members))
 
 
 def _groove(jaws: Jaws) -> float:
@@ -140,7 +139,7 @@ def rod_part(jaws: Jaws, length: float, centre: bool) -> Part:
     steps = *before, (jaws.coil, COLLAR), (jaws.rod, jaws.neck - jaws.on_rod - 2 * COLLAR - IN_BORE)
     shape = Sum((Placed(stepped(*steps), (placement(z=-low - HEAD),)),))
     name, of = ("rod", "an arm") if not centre else (f"rod{OF_CENTRE}", "the centre gripper")
-    return _made(name, f"rod of the finger of {of}", "turned part", in_mm(jaws.rod), shape)
+    return _made(name, f"rod of the finger of {of}", "turned part", shape)
 
 
 def drive_of(jaws: Jaws, on: Placement) -> Iterator[Occurrence]:
@@ -159,10 +158,10 @@ def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
     inner, stem = jaws.around - 2 * CUP, bore + 2 * CUP
     end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR))
     about = Placed(tube(jaws.around, CUP, jaws.cup - COLLAR), (placement(z=COLLAR),))
-    neck = _made("neck", "neck of a solenoid", "turned part", in_mm(jaws.around), Sum((end, about)))
+    neck = _made("neck", "neck of a solenoid", "turned part", Sum((end, about)))
     within = Placed(tube(inner, (inner - bore) / 2, COLLAR))
     beyond = Placed(tube(stem, CUP, jaws.neck - jaws.cup), (placement(z=COLLAR),))
-    cap = _made("neck-cap", "cap of a neck", "turned part", in_mm(inner), Sum((within, beyond)))
+    cap = _made("neck-cap", "cap of a neck", "turned part", Sum((within, beyond)))
     bought = Bought(row.designation, row.mass, power=row.power, drives=1)
     solenoid = bought_part(SOLENOID, "solenoid of a finger", "solenoid", bar(row.diameter, row.length), bought)
     if spring is None:
@@ -204,14 +203,10 @@ def centre_parts(params: KnottingDyadParams, head: Head, jaws: Jaws, ends: tuple
         Placed(front, (placement(z=-thick / 2),)),
         Placed(Prism(section, nose - back), (placement(nose).after(ALONG),)),
     )
-    text = f"{format_quantity(width, 'mm')} x {format_quantity(2 * jaws.bar, 'mm')}"
     foot = Prism(Profile(_rectangle(rear, back + FOOT_WIDTH, FOOT_WIDTH)), FOOT)
     material = replace(params.strength.of_links, density=params.density)
-    for name, title, size, shape, z in (
-        ("centre-bar", "bar", text, Sum(members), 0.0),
-        ("centre-foot", "foot", in_mm(FOOT), foot, jaws.bar),
-    ):
-        part = Part(f"{NAME}/{name}", f"{title} of the centre gripper", "machined link", size, shape, material)
+    for name, title, shape, z in (("centre-bar", "bar", Sum(members), 0.0), ("centre-foot", "foot", foot, jaws.bar)):
+        part = Part(f"{NAME}/{name}", f"{title} of the centre gripper", "machined link", shape, material)
         yield Occurrence(part, (placement(z=z),))
     yield from drive_of(jaws, placement(back, z=-jaws.over).after(ALONG))
 
@@ -226,5 +221,5 @@ def _rectangle(begin: float, end: float, width: float) -> Contour:
     return polygon(np.array([begin - half, end - half, end + half, begin + half]))
 
 
-def _made(name: str, title: str, process: str, size: str, shape: Shape) -> Part:
-    return Part(f"{NAME}/{name}", title, process, size, shape, STEEL)
+def _made(name: str, title: str, process: str, shape: Shape) -> Part:
+    return Part(f"{NAME}/{name}", title, process, shape, STEEL)

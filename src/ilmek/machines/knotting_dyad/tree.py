@@ -59,7 +59,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.report.scene import SceneMotion
-from ilmek.units import deg, format_quantity, mm, turn
+from ilmek.units import deg, mm, turn
 
 POSES = 181
 """Poses of the head over its cycle."""
@@ -255,8 +255,9 @@ def _axis(
     """The axis of the centre gripper under its foot, its motor under that, and what holds it under a level [m]."""
     params, stroke, across = dyad.params, head.centre_stroke, head.section.middle
     long, under = 2 * stroke, needle_level(dyad) + jaws.bar + FOOT
-    title, shape, bought = "axis of the centre gripper", box(AXIS, long, AXIS), Bought("linear axis", length=stroke)
-    axis = Part(f"{NAME}/centre-axis", title, "linear axis", "straight", shape, purchase=bought, envelope=True)
+    title, shape, data = "axis of the centre gripper", box(AXIS, long, AXIS), catalogue.stroke_of(stroke)
+    bought = Bought("linear axis", length=stroke, data=f"straight, {data}")
+    axis = Part(f"{NAME}/centre-axis", title, "linear axis", shape, purchase=bought, envelope=True, size="straight")
     begin = _depth(params, head, jaws) - stroke
     yield Occurrence(axis, (placement(across, begin + long / 2, under),))
     moved = RigidBody(CENTRE, centre).moments.zeroth
@@ -270,10 +271,8 @@ def _axis(
     adapters, flanges = catalogue.adapted(name, adapter, motor, AXIS, (upright,))
     yield from adapters
     yield Occurrence(motor, flanges)
-    title, size = "hanger of the centre gripper's axis", f"{format_quantity(HANGER, 'mm')} thick"
-    hanger = Part(
-        f"{NAME}/centre-hanger", title, "machined link", size, box(AXIS, HANGER, under + AXIS - level), ALUMINIUM
-    )
+    title = "hanger of the centre gripper's axis"
+    hanger = Part(f"{NAME}/centre-hanger", title, "machined link", box(AXIS, HANGER, under + AXIS - level), ALUMINIUM)
     yield Occurrence(hanger, (placement(across, begin + long + HANGER / 2, level),))
 
 

@@ -21,7 +21,6 @@ from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, disc
 from ilmek.plane.contours import circle
 from ilmek.report import Hole
-from ilmek.units import format_quantity
 
 MACHINE_NAME = "knotting-four-bar"
 
@@ -94,11 +93,8 @@ def shaft_part(params: KnottingFourBarParams, hole: float, low: float = 0.0) -> 
 def gear_part(params: KnottingFourBarParams, gears: EqualGears, bore: float) -> Part:
     """A gear on a crank's pivot as a disc of its pitch circle; bore [m], 0: none."""
     holes = (circle(0j, bore / 2),) if bore > 0 else ()
-    size = f"module {format_quantity(gears.module, 'mm')}, {gears.teeth} teeth"
     shape = Prism(disc(gears.pitch_radius, *holes), gears.width)
-    return Part(
-        f"{MACHINE_NAME}/gear", "gear of a crank", "turned part", size, shape, material_of(params), envelope=True
-    )
+    return Part(f"{MACHINE_NAME}/gear", "gear of a crank", "turned part", shape, material_of(params), envelope=True)
 
 
 def _coupler(params: KnottingFourBarParams, size: LinkSize) -> Part:
@@ -113,7 +109,6 @@ def _coupler(params: KnottingFourBarParams, size: LinkSize) -> Part:
         f"{MACHINE_NAME}/coupler",
         "coupler with holder and gripper",
         "machined link",
-        f"plate {format_quantity(params.thickness, 'mm')}",
         Prism(drilled(outline, holes), params.thickness),
         size.material,
         seats={name: Seat(placement(point.real), size.hole) for name, point in pins.items()},

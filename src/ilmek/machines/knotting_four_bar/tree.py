@@ -27,7 +27,7 @@ from ilmek.part.shapes import Prism
 from ilmek.part.tree import Occurrence, Tree, in_line
 from ilmek.plane.contours import rounded_hull
 from ilmek.report import Hole
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 PILLAR = 12 * mm
 """Diameter of the pillars between frame plate and base plate [m]; assumed by this project."""
@@ -84,8 +84,7 @@ def _plate(design: KnottingFourBar, name: str, title: str, nodes: ComplexArray, 
     params = design.params
     outline = rounded_hull(nodes, max(params.width, PILLAR) / 2)
     shape = Prism(drilled(outline, [Hole(point, design.hole / 2) for point in bores]), params.thickness)
-    size = f"plate {in_mm(params.thickness)}"
-    return Part(f"{MACHINE_NAME}/{name}", title, "machined link", size, shape, material_of(params))
+    return Part(f"{MACHINE_NAME}/{name}", title, "machined link", shape, material_of(params))
 
 
 def parts_of(design: KnottingFourBar, mechanism: Mechanism) -> LinkageParts:

@@ -44,9 +44,9 @@ from ilmek.part.part import Bought, Part, Seat, bought_part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, rectangle, stepped, tube
-from ilmek.plane.contours import bounds, circle, keyed_bore, polygon
+from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour, Hole
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 BRONZE, PINS, BASE = MATERIALS["tin bronze"], MATERIALS["induction-hardened steel"], MATERIALS["structural steel"]
 
@@ -74,22 +74,20 @@ class PartStock:
             self.parts[key] = make(f"{self.machine}/{kind}{number}")
         return self.parts[key]
 
-    def made(self, kind: str, process: str, size: str, shape: Shape, *sizes: object) -> Part:
+    def made(self, kind: str, process: str, shape: Shape, *sizes: object) -> Part:
         """A turned part; its material by its kind."""
         material = {"bush": BRONZE, "pin": PINS, "shaft": PIN_STEEL}.get(kind, BASE)
         seats = {JOURNAL: Seat(placement(), 0.0)} if kind in {"pin", "shaft"} else {}
-        return self.part(kind, sizes, lambda name: Part(name, kind, process, size, shape, material, seats=seats))
+        return self.part(kind, sizes, lambda name: Part(name, kind, process, shape, material, seats=seats))
 
     def bush(self, diameter: float, length: float) -> Part:
         """A bush for a pin of a diameter."""
         outer = diameter + 2 * bush_wall(diameter)
-        size = f"{round_size(outer)}, {in_mm(length)}"
-        return self.made("bush", "pin or bush", size, tube(outer, bush_wall(diameter), length), diameter, length)
+        return self.made("bush", "pin or bush", tube(outer, bush_wall(diameter), length), diameter, length)
 
     def spacer(self, outer: float, bore: float, length: float) -> Part:
         """A loose spacer."""
-        size = f"{round_size(outer)}, {in_mm(length)}"
-        return self.made("spacer", "pin or bush", size, tube(outer, (outer - bore) / 2, length), outer, bore, length)
+        return self.made("spacer", "pin or bush", tube(outer, (outer - bore) / 2, length), outer, bore, length)
 
     def ring(self, row: RetainingRing) -> Part:
         """A retaining ring, as it lies in its groove."""
@@ -114,23 +112,19 @@ class PartStock:
     def riser(self, row: LinearGuide, height: float) -> Part:
         """A plate between a carriage and its link."""
         shape = Prism(Profile(rectangle(row.block_length, row.block)), height)
-        size = " x ".join(in_mm(side) for side in (row.block_length, row.block, height))
-        return self.made("riser", "machined link", size, shape, row.name, height)
+        return self.made("riser", "machined link", shape, row.name, height)
 
     def pin(self, stud: StudSize, shank: float, collar: float, journal: float) -> Part:
         """A pin by the lengths of its shank, its collar and its journal up to the ring's groove."""
         ring, thick = stud.ring, stud.collar
         steps = [(stud.shank, shank), (thick, collar), (stud.journal, journal), *groove_steps(ring)]
-        long = sum(length for _, length in steps)
-        size = f"{round_size(thick)}, {in_mm(long)}"
-        return self.made("pin", "pin or bush", size, stepped(*steps), stud.journal, stud.shank, shank, collar, journal)
+        return self.made("pin", "pin or bush", stepped(*steps), stud.journal, stud.shank, shank, collar, journal)
 
     def shaft(self, stud: StudSize, lengths: ShaftLengths, key: KeyedEnd | None) -> Part:
         """A driven shaft with a ring above its link."""
         members = shaft_members(stud, lengths, key)
         shape = members[0].shape if len(members) == 1 else Sum(members)
-        size = f"{round_size(stud.journal)}, {in_mm(lengths.total(stud))}"
-        return self.made("shaft", "turned part", size, shape, stud.journal, *lengths)
+        return self.made("shaft", "turned part", shape, stud.journal, *lengths)
 
     def housing(self, stud: StudSize) -> Part:
         """The housing of a driven shaft, with a seat for a bearing or a bush at either end."""
@@ -146,8 +140,7 @@ class PartStock:
         )
         edge = [complex(z, d / 2) for z, d in (*steps, (length, outer), (0.0, outer))]
         shape = Turned(Profile(polygon(np.array(edge))))
-        size = f"{round_size(outer)}, {in_mm(length)}"
-        return self.made("housing", "turned part", size, shape, stud.journal)
+        return self.made("housing", "turned part", shape, stud.journal)
 
 
 def link_plate_part(built: Construction, body: str) -> Part:
@@ -161,14 +154,12 @@ def link_plate_part(built: Construction, body: str) -> Part:
     shape = plates[0].shape if len(plates) == 1 and not shafts else Sum((*plates, *shafts))
     shapes = built.machine.shapes.get(body)
     material = find_material(shapes[0].material if shapes else built.members[body].material)
-    low, high = bounds(layers[0].contour)
-    size = " x ".join(in_mm(side) for side in (high.real - low.real, high.imag - low.imag, built.thickness(body)))
     seats = {
         axis.name: Seat(placement(at.real, at.imag), 2 * bore_radius(built, axis, body))
         for axis, at in _seats(built, body)
     }
     name, process = body.replace("_", " "), "turned part" if shafts else "machined link"
-    return Part(body_id(built.name, body), name, process, size, shape, material, seats=seats)
+    return Part(body_id(built.name, body), name, process, shape, material, seats=seats)
 
 
 def _bore(built: Construction, axis: PinAxis, body: str) -> Contour:
@@ -235,13 +226,11 @@ def base_part(built: Construction) -> Part:
     screws = [Hole(complex(at), SCREW / 2) for at in inset]
     outline = polygon(rectangle(size.real, size.imag).points + middle)
     thick = built.thickness(GROUND)
-    text = " x ".join(in_mm(side) for side in (size.real, size.imag, thick))
     seats = {hole.label: Seat(placement(hole.at.real, hole.at.imag), 2 * hole.radius) for hole in holes}
     return Part(
         body_id(built.name, GROUND),
         "base plate",
         "machined link",
-        text,
         Prism(drilled(outline, [*screws, *holes]), thick),
         BASE,
         seats=seats,

@@ -35,7 +35,7 @@ from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour
 from ilmek.report.scene import SceneMotion
 from ilmek.sentences import Sentence
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import in_mm, mm, turn
 
 _INSIDE = 2 * mm
 """By how much the square ends inside of the rings, so that the nuts press these [m]."""
@@ -228,7 +228,7 @@ def _bar(design: SheddingDesign, index: int) -> Part:
             Placed(catalogue.keyed_journal(end), (placement(z=-beyond - end.length),)),
         )
     )
-    return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar", f"square {in_mm(bar)}")
+    return _made(design, index, "cam-shaft", "cam shaft", shape, "steel bar")
 
 
 _LEAST_NECK = 1e-6
@@ -252,7 +252,7 @@ def _cam(design: SheddingDesign, index: int, group: int) -> Part:
     )
     bores = (_square(bar, float(shaft.shed.offsets[group])),) if _bored(shaft) else ()
     shape = Prism(Profile(polygon(outline), bores, smooth=True), shaft.stack.thickness)
-    made = _made(design, index, name, title, shape, _CUT, f"prime radius {in_mm(shaft.cam.prime_radius)}")
+    made = _made(design, index, name, title, shape, _CUT)
     pitch = shaft.cam.pitch(-np.arange(POINTS) * (TURN / POINTS)) if shaft.cam.roller_radius > 0 else None
     return replace(
         made,
@@ -267,7 +267,7 @@ def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: fl
     bar = shaft.shaft.bar
     bores = (_square(bar),) if _bored(shaft) else ()
     shape = Prism(Profile(circle(0j, radius), bores), thickness)
-    made = _made(design, index, *names, shape, _CUT, f"radius {in_mm(radius)}, {in_mm(thickness)} thick")
+    made = _made(design, index, *names, shape, _CUT)
     return replace(made, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
 
 
@@ -287,14 +287,13 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     shaft, own = design.shafts[index], reed(design, index)
     if own is None:
         return
-    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT, round_size(own.outer))
+    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT)
     x, pitch = warp_positions(design), design.params.cloth.warp_pitch
     yield Occurrence(made, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), shaft.stack.guide_thickness))
     shape = Prism(Profile(_square(own.side)), own.length)
-    baulk = _made(design, index, "reed-baulk", "baulk of the reed", shape, "steel bar", f"square {in_mm(own.side)}")
+    baulk = _made(design, index, "reed-baulk", "baulk of the reed", shape, "steel bar")
     yield Occurrence(baulk, tuple(placement(z.real, z.imag, -own.length / 2) for z in own.axes))
-    size = f"plate {in_mm(catalogue.FLANGE)}"
-    arm = _made(design, index, "reed-arm", "arm of the reed", own.arm, _CUT, size)
+    arm = _made(design, index, "reed-arm", "arm of the reed", own.arm, _CUT)
     yield Occurrence(arm, tuple(placement(z=z) for z in (own.length / 2, -own.length / 2 - catalogue.FLANGE)))
 
 
@@ -329,6 +328,7 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         drive.motor,
         drive.motor_torque,
         drive.motor_speed,
+        rear=index == 0,  # for the encoder of the shed
     )
     far = bearing_inner(design, index) + shaft.seat.through + catalogue.length_of(geared)
     flange = placement(z=-far, about=_ALONG, angle=shaft.seat.turned(geared) or 0.0)
@@ -337,9 +337,9 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
 
 
 def _made(  # noqa: PLR0917
-    design: SheddingDesign, index: int, name: str, title: str, shape: Shape, process: str, size: str
+    design: SheddingDesign, index: int, name: str, title: str, shape: Shape, process: str
 ) -> Part:
-    return Part(part_id(name, index), _numbered(design, index, title), process, size, shape, _steel(design))
+    return Part(part_id(name, index), _numbered(design, index, title), process, shape, _steel(design))
 
 
 def _steel(design: SheddingDesign) -> Material:

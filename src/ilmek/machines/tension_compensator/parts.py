@@ -29,7 +29,7 @@ from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 from ilmek.records import record
 from ilmek.report import Contour, Hole
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm, round_size
+from ilmek.units import format_quantity, in_mm, mm
 
 BRONZE = MATERIALS["tin bronze"]
 
@@ -166,29 +166,29 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
     """The parts for a synthesised lever and the members that were chosen."""
     supports = BarSupports(params, sprung, members)
     thick, pin, roller, section = params.lever_thickness, members.pin, members.roller, members.tube
-    flat, turned, plate = "machined link", "pin or bush", f"plate {in_mm(thick)}"
+    flat, turned = "machined link", "pin or bush"
     pins = bar(roller.bore, thick + PLAY + roller.width)
     cylinder = tube(section.outer, section.wall, params.cloth.width)
     return CompensatorParts(
         supports,
-        bar=_made("bar", "bar of the compensator", "steel tube", cylinder, f"tube {section.name} mm"),
-        rod=_made("rod", "rod of the compensator", "steel tube", cylinder, f"tube {section.name} mm"),
-        lever=_made("lever", "lever of the compensator", flat, _lever(supports), _flat(members.lever, thick)),
-        bush=_made("bush", "bush of a lever", turned, _bush(pin), round_size(pin + 2 * BUSH_WALL), BRONZE),
-        pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick), round_size(pin)),
-        saddle=_made("saddle", "saddle of a bar", CUT, _saddle(supports), plate),
+        bar=_made("bar", "bar of the compensator", "steel tube", cylinder),
+        rod=_made("rod", "rod of the compensator", "steel tube", cylinder),
+        lever=_made("lever", "lever of the compensator", flat, _lever(supports)),
+        bush=_made("bush", "bush of a lever", turned, _bush(pin), BRONZE),
+        pin=_made("pin", "pin of a lever", turned, bar(pin, 2 * pin + 2 * thick)),
+        saddle=_made("saddle", "saddle of a bar", CUT, _saddle(supports)),
         roller=catalogue.bearing(part_id("roller"), "roller of bars and rods", roller),
-        roller_pin=_made("roller-pin", "pin of a roller", turned, pins, round_size(roller.bore)),
-        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide), round_size(pin)),
+        roller_pin=_made("roller-pin", "pin of a roller", turned, pins),
+        spring_pin=_made("spring-pin", "pin of the springs", turned, bar(pin, supports.springs_wide)),
         spring=_spring(supports),
         eye=replace(
-            _made("eye", "eye of a spring", flat, _eye(supports), in_mm(_eye_wide(sprung))),
+            _made("eye", "eye of a spring", flat, _eye(supports)),
             fixing="its spring pulls it onto its pin",
         ),
-        beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members), members.beam.name),
-        pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(supports, supports.clear), plate),
-        anchor_lug=_made("anchor-lug", "lug of the springs", CUT, _lug(supports, supports.apart), plate),
-        cross_piece=_made("cross-piece", "cross-piece of the rods", CUT, _cross(supports), plate),
+        beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members)),
+        pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(supports, supports.clear)),
+        anchor_lug=_made("anchor-lug", "lug of the springs", CUT, _lug(supports, supports.apart)),
+        cross_piece=_made("cross-piece", "cross-piece of the rods", CUT, _cross(supports)),
     )
 
 
@@ -276,11 +276,9 @@ def _rollers(
     )
 
 
-def _made(  # noqa: PLR0917
-    name: str, title: str, process: str, shape: Shape, size: str, material: Material = STEEL
-) -> Part:
+def _made(name: str, title: str, process: str, shape: Shape, material: Material = STEEL) -> Part:
     """A part; plates are bored for pins after they are cut."""
-    return Part(part_id(name), title, process, size, shape, material, machined=process == CUT)
+    return Part(part_id(name), title, process, shape, material, machined=process == CUT)
 
 
 def _flat(height: float, thick: float) -> str:
@@ -386,4 +384,4 @@ def _spring(at: BarSupports) -> Part:
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, length)
     room = Sum((Placed(coil, (placement(z=seat),)),))
     bought = Bought(size, wound.mass, data=data)
-    return Part(part_id("spring"), title, "spring", size, room, purchase=bought, envelope=True)
+    return Part(part_id("spring"), title, "spring", room, purchase=bought, envelope=True, size=size)

@@ -49,7 +49,7 @@ def stand(design: TensionCompensator) -> Tree:
     reach = max(design.members.beam.side / math.sqrt(2), room) + EDGE
     outline = rounded_hull(np.concatenate([beams, *swings]), reach)
     section = Profile(outline, tuple(rounded_hull(swing, room) for swing in swings))
-    plate = Part(part_id("side-plate"), "side plate of the stand", CUT, "", Prism(section, SIDE), STEEL)
+    plate = Part(part_id("side-plate"), "side plate of the stand", CUT, Prism(section, SIDE), STEEL)
     half = parts.supports.params.cloth.width / 2
     return Tree((RigidBody(part_id("sides"), (Occurrence(plate, (placement(z=half), placement(z=-half - SIDE))),)),))
 

@@ -28,7 +28,6 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.report import Contour
 from ilmek.sentences import Sentence
-from ilmek.units import in_mm, round_size
 
 NAME = "tufting"
 LINKS = ("coupler", "rocker", "arm", "rod")
@@ -120,8 +119,7 @@ def driven_shaft(params: TuftingParams, sizes: NeedleSizes) -> Occurrence:
 
 def shaft_part(name: str, title: str, diameter: float, length: float) -> Part:
     """A shaft about z from z = 0 [m]."""
-    size = f"{round_size(diameter)}, {in_mm(length)}"
-    return Part(f"{NAME}/{name}", title, "steel bar", size, bar(diameter, length), STEEL, machined=True)
+    return Part(f"{NAME}/{name}", title, "steel bar", bar(diameter, length), STEEL, machined=True)
 
 
 def needle_diameter(params: TuftingParams, pin: float) -> float:
@@ -139,9 +137,9 @@ def needle_diameter(params: TuftingParams, pin: float) -> float:
 def needle_bar(params: TuftingParams, pin: float) -> Part:
     """The needle bar from E downwards, its lower side at z = 0, with a head about the pin at E."""
     diameter = needle_diameter(params, pin)
-    size, shape = f"{round_size(diameter)}, {in_mm(params.needle)}", _needle_shape(params, pin, diameter)
+    shape = _needle_shape(params, pin, diameter)
     title = "needle bar with its needles"
-    return Part(f"{NAME}/needle", title, "steel bar", size, shape, STEEL, envelope=True, machined=True)
+    return Part(f"{NAME}/needle", title, "steel bar", shape, STEEL, envelope=True, machined=True)
 
 
 def _needle_shape(params: TuftingParams, pin: float, diameter: float) -> Sum:
@@ -165,12 +163,11 @@ def ring(crank: float, shaft: float) -> Contour:
 def eccentric(name: str, crank: float, shaft: float, thickness: float, material: Material) -> Part:
     """A crank on a shaft of a diameter [m]: a disc about A with the bore of the shaft at O, too thin for a key."""
     radius = eccentric_radius(crank, shaft)
-    size = f"{round_size(2 * radius)}, {in_mm(thickness)}"
     shape = Prism(Profile(circle(complex(crank), radius), (circle(0j, shaft / 2),)), thickness)
     seats = {"O": Seat(placement(), shaft), "A": Seat(placement(crank), 2 * radius)}
     notes = (Sentence("sheet.bonded"),)
     title, process = "eccentric of the crank", "machined link"
-    return Part(name, title, process, size, shape, material, seats=seats, notes=notes, machined=True)
+    return Part(name, title, process, shape, material, seats=seats, notes=notes, machined=True)
 
 
 def _eyed(params: TuftingParams, link: str, hole: Contour, pin: float) -> Part:
@@ -197,7 +194,6 @@ def eyed(  # noqa: PLR0917
     inner = float(abs(hole.points[0]))
     eyes = [max(width / 2, radius * (1 + 2 * WALL)) for radius in (inner, pin / 2)]
     cut = (hole, circle(complex(length), pin / 2))
-    size = f"{in_mm(width)} x {in_mm(thickness)}, {in_mm(length)}"
     shape = Prism(Profile(eyed_link(length, *eyes), cut), thickness)
     seats = {ends[0]: Seat(placement(), 2 * inner), ends[1]: Seat(placement(length), pin)}
-    return Part(*names, "machined link", size, shape, material, seats=seats)
+    return Part(*names, "machined link", shape, material, seats=seats)

@@ -30,7 +30,7 @@ from ilmek.part.shapes import Prism
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.plane.contours import circle, rounded_hull
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, turn
+from ilmek.units import turn
 
 POSES = 91
 """Poses over a turn of the main shaft."""
@@ -153,7 +153,6 @@ def bearing_plate(design: Tufting, feet: tuple[complex, ...] = ()) -> Part:
         body_id(NAME, GROUND),
         "bearing plate",
         "laser-cut part",
-        f"plate {format_quantity(thick, 'mm')}",
         Prism(Profile(outline, tuple(holes)), thick),
         MATERIALS["structural steel"],
         machined=True,

@@ -16,18 +16,9 @@ from ilmek.machines.tufting_gun.params import TuftingGunParams
 from ilmek.records import JsonObject, computed, record, result
 from ilmek.report import Check, at_least, at_most
 from ilmek.weaving.gun.plan import ColourPlan, GunPlan
-from ilmek.weaving.tufts import tuft_yarn
+from ilmek.weaving.tufts import Cone, tuft_yarn
 
 Points = Complex[np.ndarray, " points"]
-
-
-@record
-class Cone:
-    """A colour of the creel: name, colour as #rrggbb, price of a kilogram [EUR]; None: not known."""
-
-    name: str
-    colour: str
-    price: float | None
 
 
 def travel_time(distance: FloatArray, speed: float, acceleration: float) -> FloatArray:
@@ -105,8 +96,7 @@ class TuftedByGun:
         return {**causes, "sum": sum(known) if len(known) == len(causes) else None}
 
     def _price(self, colour: ColourPlan) -> float | None:
-        price = self.cones[colour.label].price
-        return None if price is None else price * self.yarn[colour.label] * self.params.yarn_density
+        return self.cones[colour.label].price_of(self.yarn[colour.label] * self.params.yarn_density)
 
     @property
     def checks(self) -> tuple[Check, ...]:

@@ -27,7 +27,7 @@ def cyclogram(machine: TuftingMachine) -> Cyclogram:
     ahead = machine.looper.ahead(angle)
     ahead[-1] = ahead[0]
     hooks = CubicSpline(angle, ahead, bc_type="periodic")
-    window, loop, stitch = machine.loop.window, machine.loop, machine.params.stitch
+    window, loop, stitch = machine.loop.window, machine.loop, machine.params.advance
     tracks = (
         Track(NEEDLES, "main shaft", tuple(_swings(machine.loop.geometry.path.rise, ("down", "up")))),
         Track(LOOPERS, "looper crank shaft", tuple(_swings(hooks, ("back", "forward")))),

@@ -22,7 +22,7 @@ BACKING_DRAWN = 120 * mm
 
 def figures(machine: TuftingMachine) -> tuple[Figure, ...]:
     """The side view in motion, timing of needle and hook, bulge of the yarn, the loop when the hook enters, torsion."""
-    drawn = moving, timing, bulge, loop_drawing, backing_force, twist
+    drawn = moving, timing, bulge, loop_drawing, backing_force, torques, twist
     return tuple(draw(machine) for draw in drawn)
 
 
@@ -147,6 +147,17 @@ def backing_force(machine: TuftingMachine) -> Plot:
     return Plot(
         "tufting-backing-force", "Force of the backing on a needle", Axis("depth", "mm"), Axis("force", "N"), series
     )
+
+
+def torques(machine: TuftingMachine) -> Plot:
+    """Torque of all drives together, of a needle drive and of a looper drive over a turn."""
+    angle, state = np.arange(SAMPLES + 1) * (turn / SAMPLES), machine.needle.state
+    series = (
+        Series("all drives", angle, np.append(machine.shafts.torque, machine.shafts.torque[0])),
+        Series("a needle drive", state.angle, state.main_torque),
+        Series("a looper drive", machine.looper_forces.angle, machine.looper_forces.torque),
+    )
+    return Plot("tufting-machine-torques", "Torques of the drives", CRANK, Axis("torque", "N*m"), series)
 
 
 def twist(machine: TuftingMachine) -> Plot:

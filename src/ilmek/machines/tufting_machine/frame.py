@@ -14,14 +14,17 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray
 from ilmek.elements.materials import MATERIALS
+from ilmek.elements.reducers import DIRECT
 from ilmek.machines.tufting.links import WALL
 from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import bearing_plate
 from ilmek.machines.tufting_machine.layout import BED, CLEAR, TuftingLayout, looper_bearing
 from ilmek.machines.tufting_machine.looper_parts import BODIES, NAME
 from ilmek.machines.tufting_machine.needle_parts import DOWN, needle_heights
-from ilmek.machines.tufting_machine.params import TuftingMachineParams
+from ilmek.machines.tufting_machine.params import SCROLLS, TuftingMachineParams
+from ilmek.machines.tufting_machine.scrolls import scroll_parts, scrolls
 from ilmek.part import catalogue
+from ilmek.part.catalogue import reducer_face
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
@@ -29,7 +32,7 @@ from ilmek.part.shapes import Prism, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.report import Contour
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 STEEL = MATERIALS["structural steel"]
 
@@ -68,8 +71,7 @@ def frame_parts(laid: TuftingLayout) -> Iterator[Occurrence]:
     """The parts of the frame beside the bearing plates of the needle drives."""
     first, last = laid.ends
     hollow = Profile(rectangle(BEAM, BEAM), (rectangle(BEAM - 2 * BEAM_WALL, BEAM - 2 * BEAM_WALL),))
-    text = f"square {in_mm(BEAM)}, wall {in_mm(BEAM_WALL)}"
-    beam = Part(f"{NAME}/beam", "beam", "steel tube", text, Prism(hollow, last - first), STEEL)
+    beam = Part(f"{NAME}/beam", "beam", "steel tube", Prism(hollow, last - first), STEEL)
     below = _post_at(laid)
     corners = (laid.behind - BEAM / 2, -BEAM / 2), (below, laid.low - BEAM / 2)
     yield Occurrence(beam, tuple(placement(*corner, first) for corner in corners))
@@ -77,6 +79,8 @@ def frame_parts(laid: TuftingLayout) -> Iterator[Occurrence]:
     yield from _looper_brackets(laid)
     yield _guides(laid)
     yield from _bed(laid)
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        yield from scroll_parts(laid, scroll_height(laid))
 
 
 def _post_at(laid: TuftingLayout) -> float:
@@ -88,15 +92,36 @@ def roller_axes(laid: TuftingLayout) -> dict[str, complex]:
     """Axes of the rollers [m]: the spiked ones' tops at the backing's under side, the yarn's above the needles."""
     feed = laid.machine.params.feed
     low = laid.under - feed.spiked_roller / 2
+    spiked = {"rear": complex(laid.rear, low), "front": complex(laid.front, low)}
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        return spiked
     yarn = complex(laid.line + BED, laid.driven_shaft.imag + ABOVE / 2)
-    return {"rear": complex(laid.rear, low), "front": complex(laid.front, low), "yarn": yarn}
+    row, by = laid.machine.feed.motors["yarn"] or (None, DIRECT)
+    face = reducer_face(by, row) if row else catalogue.SPECIAL_FACE
+    pitch = max(feed.yarn_roller, face) + CLEAR
+    return spiked | {
+        f"yarn {number + 1}": yarn + 1j * number * pitch for number in range(laid.machine.feed.yarn_shafts)
+    }
+
+
+def scroll_height(laid: TuftingLayout) -> float:
+    """Lower end of the plate of the scrolls [m]."""
+    return laid.driven_shaft.imag + ABOVE / 2
+
+
+def _top(laid: TuftingLayout) -> float:
+    """Upper end of the end plates [m]: over the yarn feed."""
+    least = laid.driven_shaft.imag + ABOVE
+    if laid.machine.params.pattern.attachment == SCROLLS:
+        return max(least, scrolls(laid, scroll_height(laid)).top)
+    return max(least, *(axis.imag + ABOVE / 2 for axis in roller_axes(laid).values()))
 
 
 def _end_plate(laid: TuftingLayout) -> Part:
     """An end plate: free holes for the main and the looper crank shaft, bushes for the rollers' journals."""
     left, right = min(laid.behind - BEAM, laid.rear) - BEAM / 2, laid.front + BEAM / 2
     outline = np.array([left, right, right, left]) + 1j * np.array(
-        [laid.shaft.imag - FLOOR, laid.shaft.imag - FLOOR, *(2 * [laid.driven_shaft.imag + ABOVE])]
+        [laid.shaft.imag - FLOOR, laid.shaft.imag - FLOOR, *(2 * [_top(laid)])]
     )
     free = ((0j, needle_sizes(laid.machine.needle).main), (laid.crank_shaft, laid.machine.params.looper.shaft))
     holes = (
@@ -104,7 +129,7 @@ def _end_plate(laid: TuftingLayout) -> Part:
         *(circle(at, JOURNAL / 2) for at in roller_axes(laid).values()),
     )
     shape = Prism(Profile(polygon(outline), holes), END_PLATE)
-    return Part(f"{NAME}/end-plate", "end plate", "laser-cut part", in_mm(END_PLATE), shape, STEEL, machined=True)
+    return Part(f"{NAME}/end-plate", "end plate", "laser-cut part", shape, STEEL, machined=True)
 
 
 def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
@@ -117,7 +142,7 @@ def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
     shape = Prism(Profile(rounded_hull(np.array([*shafts, *ends]), radius), holes), row.width)
     seats = {name: Seat(placement(at.real, at.imag), row.outer) for name, at in zip("QP", shafts, strict=True)}
     name, title = f"{NAME}/looper-plate", "bearing plate of the loopers"
-    plate = Part(name, title, "laser-cut part", in_mm(row.width), shape, STEEL, seats=seats, machined=True)
+    plate = Part(name, title, "laser-cut part", shape, STEEL, seats=seats, machined=True)
     parts = laid.machine.looper_forces.parts
     low, high = (height - parts.level for height in parts.linkage.levels.across(list(BODIES)))
     drives = range(laid.machine.params.drives)
@@ -135,7 +160,7 @@ def _guides(laid: TuftingLayout) -> Occurrence:
     half, face = rod / 2 + CLEAR, laid.planes[1] - level
     corners = np.array([-half - 1j * half, half - 1j * half, half + 1j * face, -half + 1j * face])
     shape = Prism(Profile(polygon(corners), (circle(0j, rod / 2),)), GUIDE)
-    part = Part(f"{NAME}/guide", "guide of a push rod", "machined link", in_mm(GUIDE), shape, MATERIALS["tin bronze"])
+    part = Part(f"{NAME}/guide", "guide of a push rod", "machined link", shape, MATERIALS["tin bronze"])
     top = GUIDE - GUIDE_BELOW
     drives = range(laid.machine.params.drives)
     return Occurrence(
@@ -150,18 +175,17 @@ def _bed(laid: TuftingLayout) -> Iterator[Occurrence]:
     outline = np.array([-BED + 1j * first, BED + 1j * first, BED + 1j * last, -BED + 1j * last])
     shape = Prism(Profile(polygon(outline), tuple(_slots(laid))), thick)
     joins = f"{NAME}/end-plate", f"{NAME}/post"
-    bed = Part(f"{NAME}/bed-plate", "bed plate", "laser-cut part", in_mm(thick), shape, STEEL, joins=joins)
+    bed = Part(f"{NAME}/bed-plate", "bed plate", "laser-cut part", shape, STEEL, joins=joins)
     yield Occurrence(bed, (placement(laid.line, laid.under).after(DOWN),))
     post = box(30 * mm, laid.under - thick - laid.low, POST)
     middle, low = _post_at(laid), (laid.under - thick + laid.low) / 2
     if params.drives > 1:
-        part = Part(f"{NAME}/post", "post of the bed plate", "laser-cut part", "", post, STEEL)
+        part = Part(f"{NAME}/post", "post of the bed plate", "laser-cut part", post, STEEL)
         places = (placement(middle, low, laid.left + k * laid.pitch - post.length / 2) for k in range(1, params.drives))
         yield Occurrence(part, tuple(places))
     level = laid.under + params.backing_thickness
     strip = box(PRESSER, thick, last - first)
-    size = f"{in_mm(PRESSER)} x {in_mm(thick)}"
-    presser = Part(f"{NAME}/presser", "presser", "steel bar", size, strip, STEEL, joins=joins)
+    presser = Part(f"{NAME}/presser", "presser", "steel bar", strip, STEEL, joins=joins)
     beside = SLOT + PRESSER / 2
     yield Occurrence(presser, tuple(placement(laid.line + side * beside, level + thick / 2, first) for side in (-1, 1)))
 

@@ -203,7 +203,7 @@ class Loop:
 
     @property
     def beside(self) -> float:
-        """Needle, hook and yarn side by side in a gauge [m]: the yarn's diameter once, on the hook's far side."""
+        """Needle, hook and yarn side by side [m]: the yarn's diameter once, on the hook's far side."""
         return self.geometry.params.looper.needle + self.geometry.slot + self.geometry.yarn
 
     @property
@@ -228,7 +228,11 @@ class Loop:
                 earlier, LOOPER
             ),
             at_most(
-                "needle, hook and yarn beside each other", self.beside, params.gauge, "mm", "gauge of the needles"
+                "needle, hook and yarn beside each other",
+                self.beside,
+                params.looper_gauge,
+                "mm",
+                "gauge of the loopers",
             ).with_cure("set a wider gauge, a thinner yarn, or thinner needles and loopers", LOOPER),
         )
 

@@ -20,7 +20,7 @@ from ilmek.part.shapes import Prism, bar, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon, rounded_hull
 from ilmek.records import record
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 NAME = "tufting-machine"
 BODIES = CRANK, COUPLER, ROCKER = "looper crank", "looper coupler", "looper rocker"
@@ -62,14 +62,16 @@ class LooperParts:
         looper, pitch = self.params.looper, self.params.width / self.params.drives
         half, raised = (pitch - BETWEEN) / 2, self.upright.after(placement(z=self.level))
         first, ahead = -pitch * (number + 0.5), looper.needle / 2 + looper.gap
-        heights = (first + float(place.origin[2]) + ahead for place in needle_heights(self.params, self.needles))
+        between = (0.0,) if self.params.looper_gauge == self.params.gauge else (0.0, self.params.looper_gauge)
+        beside = [first + float(place.origin[2]) + ahead for place in needle_heights(self.params, self.needles)]
+        heights = [z + step for z in beside for step in between]
         hooks = [placement(y=looper.arm, z=z) for z in heights if -pitch / 2 <= z + looper.thickness / 2 < pitch / 2]
         arms = [placement(z=side * ARMS * pitch - ARM_THICKNESS / 2) for side in (-1, 1)]
-        beside = complex(_bar_beside(self.drive), looper.arm - looper.stem - looper.bar / 2)
+        square = complex(_bar_beside(self.drive), looper.arm - looper.stem - looper.bar / 2)
         placed = (
             (self.shaft, [placement(z=-half)]),
             (self.arm, arms),
-            (self.bar, [placement(beside.real, beside.imag, -half)]),
+            (self.bar, [placement(square.real, square.imag, -half)]),
             (self.hook, hooks),
         )
         return tuple(
@@ -99,7 +101,7 @@ def looper_parts(params: TuftingMachineParams, drive: LooperDrive, mechanism: Me
     size = {body: LinkSize(*section, pin, material) for body in BODIES}
     levels = Levels(((CRANK, COUPLER), (ROCKER,)), size)
     side = looper.bar
-    square, text = Prism(Profile(rectangle(side, side)), long), f"{round_size(shaft)}, {in_mm(long)}"
+    square = Prism(Profile(rectangle(side, side)), long)
     middle = -rocker_angle(drive.linkage, drive.swing)
     return LooperParts(
         params,
@@ -108,9 +110,9 @@ def looper_parts(params: TuftingMachineParams, drive: LooperDrive, mechanism: Me
         linkage_parts(NAME, mechanism, levels, formed, ("Q", "A", "P"), of="looper"),
         placement(about=(0.0, 0.0, 1.0), angle=-middle),
         sum(levels.across(list(BODIES))) / 2,
-        Part(LOOPER_SHAFT, "looper shaft", "steel bar", text, bar(shaft, long), STEEL, machined=True),
+        Part(LOOPER_SHAFT, "looper shaft", "steel bar", bar(shaft, long), STEEL, machined=True),
         _arm(shaft, complex(_bar_beside(drive), looper.arm - looper.stem - side), side),
-        Part(LOOPER_BAR, "looper bar", "steel bar", f"square {in_mm(side)}, {in_mm(long)}", square, STEEL),
+        Part(LOOPER_BAR, "looper bar", "steel bar", square, STEEL),
         _hook(params, drive.sense),
     )
 
@@ -122,7 +124,7 @@ def _arm(shaft: float, under: complex, side: float) -> Part:
     outline = rounded_hull(np.array([0, *ends]), radius)
     shape = Prism(Profile(outline, (circle(0j, shaft / 2),)), ARM_THICKNESS)
     steel = MATERIALS["structural steel"]
-    return Part(ARM, "arm of the loopers", "laser-cut part", "", shape, steel, machined=True)
+    return Part(ARM, "arm of the loopers", "laser-cut part", shape, steel, machined=True)
 
 
 def _hook(params: TuftingMachineParams, sense: int) -> Part:
@@ -140,7 +142,6 @@ def _hook(params: TuftingMachineParams, sense: int) -> Part:
         ]
     )
     outline = polygon(corners if sense > 0 else -np.conj(corners))
-    size = f"{in_mm(looper.thickness)}, {in_mm(BEAK)} x {in_mm(looper.stem)}"
     title = "looper with its knife's edge" if params.pile == "cut" else "looper"
     shape = Prism(Profile(outline), looper.thickness)
-    return Part(LOOPER, title, "laser-cut part", size, shape, STEEL, joins=(LOOPER_BAR,))
+    return Part(LOOPER, title, "laser-cut part", shape, STEEL, joins=(LOOPER_BAR,))

@@ -14,7 +14,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle
 from ilmek.plane.contours import polygon
 from ilmek.records import record
-from ilmek.units import format_quantity, in_mm, mm, round_size
+from ilmek.units import format_quantity, mm
 
 NEEDLE_BAR, NEEDLE, ROD = (f"tufting-machine/{name}" for name in ("needle-bar", "needle", "push-rod"))
 
@@ -57,19 +57,17 @@ def needle_parts(params: TuftingMachineParams) -> NeedleParts:
     pieces = params.drives if params.needle.phase else 1
     length = params.width / pieces - (given.joint if pieces > 1 else 0.0)
     material = MATERIALS[given.material]
-    section = f"{in_mm(given.thickness)} x {in_mm(given.height)}, {in_mm(length)}"
     shape = Placed(Prism(Profile(rectangle(given.thickness, given.height)), length), (placement(y=-given.height / 2),))
     return NeedleParts(
         Part(
             ROD,
             "push rod",
             "steel bar",
-            f"{round_size(given.rod)}, {in_mm(rod)}",
             _down(given.rod, rod),
             STEEL,
             machined=True,
         ),
-        Part(NEEDLE_BAR, "needle bar", "machined link", section, Sum((shape,)), material),
+        Part(NEEDLE_BAR, "needle bar", "machined link", Sum((shape,)), material),
         _needle(params),
         pieces,
     )
@@ -86,8 +84,7 @@ def _needle(params: TuftingMachineParams) -> Part:
     corners = np.array([-half, half, half - 1j * (long - taper), -1j * long, -half - 1j * (long - taper)])
     thick = params.looper.needle
     blade = Placed(Prism(Profile(polygon(corners)), thick), (placement(z=-thick / 2),))
-    size = f"{in_mm(thick)} x {in_mm(BLADE)}, {in_mm(long)}"
-    return Part(NEEDLE, "tufting needle", "machined link", size, Sum((blade,)), STEEL, envelope=True)
+    return Part(NEEDLE, "tufting needle", "machined link", Sum((blade,)), STEEL, envelope=True)
 
 
 def needle_heights(params: TuftingMachineParams, number: int) -> tuple[Placement, ...]:

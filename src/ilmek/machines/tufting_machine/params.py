@@ -4,15 +4,42 @@ from dataclasses import dataclass, replace
 
 from ilmek.elements.materials import MATERIALS
 from ilmek.errors import ParameterError
+from ilmek.machines.automated_loom.cost_rates import CostRates
 from ilmek.machines.strength_params import StrengthParams
 from ilmek.machines.tufting.params import TuftingParams
 from ilmek.params import Params, kind, nested
 from ilmek.units import deg, format_quantity, g, inch, m, mm, turn
+from ilmek.weaving.tufting.programme import TuftGrid
 
 PILES = ("loop", "cut")
+ATTACHMENTS = ROLLERS, GROUPS, SCROLLS = ("rollers", "groups", "scrolls")
+SELECTIONS = BY_YARN, BY_NEEDLE = ("yarn", "needles")
 
 FOLLOWING = ("bars", "needle_mass", "friction", "friction_force", "entry", "exit", "stroke")
 """Parameters of the needle drive that follow from the machine's."""
+
+
+@dataclass(frozen=True, slots=True)
+class TuftingPatternParams(Params):
+    """What makes a pattern: feed of each yarn, colours of the creel, selection; values assumed by this project."""
+
+    attachment: str = kind.choice(
+        ROLLERS,
+        ATTACHMENTS,
+        doc="feed of the yarn: rollers for all needles, for groups of them, or a scroll with its motor for each needle",
+    )
+    groups: int = kind.count(2, at_least=2, at_most=64, doc="groups of needles, needle by needle in turn")
+    colours: int = kind.count(1, at_least=1, at_most=16, doc="colours of the creel, in turn from needle to needle")
+    creel: int = kind.count(8, at_least=1, at_most=16, doc="colours that the creel may have in turn")
+    selection: str = kind.choice(
+        BY_YARN,
+        SELECTIONS,
+        doc="yarn: all needles tuft at each stroke, what is not to be seen is fed low (overtufting); needles: over "
+        "each tuft the one of its colour alone",
+    )
+    hidden: float = kind.length(0.0, at_least=0.0, at_most=30 * mm, doc="height of loops that are not to be seen")
+    module: int = kind.count(20, at_least=1, at_most=400, doc="scrolls of a module, which is wired as one axis")
+    threading: float = kind.time(20.0, at_least=0.0, at_most=3600.0, doc="threading of a needle from its cone")
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +63,10 @@ class TuftedCarpetParams(Params):
     back_stitch: float = kind.ratio(
         1.0, at_least=0.0, at_most=2.0, doc="yarn from stitch to stitch on the back, over their distance", symbol="k"
     )
-    shift: int = kind.count(0, at_least=0, at_most=8, doc="gauges by which the needle bar shifts from stitch to stitch")
+    shift: float = kind.ratio(
+        0.0, at_least=0.0, at_most=8.0, doc="gauges, whole or half ones, by which the needle bar shifts at each stroke"
+    )
+    pattern: TuftingPatternParams = nested(TuftingPatternParams, doc="feed of each yarn, colours, selection")
     yarn_density: float = kind.line_density(
         3400 / 9000 * g / m, unit="g/m", above=0.0, at_most=0.05, doc="mass per length of the yarn: 3400 den"
     )
@@ -51,8 +81,42 @@ class TuftedCarpetParams(Params):
         """Distance of the stitches along the carpet [m]."""
         return 1 / self.stitch_rate
 
+    @property
+    def advance(self) -> float:
+        """Travel of the backing at a stroke [m]: each colour of the creel has its stroke at each place."""
+        return self.stitch / self.pattern.colours
+
+    @property
+    def bar_step(self) -> float:
+        """Step of the needle bar between strokes [m]: with several colours the next is a gauge away."""
+        return self.gauge * (self.shift if self.pattern.colours == 1 else 1)
+
+    @property
+    def looper_gauge(self) -> float:
+        """Distance of the loopers, which do not shift [m]."""
+        return self.gauge if self.shift == int(self.shift) else self.gauge / 2
+
+    @property
+    def grid(self) -> TuftGrid:
+        """Distances, heights and backing of its tufts."""
+        pattern = self.pattern
+        return TuftGrid(
+            self.gauge, self.stitch, self.pile_height, pattern.hidden, self.backing_thickness, self.back_stitch
+        )
+
     def check_together(self) -> None:
-        """Raise ParameterError for low loops that are higher than the others."""
+        """Raise ParameterError for low loops that are higher than the others, and for a shift that cannot be."""
+        if 2 * self.shift != int(2 * self.shift):
+            raise ParameterError(f"shift={self.shift:g}", allowed="whole and half gauges", do="set 0, 0.5, 1, ...")
+        if self.shift and self.pattern.colours > 1:
+            given = f"shift={self.shift:g} with pattern.colours={self.pattern.colours}"
+            raise ParameterError(
+                given, allowed="the bar goes from colour to colour, a gauge a stroke", do="leave it out"
+            )
+        if self.pattern.hidden > self.pile_height:
+            given = f"pattern.hidden={format_quantity(self.pattern.hidden, 'mm')}"
+            allowed = f"at most pile_height={format_quantity(self.pile_height, 'mm')}"
+            raise ParameterError(given, allowed=allowed, do="set a lower one")
         if self.low_height is not None and self.low_height > self.pile_height:
             given = f"low_height={format_quantity(self.low_height, 'mm')}"
             allowed = f"at most pile_height={format_quantity(self.pile_height, 'mm')}"
@@ -175,6 +239,7 @@ class TuftingMachineParams(TuftedCarpetParams):
     shafts: TuftingShaftParams = nested(TuftingShaftParams, doc="shafts along the width")
     feed: TuftingFeedParams = nested(TuftingFeedParams, doc="rollers of yarn and backing")
     prices: str | None = kind.text(None, doc="prices other than those of the table")
+    cost: CostRates = nested(CostRates, doc="wage, hours, capital, assembly")
     drives: int = kind.count(10, at_least=2, at_most=64, doc="needle drives along the width")
     lift: float = kind.length(
         8 * mm, at_least=1 * mm, at_most=0.2, doc="needle's point over the backing where it is highest, at least"

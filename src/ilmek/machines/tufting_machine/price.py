@@ -1,11 +1,13 @@
 """Price of a tufting machine, by its parts list and the rates of the workshop, as a loom's is."""
 
+import math
+from dataclasses import replace
 from functools import lru_cache
 
 from ilmek.elements.prices import price_of, read_prices
-from ilmek.machines.automated_loom.cost_rates import CostRates
-from ilmek.machines.automated_loom.machine_cost import machine_cost, price_shares
+from ilmek.machines.automated_loom.machine_cost import MachineCost, machine_cost, price_shares
 from ilmek.machines.tufting_machine.design import TuftingMachine
+from ilmek.machines.tufting_machine.params import SCROLLS
 from ilmek.machines.tufting_machine.tree import tree
 from ilmek.part.bill import bill
 from ilmek.records import computed, record
@@ -19,6 +21,7 @@ class TuftingPrice:
     lines: tuple[BillLine, ...]
     prices: dict[str, float]
     shares: dict[str, float]
+    cost: MachineCost
 
     mass = computed("kg", "mass of all parts but the reducers", lambda it: sum(line.mass_all for line in it.lines))
     parts_number = computed("1", "pieces in the parts list", lambda it: sum(line.number for line in it.lines))
@@ -36,9 +39,19 @@ class TuftingPrice:
         return Table("tufting-machine-parts", "Parts of the machine", heads, rows)
 
 
+def _wired(cost: MachineCost, machine: TuftingMachine) -> MachineCost:
+    """The cost with the scrolls wired by modules."""
+    pattern, scrolls = machine.params.pattern, machine.feed.yarn_shafts
+    if pattern.attachment != SCROLLS:
+        return cost
+    axes = cost.axes - scrolls + math.ceil(scrolls / pattern.module)
+    return replace(cost, fitting=cost.fitting._replace(axes=axes))
+
+
 @lru_cache(maxsize=8)
 def tufting_price(machine: TuftingMachine) -> TuftingPrice:
     """The price of a machine. Raises ParameterError for unreadable prices."""
     lines, prices = bill(tree(machine)), read_prices(machine.params.prices)
-    shares = price_shares(lines, prices, CostRates(), machine_cost(lines, prices))
-    return TuftingPrice(lines, {line.part: price_of(line, prices) for line in lines}, shares)
+    cost = _wired(machine_cost(lines, prices), machine)
+    shares = price_shares(lines, prices, machine.params.cost, cost)
+    return TuftingPrice(lines, {line.part: price_of(line, prices) for line in lines}, shares, cost)

@@ -21,10 +21,12 @@ from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import POSES, keyed, needle_drives
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.feed import SPIKED_ROLLER, YARN_ROLLER
-from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes
+from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes, scroll_height
 from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
 from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
 from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR, needle_heights, needle_parts
+from ilmek.machines.tufting_machine.params import SCROLLS
+from ilmek.machines.tufting_machine.scrolls import scroll_bodies
 from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
 from ilmek.part import catalogue
 from ilmek.part.flat_link import eyed_link
@@ -35,7 +37,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import format_quantity, in_mm, mm, turn
 
 FRAME = body_id(NAME, GROUND)
 
@@ -49,9 +51,6 @@ STATION = BELT_WIDTH + 2 * (catalogue.BESIDE + catalogue.RIM)
 SKIN, PLUG = 5 * mm, 20 * mm
 """Wall of the rollers, and length of the plugs in their ends; assumed by this project."""
 
-DRIVES = {"rear": ("spiked", SPIKED_ROLLER), "front": ("spiked", SPIKED_ROLLER), "yarn": ("yarn", YARN_ROLLER)}
-"""What feeds with each roller, and the id of its part."""
-
 
 @lru_cache(maxsize=4)
 def tree(machine: TuftingMachine) -> Tree:
@@ -62,7 +61,9 @@ def tree(machine: TuftingMachine) -> Tree:
     whole = Tree((RigidBody(FRAME, parts),)).carrying(FRAME, needles)
     loopers, loops = _loopers(laid)
     joined = (Closure(JointKind.ROLLING, (MAIN_SHAFT, LOOPER_CRANKS)), *loops, *bars)
-    return Tree((*whole.bodies, *loopers, *_rollers(laid)), (*whole.closures, *joined))
+    scrolls = laid.machine.params.pattern.attachment == SCROLLS
+    fed = scroll_bodies(laid, scroll_height(laid), FRAME) if scrolls else ()
+    return Tree((*whole.bodies, *loopers, *_rollers(laid), *fed), (*whole.closures, *joined))
 
 
 def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
@@ -137,7 +138,7 @@ def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
     (first, last), diameter = laid.ends, machine.params.looper.shaft
     end, at = last + END_PLATE + CLEAR + STATION, laid.crank_shaft
     shaft = Part(
-        LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", "", bar(diameter, end - first), STEEL, machined=True
+        LOOPER_CRANKS, "crank shaft of the loopers", "steel bar", bar(diameter, end - first), STEEL, machined=True
     )
     pulley = _pulley("looper-pulley", diameter)
     parts = (
@@ -167,14 +168,9 @@ def _rollers(laid: TuftingLayout) -> Iterator[RigidBody]:
     sizes = {SPIKED_ROLLER: feed.spiked_roller, YARN_ROLLER: feed.yarn_roller}
     titles = {SPIKED_ROLLER: "spiked roller of the backing", YARN_ROLLER: "yarn feed roller"}
     shapes = {name: _roller(diameter, last - first) for name, diameter in sizes.items()}
-    parts = {
-        name: Part(
-            name, titles[name], "machined link", f"{round_size(size)}, {in_mm(last - first)}", shapes[name], STEEL
-        )
-        for name, size in sizes.items()
-    }
+    parts = {name: Part(name, titles[name], "machined link", shapes[name], STEEL) for name, size in sizes.items()}
     for place, at in roller_axes(laid).items():
-        kind, name = DRIVES[place]
+        kind, name = _fed_by(place)
         position = placement(at.real, at.imag, first - END_PLATE)
         joint = Joint(JointKind.PIN, motor=f"{NAME}/{kind}-motor")
         yield RigidBody(f"{name} {place}", (Occurrence(parts[name]),), FRAME, joint, (position,))
@@ -205,7 +201,12 @@ def _motors(laid: TuftingLayout) -> Iterator[Occurrence]:
         for kind, pair in feed.motors.items()
     }
     for place, at in roller_axes(laid).items():
-        yield from in_line(parts[DRIVES[place][0]], begin, at)
+        yield from in_line(parts[_fed_by(place)[0]], begin, at)
+
+
+def _fed_by(place: str) -> tuple[str, str]:
+    """What feeds with a roller of `roller_axes`, and the id of its part."""
+    return ("spiked", SPIKED_ROLLER) if place in {"rear", "front"} else ("yarn", YARN_ROLLER)
 
 
 def _driving(
@@ -228,7 +229,7 @@ def _flywheel(machine: TuftingMachine) -> Part:
     width, bore = machine.params.shafts.flywheel, catalogue.locked_bore(machine.shafts.diameter)
     diameter = (32 * machine.shafts.flywheel / (math.pi * STEEL.density * width) + bore**4) ** 0.25
     shape = Prism(disc(diameter / 2, circle(0j, bore / 2)), width)
-    return Part(FLYWHEEL_ID, "flywheel", "machined link", f"{round_size(diameter)}, {in_mm(width)}", shape, STEEL)
+    return Part(FLYWHEEL_ID, "flywheel", "machined link", shape, STEEL)
 
 
 def _wheel_clamp(machine: TuftingMachine) -> Part:

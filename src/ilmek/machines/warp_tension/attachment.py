@@ -23,7 +23,7 @@ from ilmek.part.placement import placement
 from ilmek.part.shapes import bar
 from ilmek.part.tree import Occurrence
 from ilmek.report import Check, at_least, at_most
-from ilmek.units import round_size, turn
+from ilmek.units import turn
 
 ATTACHMENT_BAR = part_id("attachment-bar")
 """Id of the part."""
@@ -37,9 +37,9 @@ BRIGHT = MATERIALS["heat-treatable steel"]
 @lru_cache(maxsize=8)
 def attachment_bar(thick: float, wide: float) -> Part:
     """A bar, by its diameter and length [m]."""
-    title, size = "attachment bar of the warps", round_size(thick)
+    title = "attachment bar of the warps"
     held = "lies half in its slot, where the first turn of the warps keeps it"
-    return Part(ATTACHMENT_BAR, title, "steel bar", size, bar(thick, wide), BRIGHT, fixing=held)
+    return Part(ATTACHMENT_BAR, title, "steel bar", bar(thick, wide), BRIGHT, fixing=held)
 
 
 def on_cylinder(cylinder: Cylinder, tube: Part, params: WarpTensionParams) -> tuple[Occurrence, ...]:

@@ -25,7 +25,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm, round_size, turn
+from ilmek.units import format_quantity, mm, turn
 
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
@@ -96,7 +96,7 @@ def _bodies(
     far, inside = params.span / 2 + params.stub, params.span / 2 - _spigot(cylinder)[1]
     left, right = _side(z=inside, flipped=True), placement(z=inside)
     shape = _end_shape(params, cylinder)
-    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, "", STUB)
+    end = _made(f"{name}-end", f"shaft end of the {name} cylinder", "turned part", shape, STUB)
     ends = (
         (*_driven_end(cylinder, shape, right), Occurrence(end, (left,)))
         if driven
@@ -144,7 +144,7 @@ def _driven_end(cylinder: Cylinder, shape: Turned, position: Placement) -> tuple
     """The shaft end that goes on into the reducer, and its key."""
     name, keyed, outer = cylinder.name, cylinder.driven_end, float(np.max(shape.profile.outline.points.real))
     grooved = Sum((Placed(shape), Placed(catalogue.keyed_journal(keyed), (placement(z=outer),))))
-    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, "", STUB)
+    driven = _made(f"{name}-driven-end", f"driven shaft end of the {name} cylinder", "turned part", grooved, STUB)
     own = part_id(f"{name}-key"), f"key of the {name} cylinder"
     return Occurrence(driven, (position,)), catalogue.keys(*own, keyed, position.after(placement(z=outer)))
 
@@ -172,9 +172,9 @@ def _shells(design: WarpTensionDesign) -> tuple[Part, Part, Part]:
     """The tubes of upper and lower cylinder, which are alike [thesis 3.1], and of the spacer."""
     steel = replace(MATERIALS["structural steel"], density=design.params.density)
     upper, lower, spacer = cylinders(design)
-    plain = _made("cylinder", "cylinder", "steel tube", upper.shape, _size(upper), steel)
+    plain = _made("cylinder", "cylinder", "steel tube", upper.shape, steel)
     plain = replace(plain, throat=max(upper.throat, lower.throat))
-    slotted = _made("spacer", "spacer cylinder", "steel tube", spacer.shape, _size(spacer), steel)
+    slotted = _made("spacer", "spacer cylinder", "steel tube", spacer.shape, steel)
     return plain, plain, replace(slotted, throat=spacer.throat)
 
 
@@ -223,11 +223,11 @@ def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
     rim_of_shaft = min(FLANGE, params.crank_shaft / 2)
     shaft = stepped((CRANK_SHAFT, params.crank_shaft - rim_of_shaft), (face, rim_of_shaft))
     handle = bar(HANDLE_SIZE, HANDLE)
-    turned = _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, round_size(CRANK_SHAFT), STUB)
+    turned = _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, STUB)
     return (
         replace(turned, fixing="on the input shaft of its reducer, with the key of that"),
-        _made("hand-wheel", "hand wheel of a cylinder", "laser-cut part", wheel, round_size(2 * rim), steel),
-        _made("handle", "handle of a hand wheel", "turned part", handle, round_size(HANDLE_SIZE), steel),
+        _made("hand-wheel", "hand wheel of a cylinder", "laser-cut part", wheel, steel),
+        _made("handle", "handle of a hand wheel", "turned part", handle, steel),
     )
 
 
@@ -237,10 +237,8 @@ def _side(*, z: float, flipped: bool) -> Placement:
     return placement(about=(1.0, 0.0, 0.0), angle=math.pi).after(own) if flipped else own
 
 
-def _made(  # noqa: PLR0917
-    name: str, title: str, process: str, shape: Shape, size: str, material: Material
-) -> Part:
-    return Part(part_id(name), title, process, size, shape, material)
+def _made(name: str, title: str, process: str, shape: Shape, material: Material) -> Part:
+    return Part(part_id(name), title, process, shape, material)
 
 
 def _size(cylinder: Cylinder) -> str:

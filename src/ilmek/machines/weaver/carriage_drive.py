@@ -152,7 +152,7 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
         aside,
     )
     axle = Part(
-        part_id("roller-axle"), "axle of such a roller", "pin or bush", "", bar(AXLE, drive.high - drive.low), STEEL
+        part_id("roller-axle"), "axle of such a roller", "pin or bush", bar(AXLE, drive.high - drive.low), STEEL
     )
     yield Occurrence(axle, aside)
     about_pulley = _belt(
@@ -268,7 +268,5 @@ def _upright_pair(about: Placement, height: float, aside: float) -> tuple[Placem
     return tuple(_upright(about.after(placement(x)), height) for x in (-aside, aside))
 
 
-def _made(
-    name: str, title: str, shape: Shape, *positions: Placement, size: str = "", notes: tuple[str, ...] = ()
-) -> Occurrence:
-    return Occurrence(Part(name, title, "machined link", size, shape, ALUMINIUM, notes=notes), positions)
+def _made(name: str, title: str, shape: Shape, *positions: Placement, notes: tuple[str, ...] = ()) -> Occurrence:
+    return Occurrence(Part(name, title, "machined link", shape, ALUMINIUM, notes=notes), positions)

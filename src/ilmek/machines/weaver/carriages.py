@@ -64,7 +64,7 @@ from ilmek.part.tree import Occurrence
 from ilmek.part.twisted import TwistedBar
 from ilmek.plane.contours import circle, polygon
 from ilmek.sentences import Sentence
-from ilmek.units import in_mm, mm
+from ilmek.units import mm
 
 ROD, COLLAR = 5 * mm, 4 * mm
 """Diameter of the carriages' rods, and length of their collars [m]; assumed by this project, as all sizes here."""
@@ -226,7 +226,6 @@ def _screw(weaver: Weaver, name: str, hand: int) -> Occurrence:
         screw_id(name),
         f"{'left' if hand < 0 else 'right'} side gripper's twisted bar",
         "machined link",
-        f"square {in_mm(SCREW)}",
         TwistedBar(SCREW, stations, (0.0, 0.0, -hand * by.turn, -hand * by.turn)),
         STEEL,
         joins=(SIDE_GRIPPER,),
@@ -376,8 +375,8 @@ def _several(part: Part, places: tuple[complex, ...], depth: float) -> Occurrenc
 
 def _plate(name: str, title: str, section: Profile, thickness: float) -> Part:
     """A plate of aluminium."""
-    return Part(part_id(name), title, "machined link", in_mm(thickness), Prism(section, thickness), ALUMINIUM)
+    return Part(part_id(name), title, "machined link", Prism(section, thickness), ALUMINIUM)
 
 
 def _made(name: str, title: str, shape: Shape) -> Part:
-    return Part(part_id(name), title, "pin or bush", "", shape, STEEL)
+    return Part(part_id(name), title, "pin or bush", shape, STEEL)

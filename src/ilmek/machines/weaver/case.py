@@ -27,7 +27,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, box, rectangle
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour, Hole
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 ALUMINIUM = MATERIALS["aluminium alloy"]
 
@@ -58,13 +58,13 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
         return
     shape = weaver.shape
     low, high = shape.body, shape.body + shape.size
-    face = _made(FACE, "face of the head with the tools' guides", _face(weaver), thick)
+    face = _made(FACE, "face of the head with the tools' guides", _face(weaver))
     yield Occurrence(face, (placement(z=low.real),))
     flat = box(stack_width(weaver.params), thick, shape.size.real - thick)
     heights = [low.imag + thick / 2, high.imag - thick / 2]
-    across = _made(CROSS_PLATE, "plate across the head", flat, thick)
+    across = _made(CROSS_PLATE, "plate across the head", flat)
     if weaver.params.with_arms and weaver.params.arms.servo_depth > 0:
-        over = _made(TOP_PLATE, "plate over the head", _bored(weaver, thick), thick)
+        over = _made(TOP_PLATE, "plate over the head", _bored(weaver, thick))
         yield Occurrence(over, (_level(heights.pop()),))
     yield Occurrence(across, tuple(placement(y=y, z=low.real + thick) for y in heights))
     wide = case_width(weaver.params)
@@ -77,7 +77,7 @@ def closing_parts(weaver: Weaver) -> Iterator[Occurrence]:
         Placed(box(wide, up, flange), (placement(y=(RAIL_AXIS + up) / 2),)),
         Placed(box(wide, RAIL_AXIS, end), (placement(z=long - end),)),
     )
-    bracket = _made(BRACKET, "bracket of the head on its carriage", Sum(members), wall)
+    bracket = _made(BRACKET, "bracket of the head on its carriage", Sum(members))
     yield Occurrence(bracket, (placement(y=shape.rail, z=high.real),))
 
 
@@ -193,5 +193,5 @@ def apart(guides: Sequence[GuideHole]) -> tuple[GuideHole, ...]:
     return tuple(kept)
 
 
-def _made(name: str, title: str, shape: Shape, thick: float) -> Part:
-    return Part(name, title, "machined link", f"{format_quantity(thick, 'mm')} thick", shape, ALUMINIUM)
+def _made(name: str, title: str, shape: Shape) -> Part:
+    return Part(name, title, "machined link", shape, ALUMINIUM)

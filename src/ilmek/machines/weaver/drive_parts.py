@@ -91,7 +91,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
         title = "angle reducer of a head"
         geared = catalogue.reducer(part_id("reducer"), title, servo.reducer, motor, output=output)
         yield Occurrence(geared, (placement(middle, low, at.real).after(UPRIGHT),))
-    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed)
+    part = catalogue.motor(MOTOR, "motor of a head", motor, drive.torque_max, weaver.cyclogram.speed, rear=True)
     yield Occurrence(part, (placement(middle, low if servo else low + long, at.real).after(UPRIGHT),))
     on_output = placement(begin - catalogue.BESIDE, at.imag, at.real).after(ALONG_WIDTH)
     bore, hub = keyed_bore(OUTPUT / 2, key.keyway.width, key.keyway.in_hub, key.number), hub_diameter(OUTPUT)
@@ -102,7 +102,7 @@ def cam_drive(weaver: Weaver) -> Iterator[Occurrence]:
     yield _belt(weaver, at, begin)
     left = -case_width(weaver.params) / 2
     plate = box(middle + face / 2 - left, long, MOTOR_PLATE)
-    carrier = Part(part_id("motor-plate"), "plate of the motor", "machined link", in_mm(MOTOR_PLATE), plate, ALUMINIUM)
+    carrier = Part(part_id("motor-plate"), "plate of the motor", "machined link", plate, ALUMINIUM)
     yield Occurrence(carrier, (placement((left + middle + face / 2) / 2, at.imag, (shape.body + shape.size).real),))
 
 
@@ -127,7 +127,7 @@ def _belt(weaver: Weaver, at: complex, begin: float) -> Occurrence:
     shape = Prism(Profile(outer, (inner,)), weaver.belt.width)
     teeth = f"{round(length / PROFILE.pitch)} teeth"
     bought = Bought(PROFILE.name, PROFILE.mass * weaver.belt.width * length, length=length, data=f"{size}, {teeth}")
-    part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", size, shape, purchase=bought)
+    part = Part(CAM_BELT, "belt of the cam shaft", "belt and pulleys", shape, purchase=bought, size=size)
     return Occurrence(part, (placement(begin + weaver.belt.width, axis.imag, axis.real).after(IN_SIDE_VIEW),))
 
 

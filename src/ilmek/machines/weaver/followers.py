@@ -34,7 +34,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.report import Contour
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import mm, turn
 
 FOLLOWER_GUIDE, CAM_ROLLER, ROLLER_PIN = part_id("follower-guide"), part_id("cam-roller"), part_id("roller-pin")
 LEVER_PIN = part_id("lever-pin")
@@ -105,7 +105,7 @@ def _follower(weaver: Weaver, cam: LoadedPlateCam) -> tuple[Occurrence, ...]:
 def lever_pin(weaver: Weaver) -> Part:
     """The pin of a follower or a drawbar in the slot of its lever, across both cheeks."""
     title = "pin of a lever of the head"
-    return Part(LEVER_PIN, title, "pin or bush", round_size(PIN), bar(PIN, weaver.params.cam_thickness), PIN_STEEL)
+    return Part(LEVER_PIN, title, "pin or bush", bar(PIN, weaver.params.cam_thickness), PIN_STEEL)
 
 
 @lru_cache(maxsize=8)
@@ -115,8 +115,8 @@ def _roller(weaver: Weaver) -> tuple[Part, Part]:
     radius, long = params.roller_radius, params.cam_thickness + 2 * fork_beside(params)
     ring = tube(2 * radius, radius - pin / 2, roller_width(params))
     return (
-        Part(CAM_ROLLER, "roller of a cam", "pin or bush", round_size(2 * radius), ring, ROLLER),
-        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", round_size(pin), bar(pin, long), PIN_STEEL),
+        Part(CAM_ROLLER, "roller of a cam", "pin or bush", ring, ROLLER),
+        Part(ROLLER_PIN, "pin of a roller of a cam", "pin or bush", bar(pin, long), PIN_STEEL),
     )
 
 
@@ -135,9 +135,8 @@ def guide(weaver: Weaver) -> Occurrence:
     corners = [complex(0.0, -wide / 2), complex(-deep, -wide / 2), complex(-deep, wide / 2), complex(0.0, wide / 2)]
     for low, high in ends:
         corners += [complex(0.0, -low), complex(-half, -low), complex(-half, -high), complex(0.0, -high)]
-    size = f"{in_mm(GUIDE)} thick"
     section = Profile(polygon(np.array(corners)[::-1]))
-    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", size, Prism(section, GUIDE), ALUMINIUM)
+    part = Part(FOLLOWER_GUIDE, "guide of the followers", "machined link", Prism(section, GUIDE), ALUMINIUM)
     front = placement(0.0, shape.axis.imag + shape.guide, shape.axis.real).after(_LYING)
     return Occurrence(part, (front, front.after(placement(z=GUIDE, about=(0.0, 1.0, 0.0), angle=turn / 2))))
 
@@ -170,8 +169,8 @@ def _fork(weaver: Weaver, cam: LoadedPlateCam) -> Part:
         Placed(cheeks, (placement(z=-beside), placement(z=thick + beside - fork))),
         Placed(laps, (placement(z=-beside), placement(z=thick))),
     )
-    title, size = f"follower of the {cam.name}", in_mm(upper)
-    return Part(follower_id(cam.name), title, "machined link", size, Sum((body, *sides, *ends)), FOLLOWER_STEEL)
+    title = f"follower of the {cam.name}"
+    return Part(follower_id(cam.name), title, "machined link", Sum((body, *sides, *ends)), FOLLOWER_STEEL)
 
 
 def _upper(weaver: Weaver, cam: LoadedPlateCam, half: float) -> tuple[float, tuple[Placed, ...]]:

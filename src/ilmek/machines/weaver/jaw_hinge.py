@@ -17,7 +17,6 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, box
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.units import in_mm
 
 
 @record
@@ -53,7 +52,7 @@ class JawHinge:
 
     def pin(self, name: str, title: str) -> Part:
         """The pin, from z = 0."""
-        return Part(name, title, "pin or bush", in_mm(self.radius), bar(self.radius, self.thick), STEEL)
+        return Part(name, title, "pin or bush", bar(self.radius, self.thick), STEEL)
 
     def _eye(self, end: float) -> Profile:
         """Round about the pin, straight to where it is on its jaw or gripper."""

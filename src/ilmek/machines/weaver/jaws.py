@@ -47,7 +47,7 @@ from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Contour
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import mm, turn
 
 ROCKER, AXLE, ROLLER, FACE, ARM, TIP = 12 * mm, 3 * mm, 9 * mm, 5 * mm, 2.4 * mm, 1.2 * mm
 """Arm of a rocker to its collar, diameters of its axle and its roller, width of this, thickness of its arms, and half
@@ -198,13 +198,13 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
     near, name = side + towards * FACE / 2, "side" if by.track == SIDE_GRASP else "centre"
     left, right = min(near, *(rod - 2 * ARM for rod in rods)), max(near, *(rod + 2 * ARM for rod in rods))
     title = f"axle of the {name} jaws' rocker"
-    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", in_mm(right - left), bar(AXLE, right - left), STEEL)
+    axle = Part(part_id(f"{name}-axle"), title, "pin or bush", bar(AXLE, right - left), STEEL)
     yield Occurrence(axle, (placement(z=-right),))
     hole = (circle(0j, AXLE / 2),)
     eye = circle(complex(-arm), PIN / 2)
     level = Prism(Profile(hull_of_circles(EYE, 0.8 * ROLLER / 2, complex(-arm)), (*hole, eye)), ARM)
     title = f"roller's arm of the {name} jaws"
-    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", in_mm(arm), level, STEEL)
+    roller_arm = Part(part_id(f"{name}-roller-arm"), title, "machined link", level, STEEL)
     yield Occurrence(roller_arm, (placement(z=-max(near, near + towards * ARM)),))
     yield Occurrence(_ROLLER_PART, (placement(-arm, 0.0, -side - (FACE - side_play(FACE)) / 2),), turning=True)
     head = placement(
@@ -215,7 +215,7 @@ def _rocker_parts(weaver: Weaver, by: Rocker) -> Iterator[Occurrence]:
         long = _length(rod, by)
         shape = Prism(Profile(hull_of_circles(EYE, TIP, 1j * long), hole), ARM)
         title = f"collar's arm {number + 1} of the {name} jaws"
-        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", in_mm(long), shape, STEEL)
+        part = Part(part_id(f"{name}-arm-{number + 1}"), title, "machined link", shape, STEEL)
         yield Occurrence(part, (placement(z=-rod.real - ARM / 2),))
 
 
@@ -223,7 +223,6 @@ _ROLLER_PART = Part(
     part_id("jaw-roller"),
     "roller of the jaws",
     "pin or bush",
-    in_mm(ROLLER),
     tube(ROLLER, (ROLLER - PIN) / 2, FACE - side_play(FACE)),
     STEEL,
 )
@@ -231,7 +230,6 @@ _PIN_PART = Part(
     part_id("jaw-roller-pin"),
     "pin of the jaws' roller",
     "turned part",
-    round_size(PIN_HEAD),
     stepped((PIN_HEAD, HEAD), (PIN, FACE + ARM)),
     STEEL,
 )
@@ -261,12 +259,12 @@ def _collar_parts(weaver: Weaver, track: str) -> tuple[Part, Part, Part]:
     ring = Sum((flanges, Placed(Prism(hub, GROOVE), (placement(z=WALL),))))
     begin = weaver.tool_bodies.tip(LEFT) if side else weaver.tool_bodies.tip(CENTRE) + JAW
     diameter, long = wire_of(params), rocker(weaver, track).axle.real + HUB / 2 - begin
-    collar = Part(part_id(f"{kind}-collar"), f"collar of the {kind} jaws", "turned part", in_mm(FLANGE), ring, STEEL)
+    collar = Part(part_id(f"{kind}-collar"), f"collar of the {kind} jaws", "turned part", ring, STEEL)
     title, shape = f"wire of the {kind} jaws", bar(diameter, long)
-    wire = Part(wire_id(track), title, "pin or bush", round_size(diameter), shape, STEEL)
+    wire = Part(wire_id(track), title, "pin or bush", shape, STEEL)
     title, shape = f"peg of the {kind} jaws' wire", bar(diameter - PLAY, (params.finger - diameter) / 2)
     joins = collar.id, wire.id
-    peg = Part(part_id(f"{kind}-peg"), title, "pin or bush", "", shape, STEEL, joins=joins, throat=BRAZED)
+    peg = Part(part_id(f"{kind}-peg"), title, "pin or bush", shape, STEEL, joins=joins, throat=BRAZED)
     return collar, peg, wire
 
 
@@ -345,8 +343,8 @@ def _finger(weaver: Weaver, name: str) -> RigidBody | None:
 @lru_cache(maxsize=8)
 def _finger_part(weaver: Weaver, side: bool) -> Part:
     kind, shape = "side" if side else "centre", _hinge(weaver, side).finger
-    title, size = f"finger of the {kind} jaws", in_mm(weaver.params.finger)
-    return Part(part_id(f"{kind}-finger"), title, "machined link", size, shape, STEEL)
+    title = f"finger of the {kind} jaws"
+    return Part(part_id(f"{kind}-finger"), title, "machined link", shape, STEEL)
 
 
 def jaw_springs(weaver: Weaver, track: str) -> tuple[Occurrence, ...]:

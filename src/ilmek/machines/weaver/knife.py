@@ -41,7 +41,7 @@ from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import polygon
 from ilmek.report import Check, at_least, at_most
 from ilmek.sentences import Sentence
-from ilmek.units import deg, format_quantity, in_mm, mm, turn
+from ilmek.units import deg, format_quantity, mm, turn
 
 KNIFE, EYE, GUIDE, ECCENTRIC, CUTTER_MOTOR = (
     part_id("knife"),
@@ -111,12 +111,12 @@ def knife_stands(weaver: Weaver) -> Iterator[Occurrence]:
     """The eye in the face, the guides on it, the motor behind it."""
     eye, front, wall = eye_at(weaver), weaver.shape.body.real, _wall(weaver)
     outer = eye_diameter(weaver)
-    bush = Part(EYE, "eye of the pile yarn", "pin or bush", in_mm(outer), tube(outer, WALL, wall), STEEL)
+    bush = Part(EYE, "eye of the pile yarn", "pin or bush", tube(outer, WALL, wall), STEEL)
     yield Occurrence(bush, (placement(eye.real, eye.imag, front),))
     axis, (half, low, high) = shaft_at(weaver), _outline(weaver)
     strip = Placed(box(STRIP, high - low, BLADE + LIP), (placement(half + STRIP / 2),))
     lip = Placed(box(LIP, high - low, LIP), (placement(half - LIP / 2),))
-    guide = Part(GUIDE, "guide of the knife", "machined link", in_mm(high - low), Sum((strip, lip)), STEEL)
+    guide = Part(GUIDE, "guide of the knife", "machined link", Sum((strip, lip)), STEEL)
     middle = (low + high) / 2
     positions = tuple(
         placement(axis.real, middle, front - BLADE - LIP, about=(0.0, 0.0, 1.0), angle=angle)
@@ -148,11 +148,9 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 
 
 def _eccentric(weaver: Weaver) -> Part:
-    params, size = weaver.params, f"eccentricity {in_mm(eccentricity(weaver.params.yarn))}"
+    params = weaver.params
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-    return Part(
-        ECCENTRIC, "eccentric of the cutter", "turned part", size, shape, STEEL, notes=(Sentence("sheet.bonded"),)
-    )
+    return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=(Sentence("sheet.bonded"),))
 
 
 def _blade(weaver: Weaver) -> Part:
@@ -161,10 +159,9 @@ def _blade(weaver: Weaver) -> Part:
     wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
-    size = f"{in_mm(2 * half)} x {in_mm(high - low)} x {in_mm(BLADE)}"
     note = Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg"))
     shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
-    return Part(KNIFE, "knife", "machined link", size, shape, STEEL, notes=(note,))
+    return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=(note,))
 
 
 EDGE_ANGLE = 25 * deg

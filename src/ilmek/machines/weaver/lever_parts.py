@@ -19,7 +19,7 @@ from ilmek.part.shapes import Placed, Prism, bar, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, strip
 from ilmek.report import Contour
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 LEVER_STRESS = (STEEL.fatigue or 0.0) / 2
 """Allowed stress of a lever [Pa]: the fatigue limit over a safety of 2, assumed by this project."""
@@ -42,7 +42,7 @@ def lever_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         angle = float(lever.turned(float(cam.motion.s[0])))
         rest = at.after(placement(about=(0.0, 0.0, 1.0), angle=angle))
         shape = Prism(_section(lever), thick)
-        part = Part(lever_id(track), f"lever of the {track}", "machined link", f"ratio {lever.ratio:.3g}", shape, STEEL)
+        part = Part(lever_id(track), f"lever of the {track}", "machined link", shape, STEEL)
         yield RigidBody(lever_id(track), (Occurrence(part),), parent, Joint(JointKind.PIN), (rest,))
 
 
@@ -78,8 +78,7 @@ def axles(weaver: Weaver) -> Iterator[Occurrence]:
         name, title = (
             ("sley-axle", "axle of the sley's lever") if straight else ("crank-axle", "axle of the bell cranks")
         )
-        size = f"{round_size(LEVER_AXLE)}, {in_mm(long)}"
-        part = Part(part_id(name), title, "pin or bush", size, bar(LEVER_AXLE, long), STEEL)
+        part = Part(part_id(name), title, "pin or bush", bar(LEVER_AXLE, long), STEEL)
         yield Occurrence(part, (placement(-inner, lever.pivot.imag, lever.pivot.real).after(ALONG_WIDTH),))
 
 

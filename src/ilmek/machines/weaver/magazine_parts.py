@@ -26,7 +26,7 @@ from ilmek.part.shapes import Prism, bar, box, rectangle, shape_box, stepped, tu
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.sentences import Sentence
-from ilmek.units import in_mm, mm, round_size, turn
+from ilmek.units import mm, turn
 
 TUBE_CARRIER, TUBE_AXLE, TUBE_FLAG = part_id("tube-carrier"), part_id("tube-axle"), part_id("tube-flag")
 INDEX_SENSOR, INDEX_STAND = part_id("index-sensor"), part_id("index-stand")
@@ -68,20 +68,19 @@ def magazine_parts(weaver: Weaver) -> Iterator[Occurrence]:
     )
     yield Occurrence(part, positions)
     kind = "drum" if magazine.kind == DRUM else "slide"
-    plate, size = magazine.carrier, f"{in_mm(CARRIER)} thick"
+    plate = magazine.carrier
     flange = shape.magazine.imag - CARRIER - AXLE
     axle, spigot = _axle(weaver, kind, low - CARRIER - flange - OVER_MOTOR)
     begin, end = shape_box(axle.shape)[1][0] if axle.shape else 0.0, _index_at(weaver)
     if spigot > 0:  # pressed into the drum
         section = plate.section
         plate = replace(plate, section=Profile(section.outline, (*section.holes, circle(0j, spigot / 2))))
-    carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", size, plate, ALUMINIUM)
+    carrier = Part(TUBE_CARRIER, f"{kind} of the yarn tubes", "machined link", plate, ALUMINIUM)
     lying = UPRIGHT.after(placement(about=(0.0, 0.0, 1.0), angle=turn / 4))
     yield Occurrence(carrier, (placement(0.0, low - CARRIER, depth).after(lying),))
     yield Occurrence(axle, (placement(0.0, flange + OVER_MOTOR, depth).after(UPRIGHT),))
     strip = box(FLAG[0], FLAG[1], abs(end) + INDUCTIVE.size[0] / 2 - begin)
-    size = f"{in_mm(FLAG[1])} thick"
-    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", size, strip, STEEL, joins=(TUBE_AXLE,))
+    flag = Part(TUBE_FLAG, f"flag of the {kind}", "laser-cut part", strip, STEEL, joins=(TUBE_AXLE,))
     under = placement(0.0, low - CARRIER - FLAG[1] / 2, depth, about=(0.0, 1.0, 0.0), angle=turn / 4 - cmath.phase(end))
     yield Occurrence(flag, (under.after(placement(z=begin)),))
 
@@ -99,7 +98,7 @@ def _axle(weaver: Weaver, kind: str, length: float) -> tuple[Part, float]:
         spigot = 0.0
     steps = (outer, length), *(((spigot, CARRIER),) if spigot > 0 else ())
     shape, notes = (stepped(*steps), ()) if beside else (bored(bore, *steps), (Sentence("sheet.bonded"),))
-    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", round_size(outer), shape, STEEL, notes=notes), spigot
+    return Part(TUBE_AXLE, f"axle of the {kind}", "turned part", shape, STEEL, notes=notes), spigot
 
 
 def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
@@ -112,9 +111,9 @@ def index_sensor(weaver: Weaver) -> Iterator[Occurrence]:
     yield Occurrence(sensor, (placement(at.real, begin, depth).after(UPRIGHT),))
     deep, wide = _stand_sides(weaver, at)
     block = Profile(rectangle(deep, wide), (circle(0j, side / 2),))
-    high, size = begin + CLAMPED - foot, f"{in_mm(wide)} x {in_mm(deep)}"
+    high = begin + CLAMPED - foot
     title = "stand of the tubes' index"
-    stand = Part(INDEX_STAND, title, "machined link", size, Prism(block, high), ALUMINIUM)
+    stand = Part(INDEX_STAND, title, "machined link", Prism(block, high), ALUMINIUM)
     yield Occurrence(stand, (placement(at.real, foot, depth).after(UPRIGHT),))
 
 

@@ -30,7 +30,7 @@ from ilmek.part.shapes import Placed, Prism, Sum, bar, rectangle, tube
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle, polygon
 from ilmek.sentences import Sentence
-from ilmek.units import deg, format_quantity, in_mm, mm, round_size, turn
+from ilmek.units import deg, in_mm, mm, turn
 
 BEARING_LIFE = 1e8
 """Turns of the cam shaft, one for each knot, that its bearings must last; assumed by this project."""
@@ -95,10 +95,9 @@ def case_parts(weaver: Weaver) -> Iterator[Occurrence]:
         hole = () if row is None or row.outer >= deep else (circle(0j, row.outer / 2),)
         eye = circle(guide_at(weaver) - shape.axis, STEM / 2)
         outline = polygon(rectangle(deep, high).points + middle)
-        size = f"{format_quantity(deep / mm, '')} x {format_quantity(high / mm, '')} x {in_mm(plate)}"
         section = Profile(outline, (*hole, eye))
         title, notes = "side plate of the head", (Sentence("sheet.bearing-bonded"),)
-        part = Part(SIDE_PLATE, title, "machined link", size, Prism(section, plate), ALUMINIUM, notes=notes)
+        part = Part(SIDE_PLATE, title, "machined link", Prism(section, plate), ALUMINIUM, notes=notes)
         yield Occurrence(part, (placement(z=-wide / 2), placement(z=wide / 2 - plate)))
     if row is not None:
         part = replace(catalogue.bearing(BEARING, "bearing of the head's cam shaft", row), fixing=RETENTION)
@@ -120,9 +119,9 @@ def shaft_parts(weaver: Weaver) -> Iterator[Occurrence]:
     journal, seats = wide / 2 - half, (placement(z=-wide / 2), placement(z=half))
     journals = (Placed(bar(params.shaft, journal), seats),) if journal > 0 else ()
     middle = Placed(grooved(params.shaft, 2 * half), (placement(z=-half),))
-    title, size = "cam shaft of the head", round_size(params.shaft)
+    title = "cam shaft of the head"
     notes = (Sentence("sheet.rings-bonded"),)
-    yield Occurrence(Part(SHAFT, title, "turned part", size, Sum((*journals, middle)), STEEL, notes=notes))
+    yield Occurrence(Part(SHAFT, title, "turned part", Sum((*journals, middle)), STEEL, notes=notes))
     begins = [-station(weaver, cam.name) - params.cam_thickness / 2 for cam in weaver.cams]
     for cam, z in zip(weaver.cams, begins, strict=True):
         yield Occurrence(_cam(weaver, cam), (placement(z=z),))
@@ -147,8 +146,8 @@ def _spacers(shaft: float, places: list[tuple[float, float]], half: float) -> It
     outer = hub_diameter(shaft)
     for number, ((length, keyed), starts) in enumerate(sorted(gaps.items()), 1):
         ring = keyed_ring(shaft, length) if keyed else tube(outer, (outer - shaft) / 2, length)
-        title, size = f"spacer of the cam shaft, {in_mm(length)}", round_size(outer)
-        part = Part(part_id(f"spacer-{number}"), title, "turned part", size, ring, STEEL)
+        title = f"spacer of the cam shaft, {in_mm(length)}"
+        part = Part(part_id(f"spacer-{number}"), title, "turned part", ring, STEEL)
         yield Occurrence(part, tuple(placement(z=z) for z in starts))
 
 
@@ -156,17 +155,16 @@ def _cam(weaver: Weaver, cam: LoadedPlateCam) -> Part:
     """The plate of a cam; its room where no surface can guide the roller."""
     shaft, thickness = weaver.params.shaft, cam.thickness
     bore = round_bore(shaft)
-    title, size = f"cam of the {cam.name}", f"{cam.actuator}, lift {in_mm(cam.lift)}"
+    title = f"cam of the {cam.name}"
     if cam.undercut:
         room = Prism(drilled(circle(0j, cam.radius), bore.holes, bore.cutouts), thickness)
-        return Part(cam_id(cam.name), title, "cam plate", size, room, STEEL, envelope=True)
+        return Part(cam_id(cam.name), title, "cam plate", room, STEEL, envelope=True)
     surface, pitch = cam.trace.surface[::-1], cam.trace.pitch[::-1]
     holes = drilled(polygon(surface[:-1]), bore.holes, bore.cutouts).holes
     return Part(
         cam_id(cam.name),
         title,
         "cam plate",
-        size,
         Prism(Profile(polygon(surface[:-1]), holes, smooth=True), thickness),
         STEEL,
         paths={PITCH: pitch, CUTTER: pitch},

@@ -41,7 +41,7 @@ from ilmek.part.tree import GROUND, Axis, Joint, JointKind, Occurrence, RigidBod
 from ilmek.plane.contours import bounds, circle, polygon, rounded_hull
 from ilmek.records import record
 from ilmek.report import Hole
-from ilmek.units import format_quantity, in_mm, mm, round_size
+from ilmek.units import mm
 
 HANDLER_SHAFT = 4 * mm
 """Diameter of the pile handler's shaft [m]; assumed by this project."""
@@ -152,7 +152,7 @@ class ToolBodies:
             members.append(_moved(hinge.lugs, placement(root + hinge.root, half / 2)))
             pin = hinge.pin(part_id("side-finger-pin"), "pin of the side jaws' finger")
             pinned = (Occurrence(pin, (placement(root + hinge.root, half / 2, -half),)),)
-        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)), round_size(by.finger))
+        part = _made(SIDE_GRIPPER, "side gripper", "machined link", Sum(tuple(members)))
         own = Occurrence(replace(part, machined=True)), *pinned
         joint = Joint(JointKind.PIN, _ALONG)
 
@@ -168,12 +168,11 @@ class ToolBodies:
         """A square tube to its carriage, at its tip half as thick, beside the jaws' finger."""
         by, origin = self.grippers, self.frame(CENTRE)
         length, hinge = self.tools.centre_carriage + CENTRE_BAR - self.tip(CENTRE), JawHinge(JAW, by.finger)
-        size = f"square {in_mm(by.finger)}"
         section = Profile(rectangle(by.finger, by.finger), (circle(0j, wire_of(self.params) / 2),))
         rod = Placed(Prism(section, length - JAW), (placement(z=JAW),))
         jaw = Placed(box(by.finger, by.finger / 2, JAW), (placement(0.0, -by.finger / 4),))
         at = placement(0.0, by.finger / 4, JAW - hinge.root).after(TO_THE_TIP)
-        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))), size)
+        part = _made(CENTRE_GRIPPER, "centre gripper", "steel bar", Sum((rod, jaw, _moved(hinge.lugs, at))))
         pin = hinge.pin(part_id("centre-finger-pin"), "pin of the centre jaws' finger")
         parts = Occurrence(part), Occurrence(pin, (at.after(placement(z=-by.finger / 2)),))
         return CENTRE_MOTION, _sliding(CENTRE, parts, parent, origin)
@@ -187,7 +186,6 @@ class ToolBodies:
             "plate of the warp opener",
             "machined link",
             Sum((Placed(Prism(self._comb(low), thick)), *self._feet(low))),
-            f"{in_mm(thick)} thick",
         )
         over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
         return (Occurrence(part, (_upright(low), over)),)
@@ -242,9 +240,8 @@ class ToolBodies:
         inner = outer - SLEY_ARM
         end = deep + SLEY_LUG[1]
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, end - 1j * inner, end - 1j * outer, -1j * outer]
-        size = f"{format_quantity((half + outer) / mm, '')} x {in_mm(tool.size.imag)}"
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
-        part = _made(SLEY_BAR, "sley", "machined link", shape, size)
+        part = _made(SLEY_BAR, "sley", "machined link", shape)
         return Occurrence(part, (_upright(tool),))
 
     @property
@@ -272,7 +269,7 @@ class ToolBodies:
 
 @lru_cache(maxsize=8)
 def _handler_part(shape: Prism) -> Part:
-    return _made(PILE_HANDLER, "pile handler", "machined link", shape, f"{in_mm(shape.length)} thick")
+    return _made(PILE_HANDLER, "pile handler", "machined link", shape)
 
 
 def _moved(member: Placed, position: Placement) -> Placed:
@@ -316,5 +313,5 @@ def _upright(tool: HeadTool, shift: float = 0.0) -> Placement:
     return placement(0.0, tool.corner.imag, tool.corner.real + shift).after(UPRIGHT)
 
 
-def _made(name: str, title: str, process: str, shape: Shape, size: str) -> Part:
-    return Part(name, title, process, size, shape, STEEL)
+def _made(name: str, title: str, process: str, shape: Shape) -> Part:
+    return Part(name, title, process, shape, STEEL)

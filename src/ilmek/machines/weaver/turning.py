@@ -124,10 +124,9 @@ def rack(weaver: Weaver) -> Part:
             complex(-1.25 * module, at + root),
         ]
     corners.append(complex(-1.25 * module, teeth * pitch))
-    size = f"module {format_quantity(module / mm, '')}, {teeth} teeth"
     shape = Prism(Profile(polygon(np.array(corners))), FACE)
     note = Sentence("sheet.rack", **_tooth_data(gear, teeth), pitch=in_mm(pitch), tip=in_mm(STUB * module))
-    return Part(RACK, "rack of the pile handler", "machined link", size, shape, STEEL, notes=(note,))
+    return Part(RACK, "rack of the pile handler", "machined link", shape, STEEL, notes=(note,))
 
 
 def _tooth_data(gear: Gear, teeth: int) -> dict[str, str]:
@@ -157,19 +156,16 @@ def turning_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
     begin, end = points - BEFORE - HANDLER_ARM[1], wheel_at(weaver) + FACE
     arm = weaver.tool_bodies.handler_arm
     shape, seats = bar(SHAFT, end - begin), {"journal": Seat(placement(z=end - begin - FACE), SHAFT)}
-    shaft = Part(
-        HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", in_mm(SHAFT), shape, SHAFT_STEEL, seats=seats
-    )
+    shaft = Part(HANDLER_SHAFT, "shaft of the pile handler", "pin or bush", shape, SHAFT_STEEL, seats=seats)
     parts = (Occurrence(arm, (placement(z=begin),)), Occurrence(shaft, (placement(z=begin),)))
     positions = (placement(at.real, at.imag, 0.0, about=about, angle=home(weaver)),)
     yield RigidBody(HANDLER_BODY, parts, parent, Joint(JointKind.PIN, about), positions)
     outer, wide = CLUTCH
     wheel = Profile(polygon(outline(_gear(weaver))), (circle(0j, outer / 2),))
-    size = f"module {format_quantity(_gear(weaver).module / mm, '')}, {TEETH} teeth"
     gear = _gear(weaver)
     radii = {"tip": in_mm(2 * gear.tip_radius), "root": in_mm(2 * gear.root_radius)}
     note = Sentence("sheet.gear", **_tooth_data(gear, TEETH), **radii)
-    pinion = Part(PINION, "pinion of the pile handler", "machined link", size, Prism(wheel, FACE), STEEL, notes=(note,))
+    pinion = Part(PINION, "pinion of the pile handler", "machined link", Prism(wheel, FACE), STEEL, notes=(note,))
     clutch = Part(
         FREEWHEEL,
         "freewheel of the pile handler",

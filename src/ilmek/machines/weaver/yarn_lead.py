@@ -77,5 +77,5 @@ def yarn_guide(weaver: Weaver) -> Iterator[Occurrence]:
     )
     ring = Sum((Placed(tube(outer, wall, long)), stem))
     _, (x, y, z), _ = yarn_line(weaver)
-    part = Part(YARN_GUIDE, "guide of the pile yarn", "pin or bush", "", ring, STEEL)
+    part = Part(YARN_GUIDE, "guide of the pile yarn", "pin or bush", ring, STEEL)
     yield Occurrence(part, (placement(float(x), float(y), float(z) - long / 2),))

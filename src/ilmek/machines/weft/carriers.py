@@ -41,15 +41,13 @@ _ARC = 49
 
 def shuttle_wood(params: WeftParams, size: BobbinSize) -> Part:
     """A shuttle for a bobbin, without what is fitted to it: its back is flat, its noses have pockets for magnets."""
-    deep, long, end = size.diameter + 2 * params.wall, size.length, size.length / 2 + params.wall
+    deep, long = size.diameter + 2 * params.wall, size.length
     bay = Placed(Prism(_bay(deep, size), long), (along(-long / 2),))
     wall = Prism(Profile(rectangle(deep, deep), (circle(0j, _eye(size) / 2),)), params.wall)
     ends = Placed(wall, (along(-long / 2 - params.wall), along(long / 2)))
     noses = [*_nose(params, size, 1), *_nose(params, size, -1)] if params.nose > 0 else []
     wood = replace(BEECH, density=params.shuttle_density)
-    length = format_quantity(2 * (end + params.nose), "mm")
-    text = f"{length} long, for a bobbin of {size.name}"
-    return Part(SHUTTLE_WOOD, "shuttle", "machined link", text, Sum((bay, ends, *noses)), wood)
+    return Part(SHUTTLE_WOOD, "shuttle", "machined link", Sum((bay, ends, *noses)), wood)
 
 
 def _bay(deep: float, size: BobbinSize) -> Profile:
@@ -85,7 +83,8 @@ def magnet(params: WeftParams, size: BobbinSize) -> Part:
     """A magnet of a shuttle or of its carriage: along the width, up, and from z = 0 to the front."""
     long, tall, thick = magnet_sides(params, size.diameter)
     text = " x ".join(format_quantity(side / mm, "") for side in (long, tall, thick)) + " mm"
-    return Part(MAGNET, "magnet", "magnet", text, box(long, tall, thick), NEODYMIUM, fixing="bonded in its pocket")
+    shape = box(long, tall, thick)
+    return Part(MAGNET, "magnet", "magnet", shape, NEODYMIUM, size=text, fixing="bonded in its pocket")
 
 
 def magnet_positions(params: WeftParams, size: BobbinSize) -> tuple[float, float]:
@@ -107,7 +106,9 @@ def fittings(params: WeftParams, size: BobbinSize) -> tuple[Part, tuple[Placemen
 def bobbin(params: WeftParams, size: BobbinSize) -> Part:
     """The core of a bobbin, along z from 0."""
     core = bar(size.core, size.length)
-    return Part(BOBBIN, "bobbin of weft", "yarn tube", size.name, core, replace(BEECH, density=params.shuttle_density))
+    return Part(
+        BOBBIN, "bobbin of weft", "yarn tube", core, replace(BEECH, density=params.shuttle_density), size=size.name
+    )
 
 
 def hollow(tube: tuple[float, float, float]) -> Profile:
@@ -118,9 +119,8 @@ def hollow(tube: tuple[float, float, float]) -> Profile:
 
 def rapier_tube(params: WeftParams, tube: tuple[float, float, float], length: float) -> Part:
     """The tube of a rapier, along z from 0: height, width, wall and length [m]."""
-    text = " x ".join(format_quantity(size, "mm", 3) for size in tube)
     made = replace(CARBON, density=params.rapier_density, modulus=params.rapier_modulus)
-    return Part(RAPIER_TUBE, "rapier", "carbon tube", f"tube {text}", Prism(hollow(tube), length), made)
+    return Part(RAPIER_TUBE, "rapier", "carbon tube", Prism(hollow(tube), length), made)
 
 
 def along(x: float) -> Placement:

@@ -75,9 +75,8 @@ def carriage(params: WeftParams, made: Shuttle, row: LinearGuide) -> Part:
         tuple(polygon(rectangle(long, tall).points + x) for x in magnet_positions(params, made.bobbin)) if long else ()
     )
     back, front = Prism(Profile(outline), BACK), Prism(Profile(outline, pockets), thick)
-    text = f"{format_quantity(length, 'mm', 4)} long"
     shape = Sum((Placed(back), Placed(front, (placement(z=BACK),))))
-    return Part(CARRIAGE, "carriage of the shuttle", "machined link", text, shape, ALUMINIUM)
+    return Part(CARRIAGE, "carriage of the shuttle", "machined link", shape, ALUMINIUM)
 
 
 def carriage_length(params: WeftParams, shuttle: Shuttle) -> float:
@@ -170,12 +169,10 @@ class ShuttleGuide:
         """Bar, rail, belt with pulleys, and the drive."""
         below = max(self.axis.pulley_radius + self._thick + PLAY, *(catalogue.face_of(one) / 2 for one in self._driven))
         tall = below - self.pulley[1]
-        section = f"{format_quantity(tall / mm, '', 3)} x {format_quantity(BAR, 'mm')}"
         plate = Part(
             part_id("bar"),
             "bar of the shuttle's axis",
             "steel bar",
-            section,
             box(2 * self.reach, tall, BAR),
             STEEL,
             machined=True,
@@ -201,7 +198,7 @@ class ShuttleGuide:
         bought = Bought(f"belt {axis.belt.belt.name}", mass, length=axis.belt.length)
         text = f"belt {axis.belt.belt.name}, {text}"
         shape = Sum((strands, pulleys))
-        return Part(AXIS, "belt and pulleys of the shuttle", "belt and pulleys", text, shape, purchase=bought)
+        return Part(AXIS, "belt and pulleys of the shuttle", "belt and pulleys", shape, purchase=bought, size=text)
 
     @property
     def _driven(self) -> tuple[Part, ...]:
@@ -225,7 +222,7 @@ class ShuttleGuide:
         tall, deep, shift = 2 * self.pitch + BOX_WALL, made.depth + play, self.pitch / 2
         cells = tuple(polygon(rectangle(made.width + play, deep).points + side * shift) for side in (-1, 1))
         section, length = Profile(rectangle(tall, deep + 2 * BOX_WALL), cells), made.length + 2 * BOX_END
-        return Part(BOX, "box of the shuttles", "welded frame", "two cells", Prism(section, length), ALUMINIUM)
+        return Part(BOX, "box of the shuttles", "welded frame", Prism(section, length), ALUMINIUM)
 
     def box_position(self, side: int) -> Placement:
         """Where a box lies with its lower cell in line, its floor under the shuttle: at the right (side 1) or left."""
@@ -236,7 +233,7 @@ class ShuttleGuide:
         """The slides of the boxes on the bar, beside their outer ends, with their steppers above."""
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
-        data = f"slide {in_mm(SLIDE)} wide, belt drive, adapter for its motor"
+        data = f"slide {in_mm(SLIDE)} wide, belt drive, {catalogue.stroke_of(self.pitch)}, adapter for its motor"
         shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch, data=data)
         slide = bought_part(part_id("box-slide"), "slide of a box", "linear axis", shape, bought)
         x = self.box_end + SLIDE / 2

@@ -129,7 +129,7 @@ class RapierSide:
         axis, carrier, (left, right) = self.axis, self.params.carrier, self.run
         wide = "wider than any of the table" if math.isnan(axis.width) else f"{format_quantity(axis.width, 'mm')} wide"
         size = f"belt {axis.belt.belt.name}, {wide}"
-        data = f"{in_mm(SIDE)} wide, {size}"
+        data = f"{in_mm(SIDE)} wide, {size}, {catalogue.stroke_of(self.passage.stroke)}"
         room, bought = box(SIDE, SIDE, right - left), Bought("belt axis", length=self.passage.stroke, data=data)
         belt = bought_part(AXIS, f"axis of the {carrier}", "linear axis", room, bought, size=size)
         yield Occurrence(belt, (placement(0.0, self.low + SIDE / 2).after(along(left)),))
@@ -167,7 +167,7 @@ class RapierSide:
         row = smallest_motor(AUXILIARY, 0.0, STEPPER)
         motor = catalogue.motor(EDGE_MOTOR, "motor of selector, cutters and needles", row, AUXILIARY, 0.0)
         long = max(2 * self.params.turn, SIDE)
-        data = f"slide {in_mm(SIDE)} wide, rack drive"
+        data = f"slide {in_mm(SIDE)} wide, rack drive, {catalogue.stroke_of(2 * self.params.turn)}"
         room, bought = box(SIDE, SIDE, long), Bought("slide", length=2 * self.params.turn, data=data)
         name, title = part_id("needle-axis"), "axis of a tuck-in needle"
         slide = bought_part(name, title, "linear axis", room, bought, size="along the edge")
@@ -177,7 +177,7 @@ class RapierSide:
         console = Prism(Profile(rectangle(face, face), (circle(0j, BOSS / 2),)), PLATE)
         steel = MATERIALS["structural steel"]
         name, title = part_id("edge-console"), "console of a motor at an edge"
-        carrier = Part(name, title, LASER_CUT, in_mm(PLATE), console, steel, joins=(EDGE_PLATE,))
+        carrier = Part(name, title, LASER_CUT, console, steel, joins=(EDGE_PLATE,))
         yield Occurrence(carrier, self._beside(*stations, high=under, depth=face))
         yield Occurrence(motor, self._beside(*stations, high=under, depth=face))
 
@@ -191,10 +191,9 @@ class RapierSide:
         low, high = self.low - SIDE, SIDE / 2
         wide = 3 * PITCH + SIDE
         title = "plate of the devices at an edge"
-        size = format_quantity(PLATE, "mm")
         shape = box(wide, high - low, PLATE)
         steel = MATERIALS["structural steel"]
-        part = Part(EDGE_PLATE, title, LASER_CUT, size, shape, steel, machined=True)
+        part = Part(EDGE_PLATE, title, LASER_CUT, shape, steel, machined=True)
         x = self.edge - SIDE / 2 + wide / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 

@@ -135,7 +135,7 @@ def drawn_plate(plate: Plate, machine: str, name: str) -> DrawnPart:
     material = next((row for row in MATERIALS.values() if plate.material in {row.name, row.designation}), None)
     part = plate.part if isinstance(plate.part, Part) else None
     if part is None and material is not None:
-        part = Part(f"{machine}/{name}", plate.title, FLAT[1], "", shape, material)
+        part = Part(f"{machine}/{name}", plate.title, FLAT[1], shape, material)
     size = size_of(part) if part is not None else ""
     if isinstance(solid, RoundSolid):
         size = Sentence("sheet.development", size=f"⌀{format_quantity(2 * solid.outer, 'mm')}")

@@ -26,7 +26,7 @@ def joined_part(data: Table) -> tuple[JsonObject, tuple[str, ...]]:
     joints, tables = _table(data, "joints"), _table(data, "bodies")
     given = {**data, "bodies": {GROUND: {}, **tables}, "joints": joints, "inputs": data.get("inputs", {})}
     if not all(
-        isinstance(table, dict) and isinstance(table.get("pin") or table.get("slide"), list)
+        isinstance(table, dict) and isinstance(table.get("pin") or table.get("slide") or table.get("slot"), list)
         for table in joints.values()
     ):
         return given, ()

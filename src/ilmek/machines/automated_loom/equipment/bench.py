@@ -121,7 +121,7 @@ def bench_parts(bench: Bench, low: float, over: float) -> Iterator[Occurrence]:
     beam = member("bench-beam", "beam of the bench", section, 2 * half)
     ends = (bench.front + section.side / 2, bench.rear - section.side / 2)
     yield Occurrence(beam, tuple(placement(-half, under - section.side / 2, z).after(ALONG_WIDTH) for z in ends))
-    board = Part(part_id("bench-board"), "board of the bench", "machined link", "", box(2 * half, thick, deep), BEECH)
+    board = Part(part_id("bench-board"), "board of the bench", "machined link", box(2 * half, thick, deep), BEECH)
     yield Occurrence(board, (placement(0.0, under + thick / 2, bench.front),))
     if bench.seat > FREE_FEET:
         rail = member("foot-board", "foot board of the bench", SECTION, 2 * half - 2 * side)

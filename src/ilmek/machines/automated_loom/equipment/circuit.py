@@ -1,9 +1,9 @@
-"""What stands in the cabinet on mounting rails at its side walls: supply, fuses, safety circuit, control, terminals.
+"""What stands in the cabinet on the mounting rails of its plate: supply, fuses, safety circuit, control, terminals.
 
 Fuses; supplies of 24 V and of 48 V, with what burns the energy of braking steppers [`power_plan`]; motion controller,
-safety relay, input modules, and the terminals of all that is outside [`terminals`]. The amplifiers of the axes stand on
-the rear wall [`standing_frame`], over the bar of the protective conductors; the rails stand before them. The door has
-the main switch, whose handle is outside, and a fan with its outlet where the walls do not pass the heat.
+safety relay, input modules, and the terminals of all that is outside [`terminals`]. The amplifiers of the axes stand
+over the rails [`cabinet`], the bar of the protective conductors is below them. The door has the main switch, whose
+handle is outside, and a fan with its outlet where the walls do not pass the heat.
 """
 
 import math
@@ -28,6 +28,7 @@ from ilmek.elements.field_devices import (
     CHANNELS,
     CONTROLLER,
     INPUTS,
+    MODE,
     OUTPUTS,
     RELAY,
     STRAIN_AMPLIFIER,
@@ -35,22 +36,29 @@ from ilmek.elements.field_devices import (
     FieldDevice,
 )
 from ilmek.elements.wiring import section_for
+from ilmek.machines.automated_loom.cabinet import (
+    AMPLIFIER,
+    CONTROL,
+    PLATE,
+    RAIL_ENDS,
+    RAIL_PITCH,
+    WALL,
+    CabinetSize,
+)
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.devices import TO_THE_LEFT, TO_THE_RIGHT, device, placed
+from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, device, placed
 from ilmek.machines.automated_loom.equipment.power_plan import PowerPlan, power_plan
 from ilmek.machines.automated_loom.equipment.site import LoomSite
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.equipment.terminals import module_inputs, terminal_levels, terminals
 from ilmek.machines.automated_loom.frame import part_id
-from ilmek.machines.automated_loom.standing_frame import RAIL_ENDS, WALL
 from ilmek.part.extents import Extent
 from ilmek.part.part import Bought, Part, bought_part
-from ilmek.part.placement import Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.shapes import Placed, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.records import record
 from ilmek.report import Check, at_most
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import format_quantity, mm
 
 RAIL, RAIL_MASS = (35 * mm, 7.5 * mm), 0.32
 """Width and height of a mounting rail [m], and its mass per length [kg/m]: EN 60715, TH 35-7.5."""
@@ -60,11 +68,6 @@ CIRCUIT = part_id("circuit")
 
 GROWING = frozenset(("terminal", "fuse", "power supply"))
 """Processes of what there is more of, or larger, for more motors and signals."""
-
-_DEPTH = 125 * mm
-"""Of the cabinet before its amplifiers [m]."""
-
-_QUARTER = placement(about=(0.0, 0.0, 1.0), angle=turn / 4)
 
 
 @record
@@ -88,10 +91,23 @@ class CabinetCircuit:
     fan: FieldDevice | None
     carried: float
 
-    @property
-    def length(self) -> float:
-        """Of the rails that all devices take [m]."""
-        return math.fsum(own.number * own.row.size[0] for own in self.devices)
+    def rows(self, long: float) -> tuple[tuple[RailDevice, tuple[tuple[int, float], ...]], ...]:
+        """The row and the middle on it [m] of each piece of the devices, one beside the other on rails of a length."""
+        row, end = 0, 0.0
+        seated = []
+        for own in self.devices:
+            wide, seats = own.row.size[0], []
+            for _ in range(own.number):
+                if end + wide > long:
+                    row, end = row + 1, 0.0
+                seats.append((row, end + wide / 2))
+                end += wide
+            seated.append((own, tuple(seats)))
+        return tuple(seated)
+
+    def used(self, long: float) -> int:
+        """Rails of a length that all devices take."""
+        return 1 + max(row for _, seats in self.rows(long) for row, _ in seats)
 
 
 def _on_rail(name: str, title: str, row: FieldDevice, number: int, power: float = 0.0) -> RailDevice:
@@ -104,7 +120,8 @@ def circuit_of(site: LoomSite, tree: Tree) -> CabinetCircuit:
     numbers = {part.id: number for part, number in tree.occurrences()}
     control = [
         _on_rail(signals.CONTROLLER, "motion controller", CONTROLLER, 1),
-        _on_rail(signals.RELAY, "safety relay", RELAY, 1),
+        _on_rail(signals.RELAY, "relay of the emergency stops", RELAY, 1),
+        _on_rail(signals.GUARD_RELAY, "relay of the guards", RELAY, 1),
     ]
     if signals.TENSION in numbers:
         control.append(_on_rail(signals.STRAIN_AMPLIFIER, "amplifier of the strain", STRAIN_AMPLIFIER, 1))
@@ -153,19 +170,21 @@ def _surface(cabinet: Extent) -> float:
 
 
 def circuit(site: LoomSite, tree: Tree) -> Tree:
-    """The devices on both side walls of the cabinet; those of the right one only where the left one is full."""
+    """The devices on the rails of the mounting plate, row by row; those that have no room, past the lowest rail."""
     (control,) = site.near.of(CONTROL)
-    made, long, base = circuit_of(site, tree), rail_length(control), float(control.low[1]) + RAIL_ENDS
-    stands, height, left = list[Occurrence](), base, True
-    for own in made.devices:
-        wide, positions = own.row.size[0], []
-        for _ in range(own.number):
-            if left and height + wide > base + long:
-                height, left = base, False
-            positions.append(_on_wall(control, height + wide / 2, left=left))
-            height += wide
+    made, size = circuit_of(site, tree), cabinet_size(site)
+    left, front = float(control.low[0]) + WALL + RAIL_ENDS, float(control.high[2]) - WALL - PLATE
+    heights = [float(control.low[1]) + height for height in size.rails]
+    stands, rows = list[Occurrence](), 1
+    for own, seats in made.rows(size.rail):
+        positions = []
+        for row, middle in seats:
+            y = heights[row] if row < len(heights) else heights[-1] - (row - len(heights) + 1) * RAIL_PITCH
+            positions.append(placed(left + middle, y, front - RAIL[1], TO_THE_BACK))
+            rows = max(rows, row + 1)
         stands.append(Occurrence(own.part, tuple(positions)))
-    stands.append(Occurrence(_rail(long), tuple(_rails(control, both=not left))))
+    rails = (placement(left, y, front - RAIL[1] / 2).after(ALONG_WIDTH) for y in heights[:rows])
+    stands.append(Occurrence(_rail(size.rail), tuple(rails)))
     return Tree(
         (RigidBody(CIRCUIT, (*stands, *_in_the_door(control, made), _protection(control, made), _door(control))),)
     )
@@ -179,7 +198,7 @@ _ASIDE, _FROM_END, _GRIP = (-90 * mm, 130 * mm), 200 * mm, 40 * mm
 
 
 def _in_the_door(control: Extent, made: CabinetCircuit) -> Iterator[Occurrence]:
-    """The main switch, its handle before the door, and the fan with its outlet above it."""
+    """The main switch, its handle before the door, the mode selector over it, and the fan with its outlet."""
     middle, rear = float(control.low[0] + control.high[0]) / 2, float(control.low[2])
     low, high = float(control.low[1]), float(control.high[1])
     if made.fan is not None:
@@ -188,16 +207,20 @@ def _in_the_door(control: Extent, made: CabinetCircuit) -> Iterator[Occurrence]:
         outlet = device(signals.OUTLET, "outlet of the air in the door", outlet_of(made.fan))
         yield Occurrence(fan, (placement(x, low + _FROM_END, rear),))
         yield Occurrence(outlet, (placement(x, high - _FROM_END, rear),))
-    switch = device(signals.SWITCH, "main switch", main_switch(made.plan.main_fuse))
+    switch_row = main_switch(made.plan.main_fuse)
+    switch = device(signals.SWITCH, "main switch", switch_row)
     assert switch.shape is not None
     grip = Placed(box(_GRIP, _GRIP, _GRIP), (placement(z=-WALL - _GRIP),))
     shaped = replace(switch, shape=Sum((Placed(switch.shape), grip)))
-    yield Occurrence(shaped, (placement(middle + _ASIDE[1], low + HANDLE * (high - low), rear),))
+    x, y = middle + _ASIDE[1], low + HANDLE * (high - low)
+    yield Occurrence(shaped, (placement(x, y, rear),))
+    mode = device(signals.MODE, "mode selector", MODE)
+    yield Occurrence(mode, (placement(x, y + (switch_row.size[1] + MODE.size[1]) / 2 + _GRIP, rear),))
 
 
 def _protection(control: Extent, made: CabinetCircuit) -> Occurrence:
-    """The bar of the protective conductors at the foot of the rear wall: of the mains, of each amplifier and supply, of
-    the cabinet, its door and the frame.
+    """The bar of the protective conductors at the foot of the plate: of the mains, of each amplifier and supply, of the
+    cabinet, its door and the frame.
     """
     plan = made.plan
     fed = *(motor.number for motor in plan.motors), *(source.number for source in plan.sources)
@@ -205,7 +228,7 @@ def _protection(control: Extent, made: CabinetCircuit) -> Occurrence:
     bar = device(signals.PROTECTIVE_BAR, "bar of the protective conductors", protective_bar(clamps))
     x, y = float(control.low[0] + control.high[0]) / 2, float(control.low[1]) + _BAR_HEIGHT
     deep = protective_bar(clamps).size[2]
-    return Occurrence(bar, (placement(x, y, float(control.high[2]) - WALL - deep),))
+    return Occurrence(bar, (placement(x, y, float(control.high[2]) - WALL - PLATE - deep),))
 
 
 _BONDED, _BAR_HEIGHT = 4, 30 * mm
@@ -222,9 +245,11 @@ def _door(control: Extent) -> Occurrence:
     return Occurrence(door, (placement(x, y, float(control.low[2]) - WALL),))
 
 
-def rail_length(control: Extent) -> float:
-    """Length of a mounting rail in the cabinet [m]."""
-    return float(control.high[1] - control.low[1]) - 2 * RAIL_ENDS
+def cabinet_size(site: LoomSite) -> CabinetSize:
+    """The size of the cabinet that a loom has."""
+    (control,) = site.near.of(CONTROL)
+    wide, high, _ = (control.high - control.low).tolist()
+    return CabinetSize(wide, high, sum(own.part == AMPLIFIER for own in site.near.extents))
 
 
 def _rail(long: float) -> Part:
@@ -232,41 +257,15 @@ def _rail(long: float) -> Part:
     bought = Bought("TH 35-7.5", RAIL_MASS * long, length=long)
     size = format_quantity(long, "mm")
     shape = box(*RAIL, long)
-    fixing = "screws M6 through its slots into the nuts of the cabinet's wall, EN 60715"
+    fixing = "screws M6 through its slots into the threads of the plate, EN 60715"
     return bought_part(
         part_id("mounting-rail"), "mounting rail", "mounting rail", shape, bought, size=size, fixing=fixing
     )
 
 
-def _rails(control: Extent, *, both: bool) -> Iterator[Placement]:
-    """Upright, on the side walls."""
-    turned = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4).after(_QUARTER)
-    base, middle = float(control.low[1]) + RAIL_ENDS, _depth(control)
-    for x in (_wall(control, left=True), _wall(control, left=False))[: 1 + both]:
-        towards = RAIL[1] / 2 if x < (control.low[0] + control.high[0]) / 2 else -RAIL[1] / 2
-        yield placed(x + towards, base, middle, turned)
-
-
-def _wall(control: Extent, *, left: bool) -> float:
-    """Inner face of a side wall [m]."""
-    return float(control.low[0]) + WALL if left else float(control.high[0]) - WALL
-
-
-def _depth(control: Extent) -> float:
-    """Middle of the devices' heights in the cabinet's depth [m]."""
-    return float(control.low[2]) + _DEPTH / 2
-
-
-def _on_wall(control: Extent, y: float, *, left: bool) -> Placement:
-    """A device on a rail: its depth into the cabinet, its width upwards."""
-    x = _wall(control, left=left) + (RAIL[1] if left else -RAIL[1])
-    return placed(x, y, _depth(control), (TO_THE_RIGHT if left else TO_THE_LEFT).after(_QUARTER))
-
-
 def circuit_checks(site: LoomSite, tree: Tree) -> tuple[Check, ...]:
-    """Room for all devices on two rails, load of the supplies, heat of the cabinet; tree as in `circuit`."""
-    (control,) = site.near.of(CONTROL)
-    made = circuit_of(site, tree)
+    """Room for all devices on the rails, load of the supplies, heat of the cabinet; tree as in `circuit`."""
+    made, size = circuit_of(site, tree), cabinet_size(site)
     plan, fewer = made.plan, "set fewer heads or weavers"
     loads = (
         at_most(
@@ -281,10 +280,10 @@ def circuit_checks(site: LoomSite, tree: Tree) -> tuple[Check, ...]:
     return (
         at_most(
             "control: length of its mounting rails",
-            made.length,
-            2 * rail_length(control),
+            made.used(size.rail) * size.rail,
+            len(size.rails) * size.rail,
             "mm",
-            f"two side walls of the cabinet; {len(site.signals)} signals",
+            f"whole rails below {size.axes} amplifiers; {len(site.signals)} signals",
         ).with_cure(fewer, signals.TERMINAL, part_id("mounting-rail")),
         *loads,
         at_most(

@@ -67,7 +67,7 @@ def _creel(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
     """Frame, pegs with their packages, brakes with their sensors."""
     yield from _stand(loom, creel)
     long = creel.size
-    peg = Part(PEG, "peg of a package", WELDED, "", tube(_PEG.outer, _PEG.wall, long), STEEL)
+    peg = Part(PEG, "peg of a package", WELDED, tube(_PEG.outer, _PEG.wall, long), STEEL)
     winding = tube(creel.size, (creel.size - CORE) / 2, long)
     full = format_quantity(loom.params.package_mass, "kg", 3)
     package = bought_part(
@@ -140,10 +140,10 @@ def _duct(loom: LoomDesign, creel: Creel) -> Iterator[Occurrence]:
         DUCT,
         "duct of yarns and cables",
         "duct",
-        size,
         shape,
         purchase=Bought("slotted duct", mass, length=long),
         fixing="two screws M6 with washers through the slots of its base into the plate of its stand",
+        size=size,
     )
     yield Occurrence(duct, (placement(left, height, depth).after(ACROSS),))
     clear, middle = height - side / 2 - float(foot.high[1]), float(foot.low[0] + foot.high[0]) / 2

@@ -5,7 +5,7 @@ from ilmek.elements.field_devices import FieldDevice
 from ilmek.part.part import LASER_CUT, Bought, HolePattern, Part, bought_part
 from ilmek.part.placement import Placement, placement
 from ilmek.part.shapes import box
-from ilmek.units import in_mm, mm, turn
+from ilmek.units import mm, turn
 
 
 def device(name: str, title: str, row: FieldDevice, power: float = 0.0) -> Part:
@@ -24,7 +24,7 @@ def device_plate(name: str, title: str, row: FieldDevice) -> Part:
     wide, high, long = row.size
     if not any(own.end for own in row.holes):
         high = long
-    return Part(name, title, LASER_CUT, in_mm(DEVICE_PLATE), box(wide, high, DEVICE_PLATE), STEEL)
+    return Part(name, title, LASER_CUT, box(wide, high, DEVICE_PLATE), STEEL)
 
 
 TO_THE_BACK = placement(about=(0.0, 1.0, 0.0), angle=turn / 2)

@@ -70,7 +70,7 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
     toe = Placed(box(ARM[0], *TOE), (placement(y=-(ARM[1] + TOE[0]) / 2),))
     foot = Placed(box(ARM[0], FOOT, ARM[1]), (placement(y=(ARM[1] + FOOT) / 2, z=top - end - ARM[1]),))
     bent = Sum((Placed(box(*ARM, top - end)), toe, foot))
-    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", "", bent, STEEL)
+    arm = Part(CHAIN_ARM, "arm of a head to its energy chain", "laser-cut part", bent, STEEL)
     # Where the head's drive reaches so far to the front, to the left of it.
     beside = drive_front(loom.weaver) > shape.front - ARM[1] - ROOM
     x = min(0.0, reducer_left(loom.weaver) - ROOM - ARM[0] / 2) if beside else 0.0

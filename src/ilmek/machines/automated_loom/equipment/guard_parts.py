@@ -15,6 +15,7 @@ from ilmek.arrays import FloatArray
 from ilmek.elements.columns import STEEL, HollowSquare
 from ilmek.elements.field_devices import ACTUATOR, BUTTON, ENABLING, GRID, INTERLOCK, STOP
 from ilmek.machines.automated_loom.anchors import anchored
+from ilmek.machines.automated_loom.cabinet import CONTROL
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.devices import (
     DEVICE_PLATE,
@@ -41,7 +42,7 @@ from ilmek.machines.automated_loom.equipment.guards import (
     side_posts,
 )
 from ilmek.machines.automated_loom.equipment.site import LoomSite
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import GAP, Surroundings
 from ilmek.machines.automated_loom.frame import member, part_id
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
@@ -226,7 +227,7 @@ def _panel(  # noqa: PLR0917
     wide, tall = (format_quantity(side, "mm", 4) for side in sides)
     bought = Bought(f"welded mesh {WIRE / mm:g} mm, {how}", shape.volume * STEEL.density)
     size = f"{wide} x {tall}, mesh {format_quantity(MESH, 'mm')}"
-    return Part(name, title, "guard mesh", size, shape, purchase=bought, fixing=fixing)
+    return Part(name, title, "guard mesh", shape, purchase=bought, fixing=fixing, size=size)
 
 
 def _mesh(wide: float, tall: float) -> tuple[Placed, Placed]:

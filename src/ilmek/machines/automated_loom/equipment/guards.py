@@ -17,12 +17,13 @@ from itertools import pairwise
 
 from ilmek.elements.field_devices import ENCODER
 from ilmek.elements.safety_distances import FENCES, GRID_REACH, approach, least_fence, over_span, through
+from ilmek.machines.automated_loom.cabinet import CONTROL
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.sensors import ROW_MOTORS
 from ilmek.machines.automated_loom.equipment.site import LoomSite
 from ilmek.machines.automated_loom.equipment.station import station_of
 from ilmek.machines.automated_loom.equipment.stopping import StoppingTime
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL, GAP, Hazard, Surroundings
+from ilmek.machines.automated_loom.equipment.surroundings import GAP, Hazard, Surroundings
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.records import record
 from ilmek.report import Check, at_least, at_most
@@ -169,7 +170,7 @@ def guard_checks(site: LoomSite) -> tuple[Check, ...]:
             _approach(site),
             "mm",
             f"ISO 13855, 1.6 m/s: the {fence.stopping.axis} stand {stops} after it opens",
-        ).with_cure(_CURE, *((DOOR,) if site.heads else ()), device, signals.RELAY),
+        ).with_cure(_CURE, *((DOOR,) if site.heads else ()), device, signals.GUARD_RELAY),
         at_most("guards: height", fence.height, FENCES[-1], "m", "highest fence of ISO 13857, table 2").with_cure(
             "set a lower tension or a smaller lift", PANEL
         ),

@@ -24,7 +24,7 @@ from ilmek.part.profile import Profile
 from ilmek.part.shapes import Corner, Placed, Prism, Sum, bar, box, rectangle
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 LIFTING_EYES, EYE_BOLT = part_id("lifting-eyes"), part_id("eye-bolt")
 """Ids of the body and of the bolts."""
@@ -90,8 +90,7 @@ def _plate(row: EyeBolt, name: str, title: str, seats: tuple[tuple[Extent, Corne
     """The plate of a pair, as wide as what carries it."""
     side = float(seats[0][0].high[0] - seats[0][0].low[0])
     section = Profile(rectangle(side, side), (circle(0j, row.thread / 2),))
-    size = f"plate {format_quantity(row.length, 'mm')}"
-    plate = Part(part_id(name), title, "laser-cut part", size, Prism(section, row.length), STEEL, machined=True)
+    plate = Part(part_id(name), title, "laser-cut part", Prism(section, row.length), STEEL, machined=True)
     return Occurrence(plate, tuple(placement(x, y, z).after(UPRIGHT) for _, (x, y, z) in seats))
 
 

@@ -145,7 +145,7 @@ class PowerPlan:
     def heat(self) -> float:
         """Heat in the cabinet, all at their rated power [W]."""
         amplifiers = math.fsum(own.number * own.load.loss for own in self.motors)
-        control = CONTROLLER.power + RELAY.power
+        control = CONTROLLER.power + 2 * RELAY.power
         return amplifiers + control + math.fsum(own.load * (1 / own.row.efficiency - 1) for own in self.sources)
 
 
@@ -201,7 +201,7 @@ def group_of(name: str, process: str) -> str:
     """The group of a consumer of 24 V, by its id and process, which channels of the protector feed."""
     if process in COILS:
         return "coils"
-    if name == signals.RELAY or process in {"interlock", "light grid"}:
+    if name in signals.IN_CABINET or process in {"interlock", "light grid"}:
         return "safety"
     return "control" if name in _IN_CABINET else "sensors"
 

@@ -28,6 +28,7 @@ from ilmek.machines.weaver.parts import MOTOR as HEAD_MOTOR
 from ilmek.machines.weft.carriers import BOX_MOTOR
 from ilmek.machines.weft.carriers import MOTOR as WEFT_MOTOR
 from ilmek.machines.weft.rapier_tree import EDGE_MOTOR
+from ilmek.records import record
 
 STOP, RESET = part_id("emergency-stop"), part_id("reset-button")
 HANDS, GRID = part_id("hand-button"), part_id("light-grid")
@@ -40,6 +41,7 @@ STRAIN_AMPLIFIER, YARN_INPUTS = part_id("strain-amplifier"), part_id("yarn-input
 INPUTS, OUTPUTS, ANALOG_INPUTS = part_id("inputs"), part_id("outputs"), part_id("analog-inputs")
 OUTLET, PROTECTIVE_BAR, MAINS_TERMINAL = part_id("outlet-filter"), part_id("protective-bar"), part_id("mains-terminal")
 BENCH_STOP, ENABLING = part_id("bench-stop"), part_id("enabling-switch")
+GUARD_RELAY, MODE = part_id("guard-relay"), part_id("mode-selector")
 TENSION, RETREATED = part_id("tension-sensor"), part_id("retreat-sensor")
 HEAD_ANGLE, BEAT_ANGLE, SHED_ANGLE = part_id("head-encoder"), part_id("beat-encoder"), part_id("shed-encoder")
 WARP_STOP, WEFT_STOP, YARN_STOP = part_id("warp-stop-barrier"), part_id("weft-sensor"), part_id("yarn-sensor")
@@ -53,10 +55,40 @@ ENCODED: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )
 """Encoders, and the motors of which each is on the one that a loom has: its amplifier reads it."""
 
-READ: Mapping[str, int] = MappingProxyType({INDEX_SENSOR: 1, WEFT_STOP: 1, WARP_STOP: 2, RELAY: 1})
-"""What inputs in the cabinet read besides signals of the program, and the pieces that give one signal: sender and
-receiver of a barrier.
-"""
+
+@record
+class DeviceSignal:
+    """An input that the motion controller reads itself: variable, meaning, id of the device, module, pieces for one."""
+
+    name: str
+    meaning: str
+    part: str
+    module: str = INPUTS
+    share: int = 1
+
+    def elements(self, number: int) -> tuple[str, ...]:
+        """The variables of so many pieces of the device.
+
+        >>> DeviceSignal("WarpsWhole", "", "", share=2).elements(2), DeviceSignal("TubeIndex", "", "").elements(2)
+        (('WarpsWhole',), ('TubeIndex[0]', 'TubeIndex[1]'))
+        """
+        count = number // self.share
+        return (self.name,) if count == 1 else tuple(f"{self.name}[{index}]" for index in range(count))
+
+
+READ = (
+    DeviceSignal("TubeIndex", "the index of the yarn tubes is before its sensor", INDEX_SENSOR),
+    DeviceSignal("WeftPresent", "the weft is before its sensor", WEFT_STOP),
+    DeviceSignal("WarpsWhole", "no broken warp is in the light barrier", WARP_STOP, share=2),
+    DeviceSignal("StopsReady", "the relay of the emergency stops is closed", RELAY),
+    DeviceSignal("GuardsReady", "the relay of the guards is closed", GUARD_RELAY),
+    DeviceSignal("SettingMode", "the mode selector is at setting: axes may only jog", MODE),
+    DeviceSignal("YarnPresent", "the pile yarn is in its sensor", YARN_STOP, YARN_INPUTS),
+)
+"""What the motion controller reads besides signals of the program, and reports in the status of an order."""
+
+IN_CABINET = frozenset((RELAY, GUARD_RELAY, MODE))
+"""What is wired within the cabinet, one of each."""
 
 ANALOG = frozenset(("WarpTension",))
 """Signals of 0 ... 10 V."""
@@ -66,13 +98,13 @@ SWITCHED = (CLUTCH,)
 
 
 _KNOT = (HEAD_MOTOR, CUTTER_MOTOR, *SERVOS, CENTRE_MOTOR, SOLENOID)
-_TUBE = (COLOUR_MOTOR, TIER_MOTOR, INPUTS, INDEX_SENSOR)
+_TUBE = (COLOUR_MOTOR, TIER_MOTOR)
 _ROW = (SHEDDING_MOTOR, RETREAT_MOTOR, WEFT_MOTOR, BOX_MOTOR, EDGE_MOTOR)
 _BEAT = (CRANK_MOTOR, OUTPUTS, CLUTCH, SLIDE_MOTOR, HAMMER_MOTOR, CYLINDER_MOTOR)
 
 _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "EmergencyStop": (STOP, RELAY),
-    "DoorClosed": (INTERLOCK, RELAY),
+    "DoorClosed": (INTERLOCK, GUARD_RELAY),
     "WarpTensionKnown": (STRAIN_AMPLIFIER, TENSION, INPUTS),
     "WarpTension": (STRAIN_AMPLIFIER, TENSION, ANALOG_INPUTS),
     "GrippersOpen": (CONTROLLER, HEAD_ANGLE),
@@ -80,7 +112,7 @@ _BY_SIGNAL: dict[str, tuple[str, ...]] = {
     "BeaterBack": (CONTROLLER, BEAT_ANGLE),
     "ShedClosed": (CONTROLLER, SHED_ANGLE),
     "TieDone": (CONTROLLER,),
-    "TieStatus": (CONTROLLER, YARN_INPUTS, YARN_STOP),
+    "TieStatus": (CONTROLLER, INPUTS, INDEX_SENSOR, YARN_INPUTS, YARN_STOP),
     "EndDone": (CONTROLLER,),
     "EndStatus": (CONTROLLER, INPUTS, WEFT_STOP, WARP_STOP),
     "Halt": (CONTROLLER,),
@@ -130,7 +162,11 @@ def signals_of(heads: int, weavers: int = 0) -> tuple[Signal, ...]:
     stops = {"EmergencyStop": (STOP, BENCH_STOP, RELAY)}
     every = {**SIGNALS, **stops}.items()
     alike = ((name, parts) for name, parts in every if name not in PER_HEAD and name not in OF_HEADS)
-    return (*alike, *((f"{hands}[{index}]", (HANDS, RELAY)) for index in range(weavers)), (grid, (GRID, RELAY)))
+    return (
+        *alike,
+        *((f"{hands}[{index}]", (HANDS, GUARD_RELAY)) for index in range(weavers)),
+        (grid, (GRID, GUARD_RELAY)),
+    )
 
 
 def beat_signals(weavers: int) -> tuple[Signal, ...]:

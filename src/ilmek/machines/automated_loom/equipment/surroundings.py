@@ -7,8 +7,8 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.errors import LoomError
+from ilmek.machines.automated_loom.cabinet import CONTROL
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import part_id
 from ilmek.machines.automated_loom.in_space.machines import joined, machine_branches
 from ilmek.machines.automated_loom.in_space.maker import KNOT, ROW, half_width
 from ilmek.machines.weaver.tree import head_tree
@@ -19,9 +19,6 @@ from ilmek.part.shapes import Corner
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.records import record
 from ilmek.units import mm
-
-CONTROL = part_id("control")
-"""The cabinet of the control: the guards end at it."""
 
 GAP = 3 * mm
 """Room that is kept between what is added to a loom and its parts [m]; assumed by this project."""

@@ -59,7 +59,7 @@ class TerminalLevel:
 @record
 class ModuleInput:
     """An input of a module in the cabinet: id of its kind of module, index among all of these from 0; the signal of the
-    program, or "" of what the motion controller reads; id of the device and its piece, 0: all.
+    program, or that which the motion controller reads; id of the device and its piece, 0: all.
     """
 
     module: str
@@ -81,9 +81,10 @@ def module_inputs(own: tuple[Signal, ...], numbers: Mapping[str, int]) -> tuple[
         for name, parts in _wired(own, numbers)
     ]
     wired += [
-        (signals.INPUTS, "", part, piece)
-        for part, share in signals.READ.items()
-        for piece in range(1, (1 if part == signals.RELAY else numbers.get(part, 0)) + 1, share)
+        (own.module, name, own.part, index * own.share + 1)
+        for own in signals.READ
+        if own.module == signals.INPUTS
+        for index, name in enumerate(own.elements(1 if own.part in signals.IN_CABINET else numbers.get(own.part, 0)))
     ]
     used: dict[str, int] = {}
     inputs = []
@@ -125,7 +126,7 @@ def terminals(levels: tuple[TerminalLevel, ...]) -> int:
 def _wires(own: tuple[Signal, ...], tree: Tree, numbers: Mapping[str, int]) -> Iterator[tuple[str, str, str, int]]:
     """Strip, signal or potential, part, piece, in the order of the terminals."""
     for wire in module_inputs(own, numbers):
-        if wire.part not in {signals.RELAY, signals.STRAIN_AMPLIFIER}:
+        if wire.part not in {*signals.IN_CABINET, signals.STRAIN_AMPLIFIER}:
             yield "X1", wire.signal, wire.part, wire.piece
     fed = [own.id for own, _ in tree.occurrences() if consumption(own) and own.process not in COILS]
     for part in (*(own for own in fed if own not in _FED_BESIDES), *signals.SWITCHED):

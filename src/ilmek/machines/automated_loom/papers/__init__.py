@@ -5,6 +5,7 @@ from ilmek.machines.automated_loom.equipment.tree import whole_list
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.assembly_manual import assembly_manual
 from ilmek.machines.automated_loom.papers.braking import braking_checks
+from ilmek.machines.automated_loom.papers.chains import tolerance_paper
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
@@ -24,6 +25,7 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         electrical(loom, report),
         maintenance(loom, report),
         risks(loom, report),
+        tolerance_paper(loom),
     )
     tree = bolted(loom_tree(loom))
     checks = (*safety_checks(loom, report), *assembled, *braking_checks(loom), *making_checks(loom_tree(loom)))

@@ -10,10 +10,9 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from ilmek.elements.motor_loads import SOLENOID
-from ilmek.elements.motors import STEPPER
+from ilmek.machines.automated_loom.cabinet import CONTROL
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.equipment.terminals import TerminalLevel
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.on_rail import CHAIN
@@ -71,7 +70,7 @@ def cables(loom: LoomDesign) -> Iterator[Cable]:
         section = max(motor.section, LEAST_POWER)
         leads = _LEADS[load.phases]
         yield Cable(f"{amplifier}: {leads}", motor.sign, load.wires, section, load.kind != SOLENOID, far[name])
-        if load.kind not in {STEPPER, SOLENOID}:
+        if load.kind != SOLENOID:
             yield Cable(f"{amplifier}: X2", motor.sign, _FEEDBACK, LEAST_SIGNAL, True, far[name])
         if name in of_brakes:
             sign, part = of_brakes[name]

@@ -3,7 +3,7 @@
 Signs of devices: IEC 81346-2; symbols: IEC 60617. Positions in mm: x to the right, y up.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from ilmek.sentences import Sentence
 
 Mark = SheetLine | SheetText
 
-_PITCH, _BUS, _FUSE, _DRIVE, _MOTOR, _WORDS = 13.0, -16.0, -8.0, 18.0, 72.0, 79.0
+_PITCH, _BUS, _FUSE, _DRIVE, _MOTOR, _WORDS = 13.0, -16.0, -8.0, 28.0, 82.0, 89.0
 """Distance of two rows, and x of busbar, fuse, amplifier, motor, words [mm]."""
 
 
@@ -150,81 +150,151 @@ def _motor(row: MotorRow, height: float) -> Iterator[Mark]:
     yield _text(_WORDS + y - 3j, row.power, anchor="left")
 
 
-def safety_circuit(
-    guards: Sequence[tuple[str, int, str]],
-    setting: tuple[tuple[str, str], tuple[str, str]],
-    amplifiers: int,
-    halt: str,
-) -> Schematic:
-    """The two channels through all devices that stop the loom, the safety relay, and what it switches.
+@record
+class SafeSwitch:
+    """Devices of a kind with two channels: letter or sign, pieces, terminals."""
 
-    setting     sign and terminals of the enabling device, whose two contacts are in parallel with the guards while
-                these are open, and of the reset
-    guards      of each kind of device: its sign, pieces, and its terminals
-    amplifiers  pieces      halt  input of the motion controller
-    """
-    (enabling, enabled_at), (reset, reset_at) = setting
+    sign: str
+    number: int
+    terminals: str
 
-    def marks() -> Iterator[Mark]:
-        x = 0.0
-        for channel in (0, -16):
-            yield _text(channel * 1j + 2.5j, f"24 V, {'12'[channel < 0]}", anchor="left")
-            yield _line(channel * 1j, 12 + channel * 1j)
-        x = 12.0
-        for sign, number, terminal in guards:
-            shown = range(1, number + 1) if number <= _DRAWN else (1, 2, number)
-            for before, index in zip((0, *shown), shown, strict=False):
-                if index > before + 1:
-                    yield _text(x + 4 - 8.8j, "…", 4.0)
-                    yield from (_line(x + y, x + 8 + y, kind=LineKind.HIDDEN) for y in (0, -16j))
-                    x += 8
-                for y in (0, -16j):
-                    yield from _switch(x + y, f"{sign}{index}", closed=True)
-                    yield _line(x + 8 + y, x + 12 + y)
-                x += 12
-            yield _text(x - 12 - 24j, terminal)
-        yield _box(x - 22j, 30 + 30j)
-        yield _text(x + 15 - 6j, "K1", 3.0)
-        yield _text(x + 15 - 10j, Sentence("electric.relay"))
-        yield from (_text(x + 1 + y, words, 1.8, "left") for y, words in ((0.8j, "S11-S12"), (-15.2j, "S21-S22")))
-        yield _line(x + 15 - 22j, x + 15 - 28j)
-        yield from _switch(x + 7 - 28j, "", closed=False)
-        yield _line(x - 1 - 28j, x + 7 - 28j)
-        yield _text(x - 2 - 29j, Sentence("electric.reset", sign=reset), anchor="right")
-        yield _text(x - 2 - 32.5j, reset_at, 1.8, "right")
-        yield from _enabling(x, enabling)
-        yield _text(x / 2 + 4 - 54j, enabled_at)
-        yield from _outputs(x + 30, amplifiers, halt)
-
-    return _schematic("safety-circuit", Sentence("electric.safety"), marks())
+    @property
+    def shown(self) -> tuple[int, ...]:
+        """The pieces that are drawn: of many the first two and the last."""
+        return tuple(range(1, self.number + 1)) if self.number <= _DRAWN else (1, 2, self.number)
 
 
-def _enabling(x: float, sign: str) -> Iterator[Mark]:
-    """The enabling device before the relay at x: a contact of each channel, open at rest, and its own selector."""
-    for channel, (y, into) in enumerate(((-40j, 19), (-50j, 22)), 1):
-        yield _text(y + 2.5j, f"24 V, {channel}", anchor="left")
-        yield _line(y, x / 2 + y)
-        yield from _switch(x / 2 + y, f"{sign}.{channel}", closed=False)
-        yield _line(x / 2 + 8 + y, x + into + y, x + into - 22j)
-        yield _text(x + into - 0.8 + y + 0.8j, f"S{channel + 2}1-S{channel + 2}2", 1.8, "right")
+@record
+class SafeRelay:
+    """A safety relay: sign, the devices in series in both of its channels, input of its contact."""
+
+    sign: str
+    switches: Sequence[SafeSwitch]
+    halt: str
 
 
 _DRAWN = 4
 """Devices of a kind that are drawn; of more, the first two and the last."""
 
+_CHANNEL, _GUARDS, _RELAY_BOX = -30j, -74j, 30 + 46j
+"""The second channel from the first, those of the guards from those of the stops, size of a relay [mm]."""
 
-def _outputs(x: float, amplifiers: int, halt: str) -> Iterator[Mark]:
-    """What the relay switches: the halt of the controller at once, the torque of all amplifiers after that."""
-    for y, words in ((4j, "13-14"), (-6j, "37-38"), (-16j, "47-48")):
-        yield _text(x - 1 + y + 0.8j, words, 1.8, "right")
-        yield _line(x + y, x + 26 + y)
-    yield _text(x + 1 + 5.2j, Sentence("electric.halt"), 1.8, "left")
-    yield from (_text(x + 1 + y + 1.2j, f"STO {number}", 1.8, "left") for number, y in ((1, -6j), (2, -16j)))
-    yield _box(x + 26 + 0j, 34 + 8j)
-    yield _text(x + 43 + 4.6j, "A1")
-    yield _text(x + 43 + 1j, halt, 1.8)
-    yield _box(x + 26 - 20j, 34 + 17j)
-    yield _text(x + 43 - 9j, f"T1 … ({amplifiers} ×)")
-    yield _text(x + 43 - 13j, Sentence("electric.amplifiers"), 1.8)
-    yield _line(x + 43 - 20j, x + 43 - 25j, x - 5 - 25j, x - 5 - 22j, kind=LineKind.HIDDEN)
-    yield _text(x + 19 - 24j, Sentence("electric.feedback"), 1.8)
+
+def safety_circuit(
+    stops: SafeRelay, guards: SafeRelay, enabling: SafeSwitch, mode: SafeSwitch, reset: SafeSwitch, *, amplifiers: int
+) -> Schematic:
+    """Emergency stops on a relay of their own; guards, or the enabling device at setting, on the other; what they open.
+
+    The contacts of both relays are in series: an emergency stop acts at setting too, and the enabling device is beside
+    the guards alone. The mode selector takes the contacts of one or the other, and limits the speed at setting.
+    amplifiers  pieces
+    """
+
+    def marks() -> Iterator[Mark]:
+        end = 12.0 + 12 * max(
+            sum(len(own.shown) + (own.number > _DRAWN) for own in one.switches) for one in (stops, guards)
+        )
+        x = end + 26
+        for relay, origin in ((stops, 0j), (guards, _GUARDS)):
+            for channel in (0, 1):
+                y = origin + channel * _CHANNEL
+                yield _text(y + 2.5j, f"24 V, {channel + 1}", anchor="left")
+                reached = yield from _series(relay.switches, y, words=channel == 1)
+                into = x + y.imag * 1j
+                if relay is guards:
+                    yield from _modes(end, y, reached, f".{channel + 1}", (enabling, mode))
+                    yield _line(end + 22 + y, into)
+                else:
+                    yield _line(reached + y, into)
+            yield from _relay(x, origin, relay, reset)
+        yield from _outputs(x + _RELAY_BOX.real, stops, guards, amplifiers)
+        yield from _speed(x, mode)
+
+    return _schematic("safety-circuit", Sentence("electric.safety"), marks())
+
+
+def _series(switches: Sequence[SafeSwitch], y: complex, *, words: bool) -> Generator[Mark, None, float]:
+    """The contacts of a channel in series, with their terminals below; x of its end."""
+    yield _line(y, 12 + y)
+    x = 12.0
+    for row in switches:
+        begin = x
+        for before, index in zip((0, *row.shown), row.shown, strict=False):
+            if index > before + 1:
+                yield _text(x + 6 + y + 1.2j, "…", 4.0)
+                yield _line(x + y, x + 12 + y, kind=LineKind.HIDDEN)
+                x += 12
+            yield from _switch(x + y, f"{row.sign}{index}", closed=True)
+            yield _line(x + 8 + y, x + 12 + y)
+            x += 12
+        if words:
+            yield _text((begin + x) / 2 + y - 6j, row.terminals, 1.8)
+    return x
+
+
+def _modes(
+    end: float, y: complex, reached: float, channel: str, setting: tuple[SafeSwitch, SafeSwitch]
+) -> Iterator[Mark]:
+    """The selector in a channel: through the guards, or below them through the enabling device."""
+    (enabling, mode), low = setting, y - 15j
+    yield _line(reached + y, end + y)
+    yield from _switch(end + y, f"{mode.sign}{channel}", closed=True)
+    yield _line(end + 8 + y, end + 22 + y)
+    yield _text(low + 1.5j, f"24 V, {channel[1:]}", 1.8, "left")
+    yield _line(low, end - 20 + low)
+    yield from _switch(end - 20 + low, f"{enabling.sign}{channel}", closed=False)
+    yield _text(end - 16 + low - 3j, enabling.terminals, 1.8)
+    yield _line(end - 12 + low, end + low)
+    yield from _switch(end + low, f"{mode.sign}{channel}", closed=False)
+    yield _line(end + 8 + low, end + 18 + low, end + 18 + y)
+
+
+def _relay(x: float, origin: complex, relay: SafeRelay, reset: SafeSwitch) -> Iterator[Mark]:
+    """The box of a relay with its two inputs and its reset."""
+    yield _box(x + origin + 6j - 1j * _RELAY_BOX.imag, _RELAY_BOX)
+    yield _text(x + 15 + origin - 6j, relay.sign, 3.0)
+    yield _text(x + 15 + origin - 10j, Sentence("electric.relay"))
+    for y, words in ((0j, "S11-S12"), (_CHANNEL, "S21-S22")):
+        yield _text(x + 1 + origin + y + 0.8j, words, 1.8, "left")
+    y = origin - 46j
+    yield _line(x + 8 + y, x + 8 + origin - 40j)
+    yield _text(x + 7 + y - 2.5j, Sentence("electric.reset", sign=reset.sign), anchor="right")
+    yield _text(x + 7 + y - 6j, reset.terminals, 1.8, "right")
+
+
+def _outputs(x: float, stops: SafeRelay, guards: SafeRelay, amplifiers: int) -> Iterator[Mark]:
+    """What the relays open: the halt of the controller at once, the torque of all amplifiers after that."""
+    for relay, origin in ((stops, 0j), (guards, _GUARDS)):
+        yield _line(x + origin, x + 26 + origin)
+        yield _text(x - 1 + origin + 0.8j, "13-14", 1.8, "right")
+        yield _text(x + 1 + origin + 1.2j, Sentence("electric.halt"), 1.8, "left")
+        yield _box(x + 26 + origin - 4j, 34 + 8j)
+        yield _text(x + 43 + origin + 0.6j, "A1")
+        yield _text(x + 43 + origin - 3j, relay.halt, 1.8)
+    for number, words in ((1, "37-38"), (2, "47-48")):
+        down, out = -8j - 8j * number, _GUARDS - 6j - 8j * number
+        bend = x + 25 - 2.5 * number
+        yield _line(x + down, bend + down, bend + out + 3j, x + out + 3j)
+        yield from (_text(x - 1 + y + 0.8j, words, 1.8, "right") for y in (down, out))
+        yield _line(x + out, x + 26 + out)
+        yield _text(x + 27 + out - 0.7j, f"STO {number}", 1.8, "left")
+    y = _GUARDS - 50j
+    yield _box(x + 26 + y, 34 + 42j)
+    yield _text(x + 43 + y + 12j, f"T1 … ({amplifiers} ×)")
+    yield _text(x + 43 + y + 8j, Sentence("electric.amplifiers"), 1.8)
+    back = x + 64 + 0j
+    yield _line(x + 60 + y + 30j, back + y + 30j, back + 14j, x - 15 + 14j, x - 15 + 6j, kind=LineKind.HIDDEN)
+    yield _text(x + 24 + 15j, Sentence("electric.feedback"), 1.8)
+
+
+def _speed(x: float, mode: SafeSwitch) -> Iterator[Mark]:
+    """The contacts of the selector that release the full speed: open at setting."""
+    for number in (1, 2):
+        y = _GUARDS - (54 + 6 * number) * 1j
+        end = x + _RELAY_BOX.real + 32 + 6 * number
+        yield _text(x - 26 + y + 1j, "24 V", 1.8, "right")
+        yield _line(x - 25 + y, x - 12 + y)
+        yield from _switch(x - 12 + y, "", closed=True)
+        yield _text(x - 2 + y + 1j, f"{mode.sign}.{number + 2}", 1.8, "left")
+        yield _line(x - 4 + y, end + y, end + _GUARDS - 50j)
+        yield _text(end - 1 + y + 1j, f"SLS {number}", 1.8, "right")

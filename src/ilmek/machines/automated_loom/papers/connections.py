@@ -29,7 +29,7 @@ def channel_tables(loom: LoomDesign) -> Iterator[PaperSection]:
     titles, numbers = {part.id: part.title for part, _ in loom_tree(loom).occurrences()}, numbers_of(loom)
     signs, runs = {**SIGNS, **signs_of(loom), **safety_signs(loom)}, dict[tuple[str, str, str], list[Channel]]()
     for own in channels(loom):
-        runs.setdefault((own.module, own.signal, own.part), []).append(own)
+        runs.setdefault((own.module, own.signal.partition("[")[0], own.part), []).append(own)
     rows = tuple(
         (
             module,
@@ -37,9 +37,9 @@ def channel_tables(loom: LoomDesign) -> Iterator[PaperSection]:
             signs.get(name, ""),
             titles[name],
             _pieces(run, numbers[name]),
-            signal,
+            run_of([own.signal for own in run]),
         )
-        for (module, signal, name), run in runs.items()
+        for (module, _, name), run in runs.items()
     )
     heads = (
         Column(Sentence("electric.module")),
@@ -71,7 +71,11 @@ def strip_table(loom: LoomDesign) -> PaperSection:
     ]
     for (strip, part), run in runs.items():
         ends = dict.fromkeys(f"{own.number}{own.level}" for own in (run[0], run[-1]))
-        wires, pieces = ", ".join(dict.fromkeys(own.what for own in run)), _pieces(run, numbers[part])
+        whats = dict[str, list[str]]()
+        for own in run:
+            whats.setdefault(own.what.partition("[")[0], []).append(own.what)
+        wires = ", ".join(run_of(list(dict.fromkeys(same))) for same in whats.values())
+        pieces = _pieces(run, numbers[part])
         rows.append((strip, " … ".join(ends), wires, titles[part], pieces))
     heads = (
         Column(Sentence("electric.strip")),

@@ -3,6 +3,7 @@
 What feeds what is `equipment.power_plan`, what stands in the cabinet `equipment.circuit`.
 """
 
+import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
@@ -11,17 +12,24 @@ from ilmek.elements.cabinet_devices import WARMER
 from ilmek.elements.field_devices import RELAY
 from ilmek.elements.motor_loads import CONTROL_VOLTS, MAINS, PHASE, STEPPER_VOLTS
 from ilmek.elements.wiring import protective_section, section_for
+from ilmek.machines.automated_loom.cabinet import AMPLIFIER, CONTROL, MOUNTING_PLATE
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.equipment.circuit import CIRCUIT, HANDLE
 from ilmek.machines.automated_loom.equipment.power_plan import MotorCircuit, PowerPlan
 from ilmek.machines.automated_loom.equipment.site import site_of
 from ilmek.machines.automated_loom.equipment.stopping import stopping_time
-from ilmek.machines.automated_loom.equipment.surroundings import CONTROL
 from ilmek.machines.automated_loom.equipment.terminals import TerminalLevel
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.braking import braking_section
-from ilmek.machines.automated_loom.papers.circuit_diagrams import FedRow, MotorRow, safety_circuit, single_line
+from ilmek.machines.automated_loom.papers.circuit_diagrams import (
+    FedRow,
+    MotorRow,
+    SafeRelay,
+    SafeSwitch,
+    safety_circuit,
+    single_line,
+)
 from ilmek.machines.automated_loom.papers.connections import (
     cable_table,
     channel_tables,
@@ -40,18 +48,29 @@ from ilmek.machines.automated_loom.papers.wiring import (
     connected_at,
     feeds,
     levels_of,
+    listed,
     numbers_of,
     plan_of,
     signal_rows,
     signs_of,
 )
-from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.part.shapes import shape_box
 from ilmek.report import Column, Paper, PaperSection, Report, Table
 from ilmek.sentences import Sentence
 from ilmek.units import format_quantity, in_mm, mm
 
-SAFE = frozenset(("emergency stop", "interlock", "actuator", "light grid", "button", "safety relay", "enabling device"))
+SAFE = frozenset(
+    (
+        "emergency stop",
+        "interlock",
+        "actuator",
+        "light grid",
+        "button",
+        "safety relay",
+        "enabling device",
+        "mode selector",
+    )
+)
 """Processes of devices of the safety circuit."""
 
 
@@ -134,7 +153,7 @@ def _drawn(one: MotorCircuit, held: Mapping[str, str]) -> MotorRow:
         one.number,
         f"{load.phases}~",
         f"{one.number * load.poles} × {load.fuse:g} A",
-        f"{load.amplifier:g} A, STO",
+        f"{load.amplifier:g} A, STO, SLS",
         f"{load.wires} × {one.section:g} mm²",
         f"{one.number} × {one.part.title}",
         f"{format_quantity(load.power, 'W', 3)}, {load.current:.3g} A" + (f", {brake}" if brake else ""),
@@ -221,6 +240,7 @@ def _feeds(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
             row=f"{own.number} × {own.row.name}",
             load=format_quantity(own.load, "W", 3),
             rated=format_quantity(own.number * own.row.rated, "W", 3),
+            bar=f"{section_for(own.number * own.row.amperes):g}",
         )
         for own in plan.sources
     )
@@ -237,8 +257,8 @@ def _devices(
 ) -> PaperSection:
     """Devices of some kinds with their signs, by their ids, the signals that they give, and where each is connected."""
     given = dict[str, list[str]]()
-    for name, parts in site_of(loom).signals:
-        for part in parts:
+    for name, _, _, parts in signal_rows(loom):
+        for part in parts.split():
             given.setdefault(part, []).append(name)
     rows = tuple(
         (
@@ -246,7 +266,7 @@ def _devices(
             part.title,
             part.purchase.row,
             number,
-            ", ".join(given.get(part.id, ())),
+            listed(given.get(part.id, ())),
             *(() if at is None else (at.get(part.id, ""),)),
         )
         for part, number in loom_tree(loom).occurrences()
@@ -279,12 +299,10 @@ def _cabinet(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
     """What stands in the cabinet, its size, mass and heat."""
     tree = loom_tree(loom)
     (cabinet,) = (part for part, _ in tree.occurrences() if part.id == CONTROL)
-    inside = [own.part for own in tree.body(CIRCUIT).occurrences]
+    on_plate = [part for part, _ in tree.occurrences() if part.id in {MOUNTING_PLATE, AMPLIFIER}]
+    inside = [*on_plate, *(own.part for own in tree.body(CIRCUIT).occurrences)]
     numbers = numbers_of(loom)
-    amplifiers = [part for part, _ in tree.occurrences() if part.id == AMPLIFIER]
-    rows = tuple(
-        (SIGNS.get(part.id, ""), part.title, bought_of(part).row, numbers[part.id]) for part in (*amplifiers, *inside)
-    )
+    rows = tuple((SIGNS.get(part.id, ""), part.title, bought_of(part).row, numbers[part.id]) for part in inside)
     heads = (
         Column(Sentence("electric.sign")),
         Column(Sentence("electric.device")),
@@ -293,7 +311,7 @@ def _cabinet(loom: LoomDesign, plan: PowerPlan) -> PaperSection:
     )
     assert cabinet.shape is not None
     size = " × ".join(f"{own / mm:.0f}" for own in np.ptp(shape_box(cabinet.shape), axis=0).tolist())
-    mass = sum(numbers[part.id] * part.mass for part in inside if part.mass > 0) + cabinet.mass
+    mass = math.fsum(numbers[part.id] * part.mass for part in inside) + cabinet.mass
     how = Sentence(
         "electric.cabinet-how",
         size=size,
@@ -309,7 +327,8 @@ def _safety(loom: LoomDesign, report: Report) -> PaperSection:
     functions, stops = tuple(safety_functions(loom, report)), stopping_time(loom)
     signs = {name: sign for own in functions for name, sign in own.signs.items()}
     made = _devices(loom, Sentence("electric.safety"), SAFE, signs | {name: SIGNS[name] for name in _SAFE_SIGNS})
-    halt = next(own.address for own in channels(loom) if own.part == signals.RELAY)
+    inputs = {own.part: own.address for own in channels(loom)}
+    halts = inputs[signals.RELAY], inputs[signals.GUARD_RELAY]
     runs = dict[str, list[TerminalLevel]]()
     for level in levels_of(loom):
         if level.strip == "X3":
@@ -321,13 +340,25 @@ def _safety(loom: LoomDesign, report: Report) -> PaperSection:
         circuit=format_quantity(stops.circuit, "s", 3),
         whole=format_quantity(stops.whole, "s", 3),
         axis=stops.axis,
-        halt=halt,
+        halt=" / ".join(halts),
+        stops=SIGNS[signals.RELAY],
+        guards=SIGNS[signals.GUARD_RELAY],
     )
-    devices = [(own.sign, own.number, " ".join(ends[part] for part in own.pieces)) for own in functions]
-    setting = (SIGNS[signals.ENABLING], ends.get(signals.ENABLING, "")), (SIGNS[signals.RESET], ends[signals.RESET])
-    picture = safety_circuit(devices, setting, numbers_of(loom)[AMPLIFIER], halt)
-    texts = text, Sentence("electric.enabling-how", sign=SIGNS[signals.ENABLING]), Sentence("electric.residual")
+    chains: tuple[list[SafeSwitch], list[SafeSwitch]] = [], []
+    for own in functions:
+        row = SafeSwitch(own.sign, own.number, " ".join(ends[part] for part in own.pieces))
+        chains[own.relay == signals.GUARD_RELAY].append(row)
+    setting = (SafeSwitch(SIGNS[part], 1, ends.get(part, "")) for part in _SETTING)
+    relays = (
+        SafeRelay(SIGNS[signals.RELAY], chains[0], halts[0]),
+        SafeRelay(SIGNS[signals.GUARD_RELAY], chains[1], halts[1]),
+    )
+    picture = safety_circuit(*relays, *setting, amplifiers=numbers_of(loom)[AMPLIFIER])
+    enabling = Sentence("electric.enabling-how", sign=SIGNS[signals.ENABLING], mode=SIGNS[signals.MODE])
+    texts = text, enabling, Sentence("electric.residual")
     return PaperSection(made.title, texts, made.table, figure=picture)
 
 
-_SAFE_SIGNS = signals.RELAY, signals.RESET, signals.ENABLING
+_SAFE_SIGNS = signals.RELAY, signals.GUARD_RELAY, signals.RESET, signals.ENABLING, signals.MODE
+
+_SETTING = signals.ENABLING, signals.MODE, signals.RESET

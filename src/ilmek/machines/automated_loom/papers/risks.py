@@ -1,67 +1,41 @@
 """The risk file of a loom in the form of ISO 12100: hazards found from its bodies and energies, measures, what remains.
 
-    E = m g h,   T e l / 2,   F² / 2 k                  of what may fall, is strained, springs; moving [`moving_energy`]
-    F <= P / v            force of a motor of the rated power P that moves a body at the greatest speed v
-A gap that closes below 25, 50, 100, 120, 180, 300 or 500 mm crushes a finger, toes, a hand, an arm, a leg, a head or a
-body [ISO 13854, table 1, formerly EN 349]. The clearances in space report parts nearer than `HORIZON`.
+E = m g h,   T e l / 2,   F² / 2 k                  of what may fall, is strained, springs; moving [`moving_energy`]
 """
 
 import math
 from collections.abc import Iterable, Iterator
 
-from ilmek.elements.field_devices import AMPLIFIER_FAILURES, ENABLING, RELAY
+from ilmek.elements.field_devices import AMPLIFIER_FAILURES, ENABLING, MODE, RELAY
 from ilmek.elements.holding_brakes import find_brake
 from ilmek.elements.materials import GRAVITY
 from ilmek.elements.performance_levels import (
     COVERED,
-    HARMLESS_ENERGY,
-    HARMLESS_FORCE,
     limit_of,
     mean_years,
-    required_level,
 )
-from ilmek.elements.safety_distances import through
-from ilmek.machines.automated_loom.assembly import assembly
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.equipment.guards import MESH, WIRE, fence_of
 from ilmek.machines.automated_loom.equipment.lifting_eyes import EYE_BOLT, eye_bolt_of
-from ilmek.machines.automated_loom.equipment.site import site_of
-from ilmek.machines.automated_loom.in_space.scene import loom_tree, periods_of
-from ilmek.machines.automated_loom.nearest_parts import HORIZON
+from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.own_parts import RAIL, RETREAT_BRAKE
-from ilmek.machines.automated_loom.papers.safety_functions import TESTED, safety_functions, starters
+from ilmek.machines.automated_loom.papers.moving_hazards import (
+    MovingHazard,
+    approach_section,
+    carried_mass,
+    moving_hazards,
+    moving_section,
+    required_of,
+)
+from ilmek.machines.automated_loom.papers.safety_functions import TESTED, coverage_of, safety_functions, starters
 from ilmek.machines.automated_loom.papers.transport import lifting_of, lifting_picture, lifting_rows
 from ilmek.machines.automated_loom.papers.values import known, value_of
 from ilmek.machines.automated_loom.papers.wiring import bought_of
-from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.catalogue import HOLDING_BRAKE
-from ilmek.part.contacts import TOUCHING
-from ilmek.part.moving_energy import moving_energies
 from ilmek.part.part import Part
 from ilmek.part.poses import moments_at_rest
-from ilmek.part.tree import Tree
-from ilmek.records import record
 from ilmek.report import Check, Column, Paper, PaperSection, Report, Table, at_most
 from ilmek.sentences import Sentence
-from ilmek.units import format_quantity, in_mm, mm
-
-
-def endangered(gap: float) -> str:
-    """What a gap that closes to a distance [m] crushes, the smallest part of the body first; "" for none.
-
-    >>> print(endangered(0.06), endangered(0.2), endangered(0.6) == "")
-    hand head True
-    """
-    limits = (
-        (25, Sentence("risk.finger")),
-        (50, Sentence("risk.toes")),
-        (100, Sentence("risk.hand")),
-        (120, Sentence("risk.arm")),
-        (180, Sentence("risk.leg")),
-        (300, Sentence("risk.head")),
-        (500, Sentence("risk.body")),
-    )
-    return next((part for least, part in limits if gap < least * mm), "")
+from ilmek.units import format_quantity, in_mm
 
 
 def risks(loom: LoomDesign, report: Report) -> Paper:
@@ -72,7 +46,8 @@ def risks(loom: LoomDesign, report: Report) -> Paper:
         Sentence("risk.title"),
         Sentence("risk.lead"),
         (
-            _moving(loom, hazards),
+            moving_section(loom, hazards),
+            approach_section(loom, hazards),
             _energies(loom, report),
             _others(loom, report),
             _functions(loom, report, hazards),
@@ -81,100 +56,6 @@ def risks(loom: LoomDesign, report: Report) -> Paper:
             _transport(loom),
         ),
     )
-
-
-_MOST_FORCE = 10e3
-"""Above it the rated power over the speed says nothing: the motor turns far below its rated speed [N]."""
-
-
-@record
-class MovingHazard:
-    """A body that moves [SI]: its mass with what it carries, speed and energy, force of its own motor (nan: none), gap.
-
-    gap   least distance from what it moves against, at most `HORIZON`        often  F2 of ISO 13849-1
-    """
-
-    body: str
-    mass: float
-    speed: float
-    energy: float
-    force: float
-    gap: float
-    often: bool
-
-    @property
-    def level(self) -> str:
-        """The performance level that what keeps people from it requires; what is not known to be harmless is not."""
-        harmless = self.energy <= HARMLESS_ENERGY and self.force <= HARMLESS_FORCE
-        return required_level(lasting=not harmless, often=self.often, avoidable=False)
-
-
-def moving_hazards(loom: LoomDesign) -> tuple[MovingHazard, ...]:
-    """The bodies that move, those of the highest energy first."""
-    tree, near, energies = loom_tree(loom), _nearest(loom), moving_energies(loom_tree(loom), periods_of(loom))
-    counts, motors = tree.counts(), {part.id: (part.purchase, number) for part, number in tree.occurrences()}
-    hazards = []
-    for name, own in energies.items():
-        mass, speed, energy = _carried(tree, name), own.speed, own.energy
-        if loom.heads and name == HEAD:  # along the row, which no turn of a drive shows
-            speed = max(speed, loom.weaver.params.carriage_speed)
-            energy = max(energy, mass * speed**2 / 2)
-        bought, number = motors.get(tree.body(name).joint.motor, (None, 0))
-        force = math.nan if bought is None else bought.power * number / counts[name] / speed
-        force = force if force <= _MOST_FORCE else math.nan
-        hazards.append(MovingHazard(name, mass, speed, energy, force, near.get(name, HORIZON), not loom.heads))
-    return tuple(sorted(hazards, key=lambda own: -own.energy))
-
-
-def required_of(hazards: Iterable[MovingHazard]) -> str:
-    """The performance level that the worst of hazards requires."""
-    return max(own.level for own in hazards)
-
-
-def _moving(loom: LoomDesign, hazards: Iterable[MovingHazard]) -> PaperSection:
-    fence, tree = fence_of(site_of(loom)), loom_tree(loom)
-    swept = {hazard.body: hazard for hazard in fence.hazards}
-    rows = []
-    for own in hazards:
-        carrier = own.body
-        while carrier not in swept:  # the equipment on a body sweeps what the body does
-            carrier = tree.body(carrier).parent
-        far, needed = fence.distance(swept[carrier]), max(fence.needed(swept[carrier]), through(MESH - WIRE))
-        rows.append(
-            (
-                own.body.replace("/", ": "),
-                own.mass,
-                own.speed,
-                own.energy,
-                own.force,
-                f"{own.gap / mm:.3g}" if own.gap < HORIZON else f"> {HORIZON / mm:g}",
-                endangered(own.gap),
-                own.level,
-                far,
-                needed,
-                Sentence("risk.yes") if far < needed - 1e-6 else Sentence("risk.no"),
-            )
-        )
-    heads = (
-        Column(Sentence("risk.body-moves")),
-        Column(Sentence("risk.mass"), "kg", 3),
-        Column(Sentence("risk.speed"), "m/s", 3),
-        Column(Sentence("risk.energy"), "J", 3),
-        Column(Sentence("risk.force"), "N", 3),
-        Column(Sentence("risk.gap")),
-        Column(Sentence("risk.crushed")),
-        Column(Sentence("risk.level-of")),
-        Column(Sentence("risk.fence"), "mm"),
-        Column(Sentence("risk.needed"), "mm"),
-        Column(Sentence("risk.reached")),
-    )
-    guard = Sentence("risk.doors") if loom.heads else Sentence("risk.grid")
-    height = format_quantity(fence.height, "m", 3)
-    measure = Sentence("risk.measure", height=height, guard=guard, stop=format_quantity(fence.stopping.whole, "s", 3))
-    harmless = Sentence("risk.harmless", energy=f"{HARMLESS_ENERGY:g} J", force=f"{HARMLESS_FORCE:g} N")
-    texts = (Sentence("risk.moving-how"), harmless, measure, Sentence("risk.remains"))
-    title = Sentence("risk.moving")
-    return PaperSection(title, texts, Table("moving", title, heads, tuple(rows)))
 
 
 def _functions(loom: LoomDesign, report: Report, hazards: Iterable[MovingHazard]) -> PaperSection:
@@ -205,18 +86,27 @@ def _functions(loom: LoomDesign, report: Report, hazards: Iterable[MovingHazard]
 def _failures(loom: LoomDesign, report: Report) -> PaperSection:
     """The failure rate of each device of the safety functions, and where it is from."""
     functions = {own.part: own for own in safety_functions(loom, report)}
-    started = ((device, hourly) for _, _, parts, device, hourly in starters(report) if functions.keys() & {*parts})
+    started = (
+        (device, hourly, coverage_of(functions[part], device))
+        for _, _, parts, device, hourly in starters(report)
+        for part in parts
+        if part in functions
+    )
     rows = tuple(
         (
             device.name,
             device.b10d or math.nan,
             hourly if device.b10d else math.nan,
             mean_years(device.b10d, hourly) if device.b10d and hourly else math.nan,
-            f"{COVERED:.0%}" if device.b10d else "–",
+            f"{covered:.0%}" if device.b10d else "–",
             math.nan if device.b10d else device.failures,
             Sentence("risk.source-table") if device.tabled else Sentence("risk.source-assumed"),
         )
-        for device, hourly in (*started, (ENABLING, 1 / TESTED), (RELAY, 0.0))
+        for device, hourly, covered in (
+            *started,
+            *((device, 1 / TESTED, COVERED) for device in (ENABLING, MODE)),
+            (RELAY, 0.0, COVERED),
+        )
     )
     amplifier = (
         Sentence("electric.amplifiers"),
@@ -248,6 +138,7 @@ MEASURES = {
     "emergency stop": "risk.by-stops",
     "safety relay": "risk.by-stops",
     "enabling device": "risk.by-enabling",
+    "mode selector": "risk.by-enabling",
     HOLDING_BRAKE: "risk.by-brake",
     "main switch": "risk.by-switch",
     "cabinet door": "risk.by-switch",
@@ -294,22 +185,6 @@ def safety_checks(loom: LoomDesign, report: Report) -> tuple[Check, ...]:
     )
 
 
-def _carried(tree: Tree, name: str) -> float:
-    """Mass of a body with all that it carries [kg]."""
-    counts = tree.counts()
-    return math.fsum(counts[own] / counts[name] * tree.body(own).moments.zeroth for own in tree.carried_by(name))
-
-
-def _nearest(loom: LoomDesign) -> dict[str, float]:
-    """By the id of each body its least distance from parts against which it moves, touching ones left out [m]."""
-    least: dict[str, float] = {}
-    for near in assembly(loom).nearest:
-        distance = near.approach.distance
-        for body in near.approach.bodies if distance > TOUCHING else ():
-            least[body] = min(distance, least.get(body, math.inf))
-    return least
-
-
 def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str]]:
     """What stores energy, how much [J], and the measure."""
     if known(report, "hammer.weight_carried") is not None:
@@ -330,7 +205,7 @@ def energies(loom: LoomDesign, report: Report) -> Iterator[tuple[str, float, str
     if loom.heads:
         tree = loom_tree(loom)
         rail, motion = tree.body(RAIL), tree.body(RAIL).joint.motion
-        carried = _carried(tree, rail.id)
+        carried = carried_mass(tree, rail.id)
         if motion is not None:
             drop = float((rail.positions[0].rotation @ (motion.shift - motion.shift[0]).T)[1].min())
             (behind,) = (part for part, _ in tree.occurrences() if part.id == RETREAT_BRAKE)

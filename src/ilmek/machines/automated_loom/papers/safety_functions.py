@@ -9,12 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.field_devices import AMPLIFIER_FAILURES, BUTTON, GRID, INTERLOCK, RELAY, STOP, FieldDevice
-from ilmek.elements.performance_levels import contact_failures, reached_level
+from ilmek.elements.performance_levels import COVERED, contact_failures, masked, reached_level
+from ilmek.machines.automated_loom.cabinet import AMPLIFIER
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment import signals
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.papers.values import value_of
-from ilmek.machines.automated_loom.standing_frame import AMPLIFIER
 from ilmek.records import record
 from ilmek.report import Report
 from ilmek.sentences import Sentence
@@ -29,10 +29,12 @@ class SafetyFunction:
     """What stops all axes.
 
     title, sign  of it      pieces   of the parts that start it, by their ids      failures  dangerous ones [1/h]
+    relay        id of the one whose channels they open
     """
 
     title: str
     sign: str
+    relay: str
     pieces: Mapping[str, int]
     failures: float
 
@@ -68,9 +70,16 @@ def safety_functions(loom: LoomDesign, report: Report) -> Iterator[SafetyFunctio
     for title, sign, parts, device, hourly in starters(report):
         pieces = {part: numbers[part] for part in parts if part in numbers}
         if pieces:
-            each = device.failures + (contact_failures(device.b10d, hourly) if device.b10d else 0.0)
-            bare = SafetyFunction(title, sign, pieces, 0.0)
+            relay = signals.RELAY if device is STOP else signals.GUARD_RELAY
+            bare = SafetyFunction(title, sign, relay, pieces, 0.0)
+            contacts = contact_failures(device.b10d, hourly, coverage_of(bare, device)) if device.b10d else 0.0
+            each = device.failures + contacts
             yield replace(bare, failures=bare.number * each + stops)
+
+
+def coverage_of(function: SafetyFunction, device: FieldDevice) -> float:
+    """Diagnostic coverage of the contacts of a function: in series those that are rarely used hide each other's."""
+    return masked(function.number) if device is STOP else COVERED
 
 
 def starters(report: Report) -> tuple[tuple[str, str, tuple[str, ...], FieldDevice, float], ...]:

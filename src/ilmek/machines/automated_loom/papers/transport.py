@@ -68,8 +68,8 @@ def share(middle: float, first: float, second: float) -> float:
 
 
 def lifting_rows(lifting: Lifting, floor: float, row: EyeBolt) -> Iterator[tuple[float | str, ...]]:
-    """Of each lifting point its title, x, height over the floor, z [m], its load [N], and the mass of that [kg]; its
-    eye bolt, and the mass that this bears [kg].
+    """Of each lifting point its title, x, height over the floor, z [m], its load [N], and the mass [kg] that its sling
+    must bear where two of the four hang slack; its eye bolt, and the mass that this bears [kg].
     """
     titles = (
         Sentence("lift.rear-left"),
@@ -79,7 +79,7 @@ def lifting_rows(lifting: Lifting, floor: float, row: EyeBolt) -> Iterator[tuple
     )
     for title, point, load in zip(titles, lifting.points, lifting.loads, strict=True):
         x, y, z = point.tolist()
-        yield title, x, y - floor, z, load, load / GRAVITY, row.name, row.upright
+        yield title, x, y - floor, z, load, max(load / GRAVITY, lifting.moments.zeroth / 2), row.name, row.upright
 
 
 def lifting_picture(loom: LoomDesign, lifting: Lifting) -> Drawing:

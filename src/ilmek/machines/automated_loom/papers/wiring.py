@@ -31,6 +31,8 @@ SIGNS: Mapping[str, str] = {
     signals.PROTECTOR: "F24",
     signals.SWITCH: "Q1",
     signals.RELAY: "K1",
+    signals.GUARD_RELAY: "K2",
+    signals.MODE: "S8",
     signals.RESET: "S0",
     signals.ENABLING: "S9",
     signals.TERMINAL: "X1",
@@ -116,7 +118,7 @@ def signs_of(loom: LoomDesign) -> dict[str, str]:
 
 @record
 class Channel:
-    """An input of a module: sign of the module, input, signal of the program or "", id of the device, its piece."""
+    """An input of a module: sign of the module, input, its variable, id of the device, its piece."""
 
     module: str
     number: int
@@ -148,10 +150,11 @@ def channels(loom: LoomDesign) -> Iterator[Channel]:
         yield Channel(module, wire.index % wire.channels + 1, wire.signal, wire.part, wire.piece)
     each = numbers.get(signals.YARN_STOP, 0) // max(loom.heads, 1)
     modules = numbers.get(signals.YARN_INPUTS, 0) // max(loom.heads, 1)
-    for head in range(loom.heads if each else 0):
-        for yarn in range(each):
-            module = f"{SIGNS[signals.YARN_INPUTS]}.{head * modules + yarn // CHANNELS + 1}"
-            yield Channel(module, yarn % CHANNELS + 1, "", signals.YARN_STOP, head * each + yarn + 1)
+    (yarns,) = (own for own in signals.READ if own.part == signals.YARN_STOP)
+    for index, name in enumerate(yarns.elements(numbers.get(signals.YARN_STOP, 0))):
+        head, yarn = divmod(index, each)
+        module = f"{SIGNS[signals.YARN_INPUTS]}.{head * modules + yarn // CHANNELS + 1}"
+        yield Channel(module, yarn % CHANNELS + 1, name, signals.YARN_STOP, index + 1)
 
 
 def levels_of(loom: LoomDesign) -> tuple[TerminalLevel, ...]:
@@ -164,7 +167,7 @@ def connected_at(loom: LoomDesign) -> dict[str, str]:
     inputs = dict[str, list[str]]()
     for channel in channels(loom):
         inputs.setdefault(channel.part, []).append(channel.address)
-    at = {part: _addresses(own) for part, own in inputs.items()}
+    at = {part: listed(own) for part, own in inputs.items()}
     motors = {one.part.id: one.sign for one in plan_of(loom).motors}
     at |= {
         name: f"T{motors[motor][1:]}"
@@ -175,7 +178,12 @@ def connected_at(loom: LoomDesign) -> dict[str, str]:
     return at | {signals.TENSION: SIGNS[signals.STRAIN_AMPLIFIER]}  # whose output is at an analog input
 
 
-def _addresses(own: Sequence[str]) -> str:
+def listed(own: Sequence[str]) -> str:
+    """Names or addresses in words, of many the first and the last.
+
+    >>> listed(["A2.1:1", "A2.1:2"]), listed(["A2.1:1", "A2.1:2", "A2.1:3"])
+    ('A2.1:1, A2.1:2', 'A2.1:1 … A2.1:3')
+    """
     return ", ".join(own) if len(own) < _MANY else f"{own[0]} … {own[-1]}"
 
 
@@ -185,13 +193,21 @@ _MANY = 3
 def signal_rows(loom: LoomDesign) -> Iterator[tuple[str, str, str, str]]:
     """Each signal of the control with an address: its name, its input or A1, its terminal or "", its parts."""
     there = numbers_of(loom)
-    inputs = {own.signal: own.address for own in channels(loom) if own.signal}
+    inputs = {own.signal: own.address for own in channels(loom)}
     levels = {own.what: own.address for own in levels_of(loom)}
-    for name, parts in site_of(loom).signals:
+    read = ((name, (own.part, own.module)) for name, own in read_signals(loom))
+    for name, parts in (*site_of(loom).signals, *read):
         shown = " ".join(part for part in parts if part in there)
         yield name, inputs.get(name, SIGNS[signals.CONTROLLER]), levels.get(name, ""), shown
 
 
-def run_of(numbers: Sequence[int]) -> str:
-    """A run of numbers in words."""
-    return f"{numbers[0]}" if len(numbers) == 1 else f"{numbers[0]} … {numbers[-1]}"
+def read_signals(loom: LoomDesign) -> tuple[tuple[str, signals.DeviceSignal], ...]:
+    """Each variable that the motion controller reads besides those of the program, in the order of their inputs."""
+    read = {own.name: own for own in signals.READ}
+    variables = (own.signal for own in channels(loom))
+    return tuple((name, own) for name in variables for own in [read.get(name.partition("[")[0])] if own)
+
+
+def run_of(items: Sequence[int | str]) -> str:
+    """A run of numbers or names in words."""
+    return f"{items[0]}" if len(items) == 1 else f"{items[0]} … {items[-1]}"

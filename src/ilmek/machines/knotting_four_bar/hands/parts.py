@@ -35,7 +35,7 @@ from ilmek.plane.contours import rounded_hull
 from ilmek.records import computed, record
 from ilmek.report import Contour, Hole
 from ilmek.synthesis.four_bar import TRACER
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import mm
 
 NAME = "knotting-four-bar"
 STAND, SERVO = f"{NAME}/stand", f"{NAME}/servo"
@@ -124,8 +124,7 @@ def finger_occurrence(made: HandParts) -> Occurrence:
         Placed(bar(PILLAR, made.finger - top), (placement(foot.real, foot.imag, top),)),
         Placed(Prism(Profile(_blade(hand)), task.finger_thickness), (placement(z=made.finger),)),
     )
-    size = f"{in_mm(task.finger_width)} x {in_mm(task.finger_thickness)}, R {in_mm(hand.radius)}"
-    part = Part(f"{NAME}/finger", "finger with its pillar", "machined link", size, Sum(members), FINGER)
+    part = Part(f"{NAME}/finger", "finger with its pillar", "machined link", Sum(members), FINGER)
     return Occurrence(part)
 
 
@@ -212,7 +211,6 @@ def _columns(made: HandParts, feet: tuple[complex, complex]) -> Iterator[Occurre
         f"{NAME}/column",
         "column between the plates",
         "turned part",
-        f"{round_size(COLUMN)}, {in_mm(length)}",
         bar(COLUMN, length),
         STEEL,
     )
@@ -242,7 +240,7 @@ def _base(made: HandParts, old: Part, feet: tuple[complex, complex], pillars: tu
     holes = [Hole(complex(*seat.position.origin[:2]), seat.size / 2) for seat in old.seats.values()]
     holes += [Hole(at, SERVO_SCREW / 4) for at in pillars]
     shape = Prism(drilled(outline, holes), old.shape.length)
-    return replace(old, shape=shape, size=f"plate {in_mm(old.shape.length)}", title="plate of a hand")
+    return replace(old, shape=shape, title="plate of a hand")
 
 
 def _shaft_end(made: HandParts) -> float:
@@ -275,7 +273,6 @@ def _servo_parts(made: HandParts, servo: MicroServo, pillars: tuple[complex, ...
         f"{NAME}/servo-plate",
         "plate of a servo",
         "machined link",
-        f"plate {in_mm(PLATE)}",
         Prism(drilled(outline, holes), PLATE),
         MATERIALS[LINK.material],
     )
@@ -284,7 +281,6 @@ def _servo_parts(made: HandParts, servo: MicroServo, pillars: tuple[complex, ...
         f"{NAME}/servo-pillar",
         "pillar of a servo's plate",
         "turned part",
-        f"{round_size(SERVO_SCREW)}, {in_mm(under - face)}",
         bar(SERVO_SCREW, under - face),
         MATERIALS[LINK.material],
     )
@@ -294,7 +290,6 @@ def _servo_parts(made: HandParts, servo: MicroServo, pillars: tuple[complex, ...
         f"{NAME}/coupling",
         "coupling of servo and shaft",
         "turned part",
-        f"{round_size(COUPLING)}, {in_mm(long + 2 * PLATE)}",
         tube(COUPLING, (COUPLING - shaft) / 2, long + 2 * PLATE),
         STEEL,
     )

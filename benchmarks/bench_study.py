@@ -1,0 +1,83 @@
+"""The cost of a study beside that of its designs: our layer, Optuna's beside it if it is installed, and processes.
+
+The function costs nothing: what is left is drawing, judging, and writing a row. The peer is a study of Optuna with its
+SQLite file and the same two variables; it keeps as much of a design as we do, without checks.
+"""
+
+import os
+import tempfile
+import time
+from collections.abc import Mapping
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+
+from ilmek.jobs.study.order import StudyOrder
+from ilmek.jobs.study.run import study
+from ilmek.params import Value
+from ilmek.records import record
+from ilmek.report import at_most
+from ilmek.studies.outcome import Numbers, Question
+from ilmek.studies.recorder import DesignRecorder
+from ilmek.studies.samples import sampled
+from ilmek.studies.store import StudyFile
+from ilmek.studies.variable import Variable
+from ilmek.studies.workers import Workers
+
+DESIGNS, PEER, BEAT_UPS = 100_000, 1_000, 400
+VARIABLES = (Variable("x", "", 0.0, 1.0, 0.5), Variable("y", "", 0.0, 1.0, 0.5))
+
+
+@record
+class Product:
+    """A design that costs nothing."""
+
+    @property
+    def identity(self) -> Mapping[str, object]:
+        """Its name."""
+        return {}
+
+    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+        """x y, at most 0.5."""
+        product = float(values["x"] or 0) * float(values["y"] or 0)
+        return Numbers({"f": product}, {"f": ""}, (at_most("limit", product, 0.5, "1", "benchmark"),))
+
+
+def layer(folder: Path) -> None:
+    """Processor time and bytes of a design, of ours and of the peer."""
+    start = time.process_time()
+    with (
+        StudyFile(folder / "ours.sqlite", {}, ["x", "y"], ["f"]) as file,
+        Workers(Question(Product(), ("f",))) as workers,
+    ):
+        DesignRecorder(file, VARIABLES, workers, DESIGNS)(sampled(VARIABLES, "sobol", DESIGNS, 0))
+    taken = (time.process_time() - start) / DESIGNS
+    print(f"ours: {taken * 1e6:.0f} us a design, {(folder / 'ours.sqlite').stat().st_size / DESIGNS:.0f} bytes")
+    if find_spec("optuna") is None:
+        print("optuna is not installed")
+        return
+    optuna = import_module("optuna")
+    optuna.logging.set_verbosity(optuna.logging.ERROR)
+    start = time.process_time()
+    peer = optuna.create_study(storage=f"sqlite:///{folder}/peer.sqlite", sampler=optuna.samplers.QMCSampler(seed=0))
+    peer.optimize(lambda trial: trial.suggest_float("x", 0, 1) * trial.suggest_float("y", 0, 1), n_trials=PEER)
+    taken = (time.process_time() - start) / PEER
+    print(f"optuna: {taken * 1e6:.0f} us a design, {(folder / 'peer.sqlite').stat().st_size / PEER:.0f} bytes")
+
+
+def processes() -> None:
+    """Beat-ups a second, by number of processes; start of the processes included."""
+    order = StudyOrder("beat-up", {}, {"swing": "25deg..35deg"}, ("drive_torque_max",), samples=BEAT_UPS)
+    seconds = []
+    for count in (1, min(os.cpu_count() or 1, 2)):
+        start = time.perf_counter()
+        study(order, workers=count)
+        seconds.append(time.perf_counter() - start)
+        print(f"beat-up, {count} processes: {BEAT_UPS / seconds[-1]:.0f} designs/s")
+    print(f"speed-up {seconds[0] / seconds[-1]:.2f}")
+
+
+def run() -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        layer(Path(folder))
+    processes()

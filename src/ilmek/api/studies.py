@@ -1,0 +1,74 @@
+"""Studies of machines and mechanisms: sweeps, sensitivities, tolerances, optima."""
+
+from __future__ import annotations  # so that `help` shows the aliases
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from types import MappingProxyType
+
+from ilmek.arguments import Arguments
+from ilmek.jobs.study.order import StudyOrder
+from ilmek.jobs.study.run import StudyResult
+from ilmek.jobs.study.run import study as carried_out
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+
+
+def study(
+    target: str | Path,
+    vary: Mapping[str, str],
+    /,
+    *,
+    goals: Sequence[str] = (),
+    hold: Sequence[str] = (),
+    record: Sequence[str] = (),
+    fixed: Mapping[str, Setting] = MappingProxyType({}),
+    method: str = "sweep",
+    sampling: str = "sobol",
+    samples: int | None = None,
+    seed: int = 0,
+    file: str | Path | None = None,
+    workers: int = 1,
+    cluster: str | None = None,
+    progress: Progress = SILENT,
+) -> StudyResult:
+    """Study a machine of the catalogue, a machine file or a mechanism file over ranges of its parameters.
+
+    vary      name -> range "20deg..40deg", values "5, 6, 8", tolerance "80mm+-0.05mm" or class "20mm H7"; a
+              distribution may follow: uniform, normal, triangular
+    goals     results to make least, or "most NAME"          hold     limits, "transmission_angle_min >= 40deg"
+    record    further results to keep                        fixed    settings that do not vary
+    method    sweep, local, morris, sobol, tolerance, optimum
+    sampling  sobol, latin, grid                             samples  number of designs; default: by the method
+    file      results file (SQLite); designs that it has are not computed again; default: none is kept
+    workers   processes                                      cluster  address of a Dask scheduler
+    The results are arrays: `values(name)`, `columns()`, `rows.feasible`, `front`. Raises ParameterError for words that
+    cannot be read, and for a file of another study; errors of the target; OutputError; Cancelled.
+
+    >>> found = study("beat-up", {"swing": "25deg..35deg"}, goals=["drive_torque_max"], samples=4)
+    >>> len(found.values("swing")), bool(found.rows.feasible.any())
+    (4, True)
+    """
+    given = Arguments("a study")
+
+    order = StudyOrder(
+        str(given.path("target", target)),
+        given.mapping("fixed", fixed, lambda _, value: value),
+        given.mapping("vary", vary, given.text),
+        given.sequence("goals", goals, str),
+        given.sequence("hold", hold, str),
+        given.sequence("record", record, str),
+        method=given.text("method", method),
+        sampling=given.text("sampling", sampling),
+        samples=None if samples is None else given.whole("samples", samples, least=1),
+        seed=given.whole("seed", seed, least=0),
+    )
+    kept = None if file is None else given.path("file", file)
+    address = None if cluster is None else given.text("cluster", cluster)
+    return carried_out(
+        order,
+        kept,
+        workers=given.whole("workers", workers, least=1),
+        cluster=address,
+        progress=given.record("progress", progress, Progress),
+    )

@@ -1,0 +1,209 @@
+"""The order of a study, as options or a file state it: what varies, goals, limits, method."""
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ilmek.elements.fits import tolerance_zone
+from ilmek.errors import IlmekError, ParameterError, did_you_mean, restated
+from ilmek.io.data_text import read_data
+from ilmek.jobs.study.targets import StudyTarget
+from ilmek.params import Parameter, Setting, Value
+from ilmek.records import record
+from ilmek.studies.outcome import Hold, result_named
+from ilmek.studies.samples import SAMPLINGS
+from ilmek.studies.variable import NORMAL, TRIANGULAR, UNIFORM, Variable
+from ilmek.units import parse_quantity
+
+METHODS = ("sweep", "local", "morris", "sobol", "tolerance", "optimum")
+"""Sweep; derivatives; elementary effects; variance-based indices; random parts; the best design, or a front."""
+
+SAMPLES = {"sweep": 256, "local": 0, "morris": 256, "sobol": 1024, "tolerance": 1024, "optimum": 1024}
+"""Default number of designs by method; of derivatives it follows from the variables."""
+
+_PLUS_MINUS = re.compile(r"\s*(?:\+-|\+/-|±)\s*")
+_CLASS = re.compile(r"(.+?)\s+([A-Za-z]{1,2}\d{1,2})$")
+_HOLD = re.compile(r"\s*([\w.\-]+)\s*(<=|>=)\s*(.+?)\s*$")
+_SPREAD = re.compile(rf"(.+?)\s+({UNIFORM}|{NORMAL}|{TRIANGULAR})$")
+
+
+@record
+class StudyOrder:
+    """What is studied, as texts.
+
+    target   machine, machine file or mechanism file       fixed   settings that do not vary
+    vary     name -> range, values or tolerance            goals   results, `most` before one that is to be large
+    holds    limits of results                             record  further results that the file has
+    """
+
+    target: str
+    fixed: Mapping[str, Setting]
+    vary: Mapping[str, str]
+    goals: tuple[str, ...] = ()
+    holds: tuple[str, ...] = ()
+    record: tuple[str, ...] = ()
+    method: str = "sweep"
+    sampling: str = "sobol"
+    samples: int | None = None
+    seed: int = 0
+    time_limit: float = 0.0
+    over: str = ""
+    speed: str = ""
+
+
+@record
+class Goal:
+    """A result that is to be small, or large where `sign` is -1."""
+
+    result: str
+    sign: int = 1
+
+    @property
+    def text(self) -> str:
+        """In words."""
+        return f"{'least' if self.sign > 0 else 'most'} {self.result}"
+
+
+def read_variable(target: StudyTarget, name: str, text: str) -> Variable:
+    """A varied parameter: `20deg..40deg`, `a, b, c`, `80mm+-0.05mm`, `20mm H7`; a distribution may follow.
+
+    A tolerance is normally distributed, its limits three standard deviations from its middle; a range uniformly.
+    Raises ParameterError for an unknown name, a text that cannot be read, and bounds outside the declaration.
+    """
+    name = name.removeprefix("values.")
+    parameter = target.parameter(name)
+    nominal = target.nominal(name)
+    with restated(ParameterError, f"--vary {name}={text}: ", of=IlmekError):
+        spread = _SPREAD.fullmatch(text.strip())
+        body, kind = (spread.group(1), spread.group(2)) if spread else (text.strip(), "")
+        if "," in body or parameter.kind in (bool, str):
+            return _choices(parameter, name, body, nominal)
+        low, high, middle, usual = _limits(parameter, body)
+        for value in (low, high):
+            parameter.check(value)
+        if middle is None:
+            given = isinstance(nominal, int | float) and not isinstance(nominal, bool) and low <= nominal <= high
+            middle = float(nominal) if given else (low + high) / 2  # type: ignore[arg-type]
+        whole = parameter.kind is int
+        return Variable(name, parameter.unit, low, high, middle, whole=whole, spread=kind or usual)
+
+
+def _limits(parameter: Parameter, text: str) -> tuple[float, float, float | None, str]:
+    """Low, high, nominal where the text has one, and the usual distribution."""
+    if ".." in text:
+        first, _, last = text.partition("..")
+        return _number(parameter, _with_unit(first, last)), _number(parameter, last), None, UNIFORM
+    parts = _PLUS_MINUS.split(text)
+    if len(parts) == 2:
+        middle, half = _number(parameter, parts[0]), _tolerance(parameter, parts[1])
+        return middle - half, middle + half, middle, NORMAL
+    fitted = _CLASS.fullmatch(text)
+    if fitted:
+        size = _number(parameter, fitted.group(1))
+        zone = tolerance_zone(fitted.group(2), size)
+        return size + zone.lower, size + zone.upper, size + (zone.lower + zone.upper) / 2, NORMAL
+    raise ParameterError(
+        "cannot be read", allowed="a range FROM..TO, values A,B,C, a tolerance 80mm+-0.05mm, or a class 20mm H7"
+    )
+
+
+def _with_unit(first: str, last: str) -> str:
+    """The lower bound with the unit of the upper, where it is written without: `10..20rad/s`."""
+    unit = re.sub(r"^\s*[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*", "", last)
+    return f"{first}{unit}" if re.fullmatch(r"\s*[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*", first) else first
+
+
+def _number(parameter: Parameter, text: str) -> float:
+    value = parameter.read(text)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ParameterError(f"{text!r} is no number", allowed=parameter.allowed())
+    return float(value)
+
+
+def _tolerance(parameter: Parameter, text: str) -> float:
+    """A tolerance: as a quantity, or in % of nothing: it needs its unit as the nominal value does."""
+    half = parse_quantity(text, parameter.unit or "1")
+    if half <= 0:
+        raise ParameterError(f"tolerance {text}", allowed="above 0")
+    return half
+
+
+def _choices(parameter: Parameter, name: str, text: str, nominal: Value) -> Variable:
+    values = [parameter.read(one) for one in text.split(",")]
+    for value in values:
+        parameter.check(value)
+    if len(set(values)) < len(values):
+        raise ParameterError("a value is given twice", do="give each once")
+    start = values.index(nominal) if nominal in values else 0
+    unit = parameter.unit if parameter.kind is float else ""
+    return Variable(name, unit, 0.0, float(len(values) - 1), float(start), choices=tuple(values))
+
+
+def read_goal(text: str, units: Mapping[str, str]) -> Goal:
+    """A goal: `drive_torque_max`, `least drive_torque_max` or `most transmission_angle_min`."""
+    first, _, rest = text.strip().partition(" ")
+    if first in ("least", "most"):
+        return Goal(result_named(rest.strip(), units), 1 if first == "least" else -1)
+    return Goal(result_named(text.strip(), units))
+
+
+def read_hold(text: str, units: Mapping[str, str]) -> Hold:
+    """A limit: `transmission_angle_min >= 40deg`. Raises ParameterError."""
+    parts = _HOLD.fullmatch(text)
+    if parts is None:
+        raise ParameterError(f"{text!r} is no limit", do="write RESULT >= VALUE or RESULT <= VALUE, with its unit")
+    name, relation, value = parts.groups()
+    unit = units[result_named(name, units)]
+    with restated(ParameterError, f"{text}: ", of=IlmekError):
+        return Hold(name, relation, parse_quantity(value, unit or "1"), unit)
+
+
+KEYS = {
+    "target": str, "set": dict, "vary": dict, "goals": list, "hold": list, "record": list, "method": str,
+    "sampling": str, "samples": int, "seed": int, "over": str, "speed": str,
+}  # fmt: skip
+"""Keys of a study file, and the kinds of their values."""
+
+
+def study_file(path: Path) -> dict[str, Any] | None:
+    """The data of a study file, which has the key `target`; None for a file of another kind.
+
+    The target's file is found beside it. Raises ParameterError with file and line.
+    """
+    text = read_data(path, "study", ParameterError)
+    data = text.data
+    if not isinstance(data, dict) or "target" not in data:
+        return None
+    for key, value in data.items():
+        kind = KEYS.get(key)
+        at = f"study file {path}, line {text.lines.get((key,), 1)}"
+        if kind is None:
+            raise ParameterError(
+                f"{at}: unknown key {key!r}", do=did_you_mean(key, KEYS, otherwise=f"keys: {', '.join(KEYS)}")
+            )
+        if not isinstance(value, kind):
+            raise ParameterError(
+                f"{at}: {key} is {value!r}",
+                allowed={dict: "a table", list: "a list", str: "a text", int: "a whole number"}[kind],
+            )
+    beside = path.parent / data["target"]
+    return {**data, "target": str(beside)} if beside.suffix in (".toml", ".json") else data
+
+
+def check_words(order: StudyOrder) -> None:
+    """Raise ParameterError for an unknown method or sampling, and for a study in which nothing varies."""
+    for option, word, known in (("--method", order.method, METHODS), ("--sampling", order.sampling, SAMPLINGS)):
+        if word not in known:
+            raise ParameterError(f"{option} {word}", allowed=", ".join(known), do=did_you_mean(word, known))
+    if not order.vary:
+        raise ParameterError("nothing varies", do="give --vary NAME=FROM..TO")
+    if order.method in ("local", "morris", "sobol", "tolerance") and not (order.goals or order.record or order.holds):
+        raise ParameterError(f"--method {order.method} without a result", do="name one with --goal or --record")
+    if order.method == "optimum" and not order.goals:
+        raise ParameterError("an optimum without a goal", do="give --goal RESULT")
+
+
+def names_of(texts: Sequence[str], units: Mapping[str, str]) -> tuple[str, ...]:
+    """Results by name. Raises ParameterError for one that is unknown."""
+    return tuple(result_named(text, units) for text in texts)

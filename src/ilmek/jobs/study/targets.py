@@ -1,0 +1,154 @@
+"""What a study evaluates: a machine of the catalogue by its parameters, or a mechanism file by its `values`."""
+
+from collections.abc import Iterator, Mapping
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from ilmek.errors import MechanismError, ParameterError, did_you_mean
+from ilmek.io.data_text import read_data
+from ilmek.io.mechanism.expressions import printed_dimension
+from ilmek.io.mechanism.values import named_values
+from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism, with_values
+from ilmek.io.schema import SourceText
+from ilmek.jobs.machine_file import read_machine_order
+from ilmek.jobs.mechanism.analysis import analysis
+from ilmek.jobs.mechanism.report import report as mechanism_report
+from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.mechanism.run import run
+from ilmek.machines.catalogue import find_machine
+from ilmek.params import Parameter, Setting, Value, reachable
+from ilmek.records import record
+from ilmek.report import Report
+from ilmek.studies.outcome import Numbers
+
+LONGEST_LIST = 24
+"""Entries of a result of which each is a result of its own."""
+
+EXTREMES = {"_min": min, "_max": max}
+"""Ends of names of results with an entry for each part: of the whole the least or greatest is meant."""
+
+
+@record
+class MachineTarget:
+    """A machine of the catalogue, with settings that do not vary; its parts are not compared in space."""
+
+    machine: str
+    settings: Mapping[str, Setting]
+
+    @property
+    def identity(self) -> Mapping[str, object]:
+        """Name and settings."""
+        return {"machine": self.machine, "set": dict(self.settings)}
+
+    def parameter(self, name: str) -> Parameter:
+        """The parameter of a name, with its value in force as default. Raises ParameterError, naming the nearest."""
+        known = reachable(find_machine(self.machine).params)
+        if name not in known:
+            near = did_you_mean(name, known, otherwise=f"they are listed by: ilmek machines {self.machine}")
+            raise ParameterError(f"unknown parameter {name!r} of {self.machine}", do=near)
+        return known[name]
+
+    def nominal(self, name: str) -> Value:
+        """The value of a parameter where it does not vary; None: the design chooses it."""
+        _, params = find_machine(self.machine).ordered(self.settings)
+        return params.as_dict().get(name, self.parameter(name).default)
+
+    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+        """The design's results and checks. Raises any IlmekError."""
+        machine, params = find_machine(self.machine).ordered({**self.settings, **values})
+        design = machine.designed(params)
+        return numbers_of(machine.report(design, illustrated=False, drawn=False, assembled=False, listed=False))
+
+
+@record
+class MechanismTarget:
+    """A mechanism file of which entries of `values` vary, over a motion of its driving input."""
+
+    data: Mapping[str, Any]
+    digest: str
+    request: MotionRequest
+
+    @property
+    def identity(self) -> Mapping[str, object]:
+        """Digest of the file, and its motion."""
+        asked = self.request
+        return {"mechanism": self.digest, "over": str(asked.over), "speed": str(asked.speed), "steps": asked.steps}
+
+    def parameter(self, name: str) -> Parameter:
+        """The entry of `values` of a name, in its unit. Raises ParameterError, naming the nearest."""
+        values = with_values(self.data, {name: self.data.get("values", {}).get(name)})["values"]
+        amount = named_values(values, SourceText("mechanism", {(): 1}), si=self.data.get("units") == "SI").known[name]
+        unit = printed_dimension(amount.dimension)
+        shown = {"m": "mm", "rad": "deg", "a plain number": ""}.get(unit, unit)
+        return Parameter(name, float, amount.value, "value of the mechanism file", shown)
+
+    def nominal(self, name: str) -> Value:
+        """The value in the file [SI]."""
+        return self.parameter(name).default
+
+    def numbers(self, values: Mapping[str, Value]) -> Numbers:
+        """The results and checks of the mechanism in motion. Raises any IlmekError."""
+        units = {name: self._unit(name) for name in values}
+        texts = {name: f"{value!r} {units[name]}".strip() for name, value in values.items()}
+        found = analysis(run(mechanism_of_data(with_values(self.data, texts)), self.request))
+        return numbers_of(mechanism_report(found, drawn=False))
+
+    def _unit(self, name: str) -> str:
+        return {"mm": "m", "deg": "rad"}.get(unit := self.parameter(name).unit, unit)
+
+
+StudyTarget = MachineTarget | MechanismTarget
+
+
+def read_target(name: str, settings: Mapping[str, Setting], request: MotionRequest) -> StudyTarget:
+    """The target of a study: a machine's name, a machine file, or a mechanism file.
+
+    Raises ParameterError, MechanismError; ParameterError for settings that a mechanism does not have.
+    """
+    path = Path(name)
+    if path.suffix.lower() not in (".toml", ".json"):
+        _no_motion(request, name)
+        return MachineTarget(find_machine(name).name, dict(settings))
+    text = read_data(path, "mechanism", MechanismError)
+    if isinstance(text.data, Mapping) and "machine" in text.data:
+        order = read_machine_order(name, settings)
+        _no_motion(request, name)
+        return MachineTarget(order.machine, dict(order.settings))
+    values = {given.removeprefix("values."): str(setting) for given, setting in settings.items()}
+    read_mechanism(path, values)  # the first error has its line
+    data = with_values(text.data, values)
+    return MechanismTarget(data, sha256(repr(sorted(data.items())).encode()).hexdigest(), request)
+
+
+def _no_motion(request: MotionRequest, name: str) -> None:
+    if request.over or request.speed:
+        raise ParameterError(f"--over and --speed are given for {name}", allowed="they are of a mechanism file")
+
+
+def numbers_of(report: Report) -> Numbers:
+    """The numbers of a report and of the machines in it: results that are numbers, and those of groups by name.
+
+    A group whose name ends in `_min` or `_max` is itself the least or greatest of its numbers.
+    """
+    entries = dict(_numbers(report, ""))
+    return Numbers(
+        {name: value for name, (value, _) in entries.items()},
+        {name: unit for name, (_, unit) in entries.items()},
+        report.all_checks,
+    )
+
+
+def _numbers(report: Report, prefix: str) -> Iterator[tuple[str, tuple[float, str]]]:
+    for result in report.results:
+        value, name = result.value, f"{prefix}{result.name}"
+        if isinstance(value, bool | int | float):
+            yield name, (float(value), result.unit)
+        elif isinstance(value, Mapping) and 0 < len(value) <= LONGEST_LIST:
+            group = {key: float(one) for key, one in value.items() if isinstance(one, int | float)}
+            yield from ((f"{name}.{key}", (number, result.unit)) for key, number in group.items())
+            extreme = EXTREMES.get(result.name[-4:])
+            if extreme and group:
+                yield name, (extreme(group.values()), result.unit)
+    for child in report.children:
+        yield from _numbers(child, f"{prefix}{child.key}.")

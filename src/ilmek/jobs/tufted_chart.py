@@ -1,0 +1,38 @@
+"""The chart of a carpet that is tufted: its resolution is that of the machine, its yarns stand on cones."""
+
+from dataclasses import replace
+
+from ilmek.carpet.picture_points import hex_colour
+from ilmek.carpet.quality import Quality
+from ilmek.carpet.yarn_plan import parse_count
+from ilmek.io.chart.formats import format_of
+from ilmek.jobs.chart import ChartResult, make_charted
+from ilmek.jobs.order import CarpetOrder
+from ilmek.params import Setting
+from ilmek.progress import SILENT, Progress
+from ilmek.weaving.tufts import Cone
+
+
+def yarn_setting(order: CarpetOrder) -> dict[str, Setting]:
+    """The setting of the yarn by the count of an order; none where that is left open."""
+    if order.plan.yarn_count is None:
+        return {}
+    count, ply = parse_count(order.plan.yarn_count)
+    return {"yarn_density": f"{ply / count} g/m"}
+
+
+def charted_for_tufts(order: CarpetOrder, quality: Quality, progress: Progress = SILENT) -> ChartResult:
+    """The chart of an order at the resolution of a machine; a picture that is a chart keeps its size."""
+    if order.size is None and order.fit.width is None and order.fit.length is None and format_of(order.picture):
+        order = replace(order, size=make_charted(order, progress.part(0.0, 0.3)).chart.size)
+    order = replace(order, quality=quality, pdf=False, files=replace(order.files, rows="none"))
+    return make_charted(order, progress.part(0.3, 1.0))
+
+
+def cones_of(charted: ChartResult) -> tuple[Cone, ...]:
+    """The cone of each yarn of a chart, by its index."""
+    wool = charted.order.order.plan.price("pile", "wool")
+    return tuple(
+        Cone(yarn.name, hex_colour(yarn.srgb), wool if yarn.price is None else yarn.price)
+        for yarn in charted.chart.yarns
+    )

@@ -1,0 +1,171 @@
+"""The best design: a global search with the checks as constraints, then SLSQP with multipliers.
+
+The search is differential evolution with constraints (Lampinen 2002) over the variables in the unit cube, whole numbers
+and choices by rounding; it stops when its population agrees to `TOLERANCE`, or when the designs are spent. Where all
+variables are real numbers SLSQP goes on from its best, with differences of the checks that bind; its multipliers state
+what a limit costs. A result is taken only if it is better and every check of it holds.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.optimize import NonlinearConstraint, differential_evolution, minimize
+
+from ilmek.arrays import Float
+from ilmek.records import record
+from ilmek.studies.variable import Variable
+
+TOLERANCE = 1e-6
+"""Spread of the goal over the population, relative to its mean, at which the search stops."""
+
+MEMBERS = 8
+"""Members of the population for each variable, at least 16 in all."""
+
+POLISH = 30
+"""Largest number of steps of SLSQP."""
+
+STEP = 1e-6
+"""Step of the differences, relative to the range of a variable."""
+
+HOPELESS = 1e12
+"""Violation of a design that was not made."""
+
+Judge = Callable[[Float[np.ndarray, "n variables"]], tuple[np.ndarray, np.ndarray]]
+"""Values of the variables -> goal, to be minimised, and margins by check, (n, checks); NaN where there is none."""
+
+
+@record
+class Optimum:
+    """The best design that was found.
+
+    point        values of the variables [SI]; None: no design holds
+    goal         its goal, to be minimised
+    multipliers  check number -> what relaxing its limit by 1 (relative) would lower the goal by, where SLSQP ended
+    stopped      why the search ended
+    """
+
+    point: Float[np.ndarray, " variables"] | None
+    goal: float
+    multipliers: dict[int, float]
+    stopped: str
+
+
+def violation(margins: Float[np.ndarray, "n checks"], made: np.ndarray) -> Float[np.ndarray, " n"]:
+    """The sum of what the checks of each design miss; 0: every check holds."""
+    missed = np.where(np.isnan(margins), 0.0, np.minimum(margins, 0.0)).clip(-1e6)
+    return np.asarray(np.where(made, -missed.sum(axis=1), HOPELESS))
+
+
+def optimum(variables: tuple[Variable, ...], judge: Judge, count: int, seed: int) -> Optimum:
+    """The design of least goal of which every check holds, from at most `count` designs and those of SLSQP."""
+    cube = _Cube(variables, judge)
+    size = max(16, MEMBERS * len(variables))
+    generations = max(count // size - 1, 1)
+    start = cube.unit(np.array([v.nominal for v in variables]))
+    found = differential_evolution(
+        lambda x: cube.columns(x)[0],
+        [(0.0, 1.0)] * len(variables),
+        constraints=NonlinearConstraint(lambda x: cube.columns(x)[1], -np.inf, 0.0),
+        popsize=size // len(variables),
+        maxiter=generations,
+        tol=TOLERANCE,
+        x0=start,
+        vectorized=True,
+        updating="deferred",
+        polish=False,
+        rng=seed,
+    )
+    best = cube.best()
+    stopped = "the population agrees" if found.success else f"{generations} generations are spent"
+    if best is None:
+        return Optimum(None, np.nan, {}, stopped)
+    multipliers: dict[int, float] = {}
+    if all(variable.continuous for variable in variables):
+        multipliers = _polish(cube, best)
+        stopped += ", then SLSQP"
+        best = cube.best()
+        assert best is not None
+    return Optimum(cube.values(best[None])[0], cube.goal_of(best), multipliers, stopped)
+
+
+class _Cube:
+    """The judge over the unit cube; it remembers designs, so that goal and constraints cost one evaluation."""
+
+    def __init__(self, variables: tuple[Variable, ...], judge: Judge) -> None:
+        self._variables, self._judge = variables, judge
+        self._known: dict[bytes, tuple[float, np.ndarray, bool]] = {}
+        self._points: dict[bytes, np.ndarray] = {}
+
+    def values(self, unit: np.ndarray) -> np.ndarray:
+        return np.asarray(np.column_stack([v.across(unit[:, n]) for n, v in enumerate(self._variables)]))
+
+    def unit(self, values: np.ndarray) -> np.ndarray:
+        shares = [variable.share(value) for value, variable in zip(values, self._variables, strict=True)]
+        return np.asarray(np.clip(np.array(shares), 0.0, 1.0))
+
+    def judged(self, unit: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Goals, margins, and whether made, of points of the cube."""
+        unit = np.ascontiguousarray(unit)
+        keys = [point.tobytes() for point in unit]
+        new = {key: point for key, point in zip(keys, unit, strict=True) if key not in self._known}
+        if new:
+            goals, margins = self._judge(self.values(np.array(list(new.values()))))
+            for number, (key, point) in enumerate(new.items()):
+                made = bool(np.isfinite(goals[number]))
+                self._known[key], self._points[key] = (float(goals[number]), margins[number], made), point
+        rows = [self._known[key] for key in keys]
+        widest = max(len(row[1]) for row in rows)
+        margins = np.full((len(rows), widest), np.nan)
+        for number, row in enumerate(rows):
+            margins[number, : len(row[1])] = row[1]
+        return np.array([row[0] for row in rows]), margins, np.array([row[2] for row in rows])
+
+    def columns(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Goals and violations of points in columns, as `differential_evolution` gives them; or of one point."""
+        goals, margins, made = self.judged(np.atleast_2d(x.T))
+        missed = violation(margins, made)
+        goals = np.where(made, goals, HOPELESS)
+        return (goals, missed[None, :]) if x.ndim == 2 else (goals[0], missed)
+
+    def best(self) -> np.ndarray | None:
+        """The best point of which every check holds."""
+        keys = list(self._known)
+        goals, margins, made = self.judged(np.array([self._points[key] for key in keys]))
+        holds = made & (violation(margins, made) == 0)
+        return self._points[keys[int(np.argmin(np.where(holds, goals, np.inf)))]] if holds.any() else None
+
+    def goal_of(self, point: np.ndarray) -> float:
+        return float(self.judged(point[None])[0][0])
+
+
+def _polish(cube: _Cube, start: np.ndarray) -> dict[int, float]:
+    """SLSQP from a point of which every check holds; the multipliers of its checks.
+
+    Every point that it tries is remembered, so that the best that holds is never worse than the start.
+    """
+    goal, margins, _ = cube.judged(start[None])
+    kept = np.flatnonzero(np.isfinite(margins[0]))
+    scale = abs(float(goal[0])) or 1.0
+
+    def differences(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        step = np.where(x + STEP <= 1.0, STEP, -STEP)
+        goals, around, _ = cube.judged(np.vstack([x, x + np.diag(step)]))
+        around = np.nan_to_num(around[:, kept], nan=-1.0, neginf=-1e6)
+        return (goals[1:] - goals[0]) / step / scale, ((around[1:] - around[0]) / step[:, None]).T
+
+    def limits(x: np.ndarray) -> np.ndarray:
+        return np.asarray(np.nan_to_num(cube.judged(x[None])[1][0, kept], nan=-1.0, neginf=-1e6))
+
+    found = minimize(
+        lambda x: float(np.nan_to_num(cube.judged(x[None])[0][0], nan=HOPELESS)) / scale,
+        start,
+        jac=lambda x: np.nan_to_num(differences(x)[0]),
+        method="SLSQP",
+        bounds=[(0.0, 1.0)] * len(start),
+        constraints={"type": "ineq", "fun": limits, "jac": lambda x: np.nan_to_num(differences(x)[1])},
+        options={"maxiter": POLISH},
+    )
+    values = getattr(found, "multipliers", None)
+    if values is None or not found.success:
+        return {}
+    return {int(n): float(v) * scale for n, v in zip(kept, np.ravel(values), strict=False) if v > 1e-9}

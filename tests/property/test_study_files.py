@@ -1,0 +1,122 @@
+"""Results files of studies: the same bits however they come about; designs that fail, hang or end their process."""
+
+import sqlite3
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from study_targets import FunctionTarget
+
+from ilmek.errors import OutputError, ParameterError
+from ilmek.progress import Cancelled, Progress
+from ilmek.studies.outcome import Question
+from ilmek.studies.recorder import DesignRecorder
+from ilmek.studies.samples import sampled
+from ilmek.studies.store import StudyFile
+from ilmek.studies.variable import Variable
+from ilmek.studies.workers import Workers
+
+VARIABLES = (Variable("x", "mm", 0.5, 1.0, 0.6), Variable("y", "", 0.0, 2.0, 0.0, choices=("a", "b", "c")))
+
+
+def carried_out(path: Path, count: int = 700, *, workers: int = 1, stop: float = 2.0, function: str = "bad") -> str:
+    """A study in a file, stopped at a share of its designs; its digest."""
+    shares: list[float] = []
+    progress = Progress(lambda _, share: shares.append(share), lambda: bool(shares) and shares[-1] > stop)
+    question = Question(FunctionTarget(function), ("f",), time_limit=0.2)
+    with StudyFile(path, {"study": function}, ["x", "y"], ["f"]) as file, Workers(question, workers) as running:
+        recorder = DesignRecorder(file, VARIABLES, running, count, progress)
+        try:
+            recorder(sampled(VARIABLES, "sobol", count, 3))
+        except Cancelled:
+            return "cancelled"
+        return file.digest()
+
+
+@settings(max_examples=5, deadline=None)
+@given(stops=st.lists(st.floats(0.01, 0.99), min_size=1, max_size=3).map(sorted))
+def test_a_study_that_goes_on_has_the_same_file_bit_for_bit(
+    tmp_path_factory: pytest.TempPathFactory, stops: list[float]
+) -> None:
+    folder = tmp_path_factory.mktemp("study")
+    whole = carried_out(folder / "whole.sqlite")
+    for stop in stops:
+        assert carried_out(folder / "parts.sqlite", stop=stop) in ("cancelled", whole)
+    assert carried_out(folder / "parts.sqlite") == whole
+    assert (folder / "parts.sqlite").read_bytes() == (folder / "whole.sqlite").read_bytes()
+
+
+def test_workers_write_the_same_file(tmp_path: Path) -> None:
+    first = carried_out(tmp_path / "one.sqlite", 100)
+    assert carried_out(tmp_path / "two.sqlite", 100, workers=2) == first
+    assert (tmp_path / "one.sqlite").read_bytes() == (tmp_path / "two.sqlite").read_bytes()
+
+
+def test_a_transaction_that_was_cut_off_is_taken_back(tmp_path: Path) -> None:
+    """As after a power cut: a journal with the pages before the last transaction lies beside the file."""
+    whole = carried_out(tmp_path / "whole.sqlite")
+    carried_out(tmp_path / "cut.sqlite", stop=0.5)
+    base = sqlite3.connect(tmp_path / "cut.sqlite", isolation_level=None)
+    base.execute("BEGIN IMMEDIATE")
+    base.execute("DELETE FROM design WHERE id > 10")
+    base.close()
+    assert carried_out(tmp_path / "cut.sqlite") == whole
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_designs_that_cannot_be_made_are_rows_with_their_reason(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: int
+) -> None:
+    if workers > 1:
+        monkeypatch.setenv("ILMEK_STUDY_DIES", "1")
+    question = Question(FunctionTarget("bad"), ("f",), time_limit=0.1)
+    points = np.array([[x, 0.0] for x in (0.1, 0.25, 0.35, 0.45, 0.7, 0.9)])
+    with StudyFile(tmp_path / "s.sqlite", {}, ["x", "y"], ["f"]) as file, Workers(question, workers) as running:
+        rows = DesignRecorder(file, VARIABLES, running, len(points))(points)
+        statuses = {status: reason for status, reason, _ in file.reasons()}
+    assert statuses.keys() == {"refused", "fault", "timeout"} | ({"died"} if workers > 1 else set())
+    assert (statuses["refused"], statuses["fault"]) == ("cannot close", "ZeroDivisionError: a fault")
+    assert rows.made.tolist() == [False, False, False, workers == 1, True, True]
+    assert rows.feasible.tolist()[-2:] == [True, False]
+    assert np.isnan(rows.results[:3]).all()
+
+
+def test_a_row_takes_at_most_200_bytes(tmp_path: Path) -> None:
+    carried_out(tmp_path / "s.sqlite", 4096)
+    assert (tmp_path / "s.sqlite").stat().st_size / 4096 < 200
+
+
+def test_files_of_others_are_refused(tmp_path: Path) -> None:
+    carried_out(tmp_path / "s.sqlite", 10)
+    with pytest.raises(ParameterError, match="another study: its study is"):
+        carried_out(tmp_path / "s.sqlite", 10, function="stack")
+    (tmp_path / "text.sqlite").write_text("no database, but long enough to be read as its header" * 30)
+    with pytest.raises(OutputError, match="not a database"):
+        carried_out(tmp_path / "text.sqlite", 10)
+    with StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"]) as file:
+        assert len(file) == 0
+        with pytest.raises(OutputError, match="locked"):
+            StudyFile(tmp_path / "t.sqlite", {}, ["x"], ["f"])
+
+
+def test_a_file_with_other_designs_is_refused(tmp_path: Path) -> None:
+    carried_out(tmp_path / "s.sqlite", 10)
+    base = sqlite3.connect(tmp_path / "s.sqlite")
+    base.execute("UPDATE design SET x = 0.75 WHERE id = 3")
+    base.commit()
+    base.close()
+    with pytest.raises(ParameterError, match="other designs"):
+        carried_out(tmp_path / "s.sqlite", 10)
+
+
+def test_a_full_disc_is_an_error_that_keeps_what_is_there(tmp_path: Path) -> None:
+    path = tmp_path / "s.sqlite"
+    carried_out(path, 10)
+    with StudyFile(path, {"study": "bad"}, ["x", "y"], ["f"]) as file:
+        file._base.execute(f"PRAGMA max_page_count = {file._base.execute('PRAGMA page_count').fetchone()[0]}")
+        points = np.full((5000, 2), 0.7)
+        with Workers(Question(FunctionTarget("bad"), ("f",))) as running, pytest.raises(OutputError, match="full"):
+            DesignRecorder(file, VARIABLES, running, 1)(np.vstack([sampled(VARIABLES, "sobol", 10, 3), points]))
+        assert len(file) % 256 == 10

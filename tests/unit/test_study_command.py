@@ -1,0 +1,81 @@
+"""`ilmek study`: its words, its exit codes, its files."""
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+
+from ilmek.cli import main
+
+SWING = ("--vary", "swing=28deg..32deg")
+GOAL = ("--goal", "drive_torque_max")
+
+
+def call(*words: str) -> Result:
+    """The command run on the beat-up."""
+    return CliRunner().invoke(main, ["study", "beat-up", *words])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("--vary", "swinge=20deg..40deg"), "did you mean 'swing'?"),
+        (("--vary", "swing=200deg..400deg"), "out of bounds"),
+        (("--vary", "swing=40deg..20deg"), "give the lower value first"),
+        (("--vary", "swing=abc"), "a range FROM..TO"),
+        ((*SWING, "--goal", "drive_torque"), "did you mean"),
+        ((*SWING, "--method", "local"), "name one with --goal"),
+        ((*SWING, *GOAL, "--hold", "drive_torque_max >= 3kg"), "N*m is required"),
+        ((*SWING, "--resume"), "--out FILE.sqlite"),
+        ((*SWING, "--set", "swing=30deg"), "varies and is set"),
+        ((), "nothing varies"),
+    ],
+)
+def test_bad_words_are_one_error(words: tuple[str, ...], said: str) -> None:
+    found = call(*words)
+    assert found.exit_code == 2
+    assert said in found.stderr
+    assert len(found.stderr.splitlines()) == 1
+
+
+def test_a_study_writes_its_files_and_goes_on(tmp_path: Path) -> None:
+    out, table, page = tmp_path / "s.sqlite", tmp_path / "s.csv", tmp_path / "s.html"
+    words = (*SWING, *GOAL, "--sampling", "grid", "--samples", "3", "--out", str(out))
+    first = call(*words, "--csv", str(table), "--report", str(page), "--json", "-")
+    found = json.loads(first.stdout)
+    assert (first.exit_code, found["samples"], found["done"]) == (0, 3, 3)
+    assert found["best"]["parameters"]["swing"] == pytest.approx(0.4886921905584123)
+    assert table.read_text().splitlines()[0] == "swing,drive_torque_max,failed,worst"
+    assert "drive_torque_max over swing" in page.read_text()
+    again = call(*words, "--resume", "--json", "-")
+    assert json.loads(again.stdout)["digest"] == found["digest"]
+    assert "exists" in call(*words).stderr
+    design = CliRunner().invoke(main, [*found["best"]["command"].split()[1:], "--json", "-"])
+    assert json.loads(design.stdout)["results"]["drive_torque_max"] == found["best"]["results"]["drive_torque_max"]
+
+
+def test_a_study_without_a_design_that_holds_ends_with_3() -> None:
+    found = call(*SWING, *GOAL, "--samples", "2", "--hold", "drive_torque_max <= 0.1 N*m")
+    assert found.exit_code == 3
+    assert "drive_torque_max <= limit fails in 100%" in found.stdout
+
+
+def test_a_study_file_gives_the_words(tmp_path: Path) -> None:
+    file = tmp_path / "study.toml"
+    file.write_text('target = "beat-up"\ngoals = ["drive_torque_max"]\nsamples = 2\n[vary]\nswing = "28deg..32deg"\n')
+    found = CliRunner().invoke(main, ["study", str(file), "--json", "-"])
+    assert json.loads(found.stdout)["samples"] == 2
+    file.write_text('target = "beat-up"\ngoal = "drive_torque_max"\n')
+    wrong = CliRunner().invoke(main, ["study", str(file)])
+    assert "line 2: unknown key 'goal'" in wrong.stderr
+    assert "did you mean 'goals'?" in wrong.stderr
+
+
+def test_a_mechanism_varies_by_its_values() -> None:
+    words = ("--vary", "stroke=55mm..65mm", "--goal", "drive_torque_rms", "--sampling", "grid", "--samples", "2")
+    found = CliRunner().invoke(main, ["study", "examples/slider_crank_press.toml", *words, "--json", "-"])
+    best = json.loads(found.stdout)["best"]
+    assert best["command"].endswith("examples/slider_crank_press.toml --set stroke=55mm")
+    one = CliRunner().invoke(main, [*best["command"].split()[1:], "--json", "-"])
+    assert json.loads(one.stdout)["results"]["drive_torque_rms"] == best["results"]["drive_torque_rms"]
