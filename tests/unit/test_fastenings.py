@@ -3,10 +3,12 @@
 from dataclasses import replace
 
 import pytest
+from default_machines import default_design
 
 from ilmek.cams.loaded_plate_cam import STEEL
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
+from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tree_manual import fastening_check, weld_check
 from ilmek.part.bolting import bolted
 from ilmek.part.fastenings import Means, fastenings
@@ -113,3 +115,15 @@ def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
     lies = placement(0.05, 0.05)
     beside = Occurrence(arm, (lies,))
     assert fastenings(Tree((RigidBody("test/body", (Occurrence(post), beside)),))).loose
+
+
+FASTENED = ("warp-tension", "shedding", "hand-loom", "weft", "hammer")
+"""Machines alone whose drives, rails and magnets all have what holds them."""
+
+
+@pytest.mark.parametrize("name", FASTENED)
+def test_a_machine_alone_has_a_fastening_for_each_part(name: str) -> None:
+    machine = MACHINES[name]
+    assert machine.tree is not None
+    check = fastening_check(bolted(machine.tree(default_design(name))))
+    assert check.ok, check.source

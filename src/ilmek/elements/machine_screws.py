@@ -165,6 +165,7 @@ SOCKET_SCREWS = {
         ("M8", 8.0, 36.6, 13.0, 9.0, 15.0),
         ("M10", 10.0, 58.0, 16.0, 11.0, 18.0),
         ("M12", 12.0, 84.3, 18.0, 13.5, 20.0),
+        ("M16", 16.0, 157.0, 24.0, 17.5, 26.0),
     )
 }
 """By thread, ascending: heads of ISO 4762, as high as the thread is wide, holes and counterbores for them."""

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
-from ilmek.units import mm
+from ilmek.report import Check, at_most
+from ilmek.units import format_quantity, mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +36,10 @@ class Reducer:
         power = np.multiply(load_torque, speed)
         factor = np.where(power > 0, 1 / self.efficiency, np.where(power < 0, backwards, max(backwards, 0.0)))
         return np.asarray(factor * load_torque / self.ratio)
+
+    def output_torque(self, motor_torque: float) -> float:
+        """Torque at the output [N m] for one at the input [N m]: M i eta."""
+        return motor_torque * self.ratio * self.efficiency
 
     @property
     def back_driving_efficiency(self) -> float:
@@ -64,29 +69,34 @@ PLANETARY = tuple(
 
 @dataclass(frozen=True, slots=True)
 class ReducerFlange:
-    """The side of a reducer's output up to a torque [N m]: face [m], circle of its four screws [m], these by name,
-    mass of the reducer [kg].
+    """The side of a reducer's output up to a torque [N m]: face [m], circle of its screws [m], these by name, their
+    number, mass of the reducer [kg].
     """
 
     torque: float
     face: float
     circle: float
     thread: str
+    number: int
     mass: float
 
 
 REDUCER_FLANGES = tuple(
-    ReducerFlange(torque, face * mm, circle * mm, thread, mass)
-    for torque, face, circle, thread, mass in (
-        (20.0, 40, 34, "M4", 0.45),
-        (50.0, 60, 52, "M5", 1.1),
-        (130.0, 80, 70, "M6", 2.6),
-        (290.0, 115, 100, "M10", 8.0),
-        (900.0, 160, 145, "M12", 22.0),
-        (2000.0, 200, 180, "M12", 45.0),
+    ReducerFlange(torque, face * mm, circle * mm, thread, number, mass)
+    for torque, face, circle, thread, number, mass in (
+        (20.0, 40, 34, "M4", 4, 0.45),
+        (50.0, 60, 52, "M5", 4, 1.1),
+        (130.0, 80, 70, "M6", 4, 2.6),
+        (290.0, 115, 100, "M10", 4, 8.0),
+        (900.0, 160, 145, "M12", 4, 22.0),
+        (2000.0, 200, 180, "M12", 4, 45.0),
+        (5000.0, 280, 250, "M16", 6, 95.0),
+        (9000.0, 340, 310, "M16", 6, 160.0),
+        (14000.0, 450, 420, "M16", 6, 260.0),
     )
 )
-"""Classes of coaxial reducers of two and three stages, from the smallest; makers differ, in masses by a third."""
+"""Classes of reducers of two and three stages, from the smallest; makers differ, in masses by a third. Those above
+2,000 N m are industrial ones; their sizes and masses are assumed, and their screws hold the torque by friction."""
 
 
 def flange_for(torque: float, face: float = 0.0) -> ReducerFlange:
@@ -97,6 +107,15 @@ def flange_for(torque: float, face: float = 0.0) -> ReducerFlange:
     """
     enough = (row for row in REDUCER_FLANGES if row.torque >= torque and row.face >= face - 1e-9)
     return next(enough, REDUCER_FLANGES[-1])
+
+
+def reducer_check(title: str, by: Reducer, motor_torque: float, load: float, part: str) -> Check:
+    """The torque of a load on a reducer [N m] against that of its class, which bears its motor's too [N m]."""
+    row = flange_for(max(by.output_torque(motor_torque), load))
+    source = f"class with a flange of {format_quantity(row.face, 'mm')}; the largest is of 14 kNm"
+    return at_most(f"torque of the {title}", load, row.torque, "Nm", source).with_cure(
+        "set a lower tension, or a narrower loom", part
+    )
 
 
 RATIOS = (1.0, *(reducer.ratio for reducer in PLANETARY))

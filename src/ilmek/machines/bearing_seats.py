@@ -16,7 +16,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.columns import STEEL
-from ilmek.elements.machine_screws import SCREWS, FourScrews
+from ilmek.elements.machine_screws import SCREWS, SOCKET_SCREWS, FourScrews
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -26,13 +26,16 @@ from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.records import record
 from ilmek.report import Check, at_most
-from ilmek.units import mm
+from ilmek.units import mm, turn
 
 BRACKET = 20 * mm
 """Thickness of the plates that carry the bearings [m]; assumed by this project: their height follows from the load."""
 
 CLEAR = 2 * mm
 """Bore of a bracket over the shaft that reaches through it, on each side [m]; assumed by this project."""
+
+TURNED = turn / 24
+"""Angle of a reducer to its bearing's housing: its screws keep off those of the housing and off the shaft's slot."""
 
 _HOLE = 1.1
 """Hole in the square plate of a bearing over the screw's diameter [ISO 273, medium]."""
@@ -107,6 +110,20 @@ class BearingSeat:
         """Axes of the screws about that of the shaft [m]."""
         screws = self.screws
         return np.asarray(screws.distance(screws.screw) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]))
+
+    def turned(self, driven: Part) -> float | None:
+        """Angle of a reducer on the bracket's other face, at which its four screws keep off those of the seat and off
+        the shaft's slot, 0 or `TURNED` [rad]; None: they do not.
+        """
+        assert driven.purchase is not None
+        holes, screw = driven.purchase.holes[0], self.screws.screw.diameter / 2
+        around = SOCKET_SCREWS[holes.thread].sink / 2 + mm
+        for angle in (0.0, TURNED):
+            spots = complex(holes.across, holes.along) / 2 * np.exp(1j * (angle + turn / 4 * np.arange(4)))
+            gap = float(np.abs(spots[:, None] - self.corners()).min()) - screw
+            if min(gap, float(np.abs(spots.real).min()) - self.bore / 2) > around:
+                return angle
+        return None
 
     def check(self, title: str, cure: str, part: str) -> Check:
         """The force of the shaft against what the screws hold."""

@@ -33,6 +33,7 @@ class CarriedShaft:
     name   of the shaft, for people       key   last part of the ids of what carries it
     seat   of its bearings                inner  sides of these from the middle of the width [m]
     beside  room that it takes about its axis, its drive included [m]
+    flange  radius about its axis of the room for the screws of its reducer [m]
     """
 
     name: str
@@ -40,6 +41,12 @@ class CarriedShaft:
     seat: BearingSeat
     inner: float
     beside: float
+    flange: float = 0.0
+
+    @property
+    def edge(self) -> float:
+        """From its axis to the edges of its brackets, at least [m]."""
+        return max(self.seat.side / 2 + EDGE, self.flange)
 
     @property
     def face(self) -> float:
@@ -49,7 +56,7 @@ class CarriedShaft:
 
 def column_face(shafts: Sequence[CarriedShaft]) -> float:
     """Front of the columns behind the axes of the shafts [m]."""
-    return GAP + max(max(shaft.beside, shaft.seat.side / 2 + EDGE) for shaft in shafts)
+    return GAP + max(max(shaft.beside, shaft.edge) for shaft in shafts)
 
 
 def stand_heights(shafts: Sequence[CarriedShaft]) -> tuple[float, ...]:
@@ -92,13 +99,13 @@ def _height(shaft: CarriedShaft, behind: float) -> float:
     """Height of a bracket [m]."""
     seat = shaft.seat
     moment = seat.force * behind, seat.force * (seat.bearing.width + BRACKET) / 2
-    return max(least_height(moment, STEEL.strength / SAFETY), seat.side + 2 * EDGE)
+    return max(least_height(moment, STEEL.strength / SAFETY), 2 * shaft.edge)
 
 
 def _bracket(shaft: CarriedShaft, behind: float) -> Prism:
     """The plate about the axis of a shaft, from the column's front."""
     seat, high = shaft.seat, _height(shaft, behind) / 2
-    front = seat.side / 2 + EDGE
+    front = shaft.edge
     corners = np.array([-behind - 1j * high, front - 1j * high, front + 1j * high, -behind + 1j * high])
     screws = [circle(complex(corner), seat.screws.screw.diameter / 2) for corner in seat.corners()]
     return Prism(Profile(polygon(corners), (circle(0j, seat.bore / 2), *screws)), BRACKET)

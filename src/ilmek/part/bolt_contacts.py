@@ -26,7 +26,7 @@ BOLTED = frozenset(
 )  # fmt: skip
 """Kinds of bought parts that are held by screws."""
 
-_NEVER = frozenset({"cam plate", "guard mesh", "fastener"})
+_NEVER = frozenset({"cam plate", "guard mesh", "fastener", "magnet"})
 """Processes of made parts that are held otherwise."""
 
 _MOST = 200

@@ -8,6 +8,7 @@ from ilmek.arrays import BoolArray, ComplexArray, FloatArray
 from ilmek.part.part import HolePattern
 from ilmek.part.placement import Placement
 from ilmek.part.seat_faces import SeatFace
+from ilmek.units import turn
 
 EDGE = 1.5
 """Distance of a screw's axis from an edge over its diameter, at least."""
@@ -72,6 +73,10 @@ def clear(face: SeatFace, points: ComplexArray, apart: float) -> BoolArray:
     return np.asarray(face.room(points, 2 * apart) > apart - _ROUNDING)
 
 
+RING_FROM = 1 / 24
+"""Turns from the face's first axis to the first hole of a ring; assumed by this project."""
+
+
 def pattern_points(pattern: HolePattern, face: SeatFace) -> ComplexArray:
     """The holes of a pattern on a face, in its frame [m]."""
     middle, size = (face.low + face.high) / 2, face.high - face.low
@@ -81,6 +86,9 @@ def pattern_points(pattern: HolePattern, face: SeatFace) -> ComplexArray:
         row = (np.arange(number) - (number - 1) / 2) * pattern.along
         return np.asarray(middle + row * (1.0 if size.real >= size.imag else 1j))
     across, along = pattern.across, pattern.along
+    if pattern.ring:
+        angles = turn * (np.arange(pattern.ring) / pattern.ring + RING_FROM)
+        return np.asarray(middle + abs(complex(across, along)) / 2 * np.exp(1j * angles))
     if (size.real - size.imag) * (across - along) < 0:
         across, along = along, across
     x, y = (np.array([-apart, apart]) / 2 if apart else np.zeros(1) for apart in (across, along))

@@ -325,7 +325,8 @@ def _at_point(
     if not deep.flat or deep.free < _TOOL * screw.diameter:
         return None
     least = screw.engaged(thread.part.material.name) if thread.part.material else screw.diameter
-    most = below.length if below.flat else below.length - 2 * _TIP * screw.diameter
+    flat = below.flat or thread.part.purchase is not None  # a maker's thread ends over what is below
+    most = below.length if flat else below.length - 2 * _TIP * screw.diameter
     if thread.part.purchase is not None:
         most = min(most, 2 * screw.diameter)
     if made is not None:

@@ -46,6 +46,9 @@ ADAPTER, _ADAPTER_FILLED = 0.3, 0.5
 this project.
 """
 
+_CORNERS = 4
+"""Screws of a flange that stand in the corners of a square."""
+
 BEFORE_KEY = 5 * mm
 """From the face that a reducer sits on to the key in its hollow shaft [m]; assumed by this project."""
 
@@ -159,24 +162,28 @@ def reducer(  # noqa: PLR0917
     row: Motor | None,
     end: KeyedEnd | None = None,
     output: tuple[float, Sum] | None = None,
+    *,
+    least: float = 0.0,
 ) -> Part:
     """A reducer, priced by the power of its motor: from the motor's flange at z = 0 towards its output.
 
     end  of the shaft that its hollow shaft takes: the room of both is open
     output  of an angle reducer: diameter of its own shaft, and the shape of that across its input
+    least  width of its flange [m]
     """
-    given = row.torque * by.ratio * by.efficiency if row else 0.0
+    given = max(by.output_torque(row.torque) if row else 0.0, end.torque if end else 0.0)
     motor_face = row.face if row else SPECIAL_FACE
-    shaft, least, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", 0.0, 0.0
+    shaft, keyed, hollow = "" if output is None else f"output shaft {in_mm(output[0])}", 0.0, 0.0
     if end is not None:
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
-        hollow, least = abs(corner) + HOLLOW, BEFORE_KEY + end.length
+        hollow, keyed = abs(corner) + HOLLOW, BEFORE_KEY + end.length
         shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
-    flange = flange_for(given, 2 * (hollow + WALL) if hollow else 0.0)
+    flange = flange_for(given, max(2 * (hollow + WALL) if hollow else 0.0, least))
     face, across = max(motor_face, flange.face), output is not None
-    long = max(REDUCER_LENGTH * face, least)
+    long = max(REDUCER_LENGTH * face, keyed)
     pitch, (motor_holes,), row_of = flange.circle / math.sqrt(2), flange_holes(row), SOCKET_SCREWS[flange.thread]
-    holes = HolePattern(pitch, pitch, flange.thread, tapped=across, faces=(0,) if across else (1,))
+    ring, faces = flange.number if flange.number > _CORNERS else 0, (0,) if across else (1,)
+    holes = HolePattern(pitch, pitch, flange.thread, ring=ring, tapped=across, faces=faces)
     bores = (circle(0j, hollow),) if hollow else ()
     room: Shape = Prism(Profile(rectangle(face, face), bores), long)
     if not across:  # screws from behind a flange at its output
@@ -199,7 +206,14 @@ def reducer(  # noqa: PLR0917
 
 def reducer_face(by: Reducer, row: Motor) -> float:
     """Width of the reducer of a motor, if it has a shaft of its own [m]."""
-    return max(row.face, flange_for(row.torque * by.ratio * by.efficiency).face)
+    return max(row.face, flange_for(by.output_torque(row.torque)).face)
+
+
+def screwed_radius(driven: Part) -> float:
+    """Radius about the axis of a reducer that a plate needs for its screws with their heads [m]."""
+    assert driven.purchase is not None
+    holes = driven.purchase.holes[0]
+    return abs(complex(holes.across, holes.along)) / 2 + SOCKET_SCREWS[holes.thread].sink / 2 + mm
 
 
 def _holes_text(holes: HolePattern) -> str:

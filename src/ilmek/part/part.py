@@ -32,6 +32,7 @@ class HolePattern:
 
     across, along  distances of neighbouring holes [m]; 0: one row, at the middle      thread  by name
     in_rows  the row along the face is repeated over its length, of a rail; else there are two
+    ring     so many evenly on the circle through the four; 0: the four
     tapped    they are threads; else holes for screws with their heads in the part
     faces     that have them, by z of their normals in the part's axes: its ends, -1 and 1, its sides, 0
     """
@@ -40,13 +41,14 @@ class HolePattern:
     along: float
     thread: str
     in_rows: bool = False
+    ring: int = 0
     tapped: bool = False
     faces: tuple[int, ...] = (-1, 1)
 
     @property
     def number(self) -> int:
         """Of the holes about the middle of a face."""
-        return math.prod(2 if apart else 1 for apart in (self.across, self.along))
+        return self.ring or math.prod(2 if apart else 1 for apart in (self.across, self.along))
 
 
 @record

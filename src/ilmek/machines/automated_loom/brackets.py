@@ -32,7 +32,9 @@ from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import bearing_inner, reducer
 from ilmek.machines.warp_tension.cylinders import cylinders
+from ilmek.machines.warp_tension.tree import winding_reducer
 from ilmek.part import catalogue
+from ilmek.part.part import Part
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, rectangle
 from ilmek.plane.contours import circle, rounded_hull, slotted
@@ -160,9 +162,12 @@ def brackets_of(loom: LoomDesign) -> Brackets:
     beam = _beam(loom, pull)
     rest = _beside_the_back_rest(loom, beam)
     seats = [(spacer.name, side.spacer.at, spacer), (lower.name, side.lower.at, lower)]
-    most = abs(side.spacer.at - side.lower.at) / 2 - ROOM / 2
+    most, flange = abs(side.spacer.at - side.lower.at) / 2 - ROOM / 2, winding_reducer(loom.warp_tension)
     shafts = [
-        _of_seat(loom, f"{name}-bracket", f"bracket of the {name} cylinder", far, (at, one.seat, one.reaction), most)
+        _of_seat(
+            *(loom, f"{name}-bracket", f"bracket of the {name} cylinder", far, flange),
+            *((at, one.seat, one.reaction), most),
+        )
         for name, at, one in seats
     ]
     return Brackets(
@@ -208,6 +213,7 @@ def _upper(
     loads += [(force, abs(one.axis.real - column), BRACKET / 2) for one in carried]
     moment = sum(load * lever for load, lever, _ in loads), sum(load * aside for load, _, aside in loads)
     sides = max([section.side, *(one.section.side for one in carried)]) / math.sqrt(2)
+    flange = catalogue.screwed_radius(winding_reducer(loom.warp_tension))
     ends = _crossed(nodes, column)
     return Bracket(
         "upper-bracket",
@@ -215,7 +221,7 @@ def _upper(
         far + seat.bearing.width,
         nodes,
         ends,
-        _radius(loom, moment, ends, max(seat.radius, sides), _over_reducers(loom, nodes)),
+        _radius(loom, moment, ends, max(seat.radius, sides, flange), _over_reducers(loom, nodes)),
         screw_bores(seat, np.array([at])),
         seat,
         at,
@@ -252,22 +258,25 @@ def _of_seat(  # noqa: PLR0917
     name: str,
     title: str,
     far: float,
+    driven: Part,
     carried: tuple[complex, BearingSeat, float],
     most: float = math.inf,
     shift: ComplexArray | None = None,
 ) -> Bracket:
     """The bracket of a bearing; of one that slides by shifts [m] with a slot.
 
-    far  of the bearing's inner side from the middle [m]      carried  axis, seat and force      most  radius [m]
+    far  of the bearing's inner side from the middle [m]      driven  reducer on it
+    carried  axis, seat and force      most  radius [m]
     """
     at, seat, force = carried
     moved = at + (np.zeros(1, complex) if shift is None else shift)
     moment = force * abs(at.real - loom.side.column), force * (seat.bearing.width + BRACKET) / 2
     ends, half = (float(moved.imag.min()), float(moved.imag.max())), seat.side / 2
-    radius = min(_radius(loom, moment, ends, seat.radius), max(most, half))
+    flange = catalogue.screwed_radius(driven)
+    radius = min(_radius(loom, moment, ends, max(seat.radius, flange)), max(most, half, flange))
     if shift is not None:  # square at its end: a round one would reach farther to what lays the weft
         ends, radius = (ends[0] - radius + _CORNER, ends[1] + radius - _CORNER), _CORNER
-        moved_ends, beyond = at.real + 1j * np.array(ends), half - _CORNER
+        moved_ends, beyond = at.real + 1j * np.array(ends), max(half, flange) - _CORNER
     else:
         # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
@@ -298,8 +307,8 @@ def _of_cam_shafts(loom: LoomDesign) -> Iterator[Bracket]:
     for index, (cam, shaft) in enumerate(zip(loom.side.cams, design.shafts, strict=True)):
         number = f" {index + 1}" if len(design.shafts) > 1 else ""
         name, title = f"cam-bracket{number.replace(' ', '-')}", f"bracket of the cam shaft{number}"
-        force = shaft.shaft.seat.reaction
-        yield _of_seat(loom, name, title, bearing_inner(design, index), (cam.at, shaft.seat, force), shift=shift)
+        far, carried = bearing_inner(design, index), (cam.at, shaft.seat, shaft.shaft.seat.reaction)
+        yield _of_seat(loom, name, title, far, reducer(design, index), carried, shift=shift)
 
 
 def _radius(

@@ -191,9 +191,12 @@ def _lightest(
     most: float,
     stiff: Callable[[Iterator[HollowSquare]], HollowSquare | None],
 ) -> RailSupport:
-    """The support of the lightest sections that keep its checks, of stiff posts; of the largest where none does."""
-    posts = [square for square in ascending() if RAIL_AXIS <= square.side <= most]
+    """The support of the lightest sections that keep its checks, of stiff posts that leave room for an arm; of the
+    largest of these where none does.
+    """
     arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
+    posts = [square for square in ascending() if RAIL_AXIS <= square.side <= most]
+    posts = [square for square in posts if chosen(square, arms[0]).reach > 2 * END_PLATE] or posts[:1]
     post = stiff(one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))) or posts[-1]
     arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])
     return chosen(post, arm)

@@ -18,6 +18,7 @@ from ilmek.elements.belts import BELTS, belt_length
 from ilmek.elements.columns import STEEL
 from ilmek.elements.pin_joints import PIN_DIAMETERS
 from ilmek.elements.shoulders import LEAST_SAFETY, Shoulder
+from ilmek.machines.bearing_seats import CLEAR
 from ilmek.machines.beat_up.beam import BEFORE_PIVOT
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
@@ -30,8 +31,9 @@ from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Prism, bar, box, stepped
 from ilmek.part.tree import Occurrence, in_line
 from ilmek.plane.contours import circle, polygon, rounded_hull
+from ilmek.plane.curves import hull
 from ilmek.report import Check, Hole, at_least, at_most
-from ilmek.units import in_mm, mm, round_size
+from ilmek.units import in_mm, mm
 
 AXIS_SIDE = 80 * mm
 """Side of the section of the belt axis [m]; assumed by this project."""
@@ -51,6 +53,11 @@ SHARED_SHAFT = "beat-up/shared-shaft"
 BELT, BELT_BODY, BELT_WIDTH = BELTS["HTD 8M"], 2.5 * mm, 30 * mm
 """The belt from it to a crank, its thickness without teeth, and room for its pulleys along the pins [m]: assumed by
 this project."""
+
+DRIVE_PLATE, DRIVE_GAP, _DRIVE_BORE = "beat-up/drive-plate", 5 * mm, 0.3
+"""Id of the plate of the drive of a comb, its distance from the flywheel [m], radius of its bore over the face of what
+it carries; assumed by this project.
+"""
 
 NECK = 20 * mm
 """Length of the journal of that shaft before its drive [m]: assumed by this project."""
@@ -107,6 +114,28 @@ def plate_part(linkage: BeatUp, wide: float, top: float, high: float, shared: fl
     return Part(PLATE, "plate of crank and rocker", "laser-cut part", shape, STEEL, machined=True)
 
 
+def drive_plate(linkage: BeatUp, beam: float, driven: Part, shared: float) -> Part:
+    """The plate on a beam of a side [m] that carries reducer and motor of the shared shaft, of a diameter [m]."""
+    corner, axis, face = beam_corner(linkage), shared_axis(linkage, shared), catalogue.face_of(driven)
+    foot, about = corner + 1j * beam, max(face / 2, catalogue.screwed_radius(driven)) + _AROUND
+    square = axis + about * np.array([1 + 1j, 1 - 1j, -1 + 1j, -1 - 1j])
+    outline = polygon(hull(in_links_axes(linkage, np.array([foot, foot + beam, *square]))))
+    hole = Hole(complex(in_links_axes(linkage, np.array([axis]))[0]), _DRIVE_BORE * face)
+    thickness = linkage.params.thickness
+    shape = Prism(drilled(outline, [hole]), thickness)
+    return Part(DRIVE_PLATE, "plate of the drive", "laser-cut part", shape, STEEL, machined=True)
+
+
+def drive_shaft(linkage: BeatUp, driven: Part) -> Part:
+    """The shaft from the flywheel through the plate of the drive to the reducer or motor, clear of the plate's bore."""
+    diameter = 2 * (_DRIVE_BORE * catalogue.face_of(driven) - CLEAR)
+    shape, held = bar(diameter, DRIVE_GAP + linkage.params.thickness), "locking assemblies in flywheel and reducer"
+    return Part(
+        *("beat-up/drive-shaft", "shaft of the drive", "turned part", shape, PIN_STEEL),
+        fixing=held,
+    )
+
+
 def _teeth(linkage: BeatUp, shared: float) -> int:
     """Teeth of the pulleys on a shaft of a diameter [m] and on the cranks."""
     radius = max(linkage.params.width / 2, shared / 2 + _AROUND)
@@ -159,13 +188,15 @@ def _shoulder_checks(end: Shoulder) -> tuple[Check, ...]:
     )
 
 
-def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float]) -> Iterator[Occurrence]:
-    """The shaft along z from the first station's plate to the last one's belt, and a belt from it to each crank."""
+def shared_drive(linkage: BeatUp, torque: float, stations: Sequence[float], neck: float) -> Iterator[Occurrence]:
+    """The shaft along z from the first station's plate to the last one's belt, with a neck of a length [m] beyond, and
+    a belt from it to each crank.
+    """
     end, thickness = shared_end(linkage, torque, len(stations)), linkage.params.thickness
     begin, belt_begin = min(stations) + plate_begin(linkage), plate_begin(linkage) + thickness
     axis = complex(in_links_axes(linkage, np.array([shared_axis(linkage, end.shaft)]))[0])
     length = max(stations) + belt_begin + BELT_WIDTH - begin
-    size, shape = round_size(end.shaft), stepped((end.shaft, length), (end.journal, NECK))
+    shape = stepped((end.shaft, length), (end.journal, neck))
     shared = Part(SHARED_SHAFT, "shaft of all cranks", "turned part", shape, PIN_STEEL)
     teeth = _teeth(linkage, end.shaft)
     tips = BELT.tip_radius(teeth) + 0.05 * mm

@@ -186,7 +186,12 @@ def _length(rim: Turned) -> float:
 
 def start_parts(start: CrankStart) -> tuple[Part, ...]:
     """What starts and turns the crank shaft, from the shaft on: clutch and brake, flywheel, reducer, motor."""
-    return (*_coupled(start), *_geared(start))
+    return (*coupled_parts(start), *_geared(start))
+
+
+def coupled_parts(start: CrankStart) -> tuple[Part, ...]:
+    """What is on the shaft before its reducer and motor."""
+    return tuple(_coupled(start))
 
 
 def _coupled(start: CrankStart) -> Iterator[Part]:
@@ -198,7 +203,8 @@ def _coupled(start: CrankStart) -> Iterator[Part]:
     wide = (8 * mass / (math.pi * STEEL.density)) ** (1 / 3)
     bought = Bought(format_quantity(size, "Nm"), mass, power=CLUTCH_POWER * size**0.4)
     name = "clutch and brake"
-    yield bought_part(CLUTCH, f"{name} of the beat-up", name, bar(wide, wide / 2), bought)
+    fixing = "its hub is keyed to the shaft, its other half screwed to the flywheel, as its maker says"
+    yield bought_part(CLUTCH, f"{name} of the beat-up", name, bar(wide, wide / 2), bought, fixing=fixing)
     if start.start_flywheel > 0:
         wheel = _wheel(start.start_flywheel)
         yield Part(FLYWHEEL, "flywheel of the beat-up", "steel bar", wheel, STEEL)

@@ -22,9 +22,12 @@ from ilmek.machines.beat_up.carriage import (
     BELT_WIDTH,
     BLOCK_HEIGHT,
     BLOCK_LENGTH,
+    DRIVE_GAP,
     NECK,
     beam_corner,
     carried,
+    drive_plate,
+    drive_shaft,
     driving,
     in_links_axes,
     on_slide,
@@ -37,7 +40,7 @@ from ilmek.machines.beat_up.carriage import (
     slide_block,
 )
 from ilmek.machines.beat_up.crank_start import MOTOR as CRANK_MOTOR
-from ilmek.machines.beat_up.crank_start import CrankStart, start_parts
+from ilmek.machines.beat_up.crank_start import CrankStart, coupled_parts, start_parts
 from ilmek.machines.beat_up.design import BeatUp
 from ilmek.machines.beat_up.links import PART_IDS, layer
 from ilmek.machines.beat_up.parts import link_parts, pin_part
@@ -49,7 +52,7 @@ from ilmek.part.extents import around, extents
 from ilmek.part.link_motion import carriers, closures
 from ilmek.part.link_motion import link_motions as motions_of
 from ilmek.part.placement import IN_SIDE_VIEW, Placement, placement
-from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
+from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, depth_of, in_line
 from ilmek.report.scene import SceneMotion
 
 CARRIAGE, RAIL = "beat-up/carriage", "beat-up/rail"
@@ -167,7 +170,8 @@ def loops(design: BeatUp) -> tuple[Closure, ...]:
 
 def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Sequence[float]) -> RigidBody:
     """What stands of crank-rockers at stations along z [m]: the beam, a plate with its pins at each, and the drive."""
-    shared = shared_end(design, start.start_torque, len(stations)).shaft
+    shared, coupled = shared_end(design, start.start_torque, len(stations)).shaft, coupled_parts(start)
+    geared, neck = start_parts(start)[len(coupled) :], NECK + (0.0 if coupled else design.params.thickness)
     plate = plate_part(design, beam.section.side, beam.section.side, design.params.width, shared)
     parts: dict[str, Occurrence] = {}
     for one in (part for z in stations for part in carried(design, plate, z, belted=True)):
@@ -175,8 +179,14 @@ def crank_frame(design: BeatUp, beam: BeatBeam, start: CrankStart, stations: Seq
         parts[one.part.id] = replace(one, positions=(*before, *one.positions))
     end = max(stations) + plate_begin(design) + design.params.thickness + BELT_WIDTH + NECK
     axis = complex(in_links_axes(design, np.array([shared_axis(design, shared)]))[0])
-    belts = shared_drive(design, start.start_torque, stations)
-    drive = driving(start_parts(start), end, axis)
+    belts = shared_drive(design, start.start_torque, stations, neck)
+    beyond = end + math.fsum(depth_of(one) for one in coupled)
+    drive = [*driving(start_parts(start), end, axis)[: len(coupled)]]
+    if coupled:
+        drive.append(Occurrence(drive_shaft(design, geared[0]), (placement(axis.real, axis.imag, beyond),)))
+        beyond += DRIVE_GAP
+    plate = drive_plate(design, beam.section.side, geared[0], shared)
+    drive += [Occurrence(plate, (placement(z=beyond),)), *driving(geared, beyond + design.params.thickness, axis)]
     return RigidBody(CARRIAGE, (*beam_occurrences(design, beam), *parts.values(), *belts, *drive))
 
 

@@ -286,4 +286,5 @@ def bracket(links: beat_up.BeatUpParams, params: HammerParams) -> Part:
     """A plate beside a rocker, in the side view from the comb's bar along the rocker, from z = 0."""
     front, half = params.reach + params.comb_thickness, links.width / 2
     corners = rectangle(front, front + 2 * links.width, -half, half)
-    return across("hammer/bracket", "bracket of the comb", "laser-cut part", corners, GAP * links.thickness)
+    plate = across("hammer/bracket", "bracket of the comb", "laser-cut part", corners, GAP * links.thickness)
+    return replace(plate, fixing="welded to the bar of the comb by fillets a3, screwed to its rocker")

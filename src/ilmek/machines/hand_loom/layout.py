@@ -23,8 +23,8 @@ from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.hand_shed import HandShed
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders, spacer_tube
-from ilmek.machines.warp_tension.params import WarpTensionParams
 from ilmek.machines.warp_tension.tree import HANDLE_SIZE, reach_of, winding_reducer
+from ilmek.part import catalogue
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
 from ilmek.plane.contours import polygon, slotted
@@ -141,7 +141,7 @@ def laid_out(
     column, task = _column(task, reach_of(winding_reducer(winding)) + ROOM)
     depth = -radius - task.lever
     axes = {"upper": upper.at, "lower": lower.at, "spacer": spacer.at}
-    brackets = tuple(_bracket(params, own, axes[own.name], column, depth, safety[0]) for own in cylinders(winding))
+    brackets = tuple(_bracket(winding, own, axes[own.name], column, depth, safety[0]) for own in cylinders(winding))
     return HandLoomLayout(upper, spacer, lower, roll, floor, under_beam + column.side, column, depth, brackets, task)
 
 
@@ -158,16 +158,17 @@ def _column(task: FrameTask, beside: float) -> tuple[HollowSquare, FrameTask]:
 
 
 def _bracket(  # noqa: PLR0917
-    params: WarpTensionParams, own: Cylinder, at: complex, column: HollowSquare, depth: float, safety: float
+    design: WarpTensionDesign, own: Cylinder, at: complex, column: HollowSquare, depth: float, safety: float
 ) -> CylinderBracket:
     """A plate from behind the column to before the bearing, as high as the bearing's seat and the load need.
 
     s h² - 6 R o / t² h - 6 R d / t = 0      R force, d its lever off the column, o beside the plate  [beam theory]
     """
-    seat, lever = own.seat, abs(at.real - depth)
+    params, seat, lever = design.params, own.seat, abs(at.real - depth)
+    half = max(seat.side / 2 + EDGE, catalogue.screwed_radius(winding_reducer(design)))
     moment = own.reaction * lever, own.reaction * (seat.bearing.width + BRACKET) / 2
-    high = max(least_height(moment, STEEL.strength / safety), seat.side + 2 * EDGE)
-    back, front = depth - column.side / 2, at.real + seat.side / 2 + EDGE
+    high = max(least_height(moment, STEEL.strength / safety), 2 * half)
+    back, front = depth - column.side / 2, at.real + half
     level = at.imag + high / 2 * np.array([-1, -1, 1, 1])
     outline: ComplexArray = np.array([back, front, front, back]) + 1j * level
     opened = slotted(polygon(outline), at, 1 + 0j, seat.bore / 2)  # the cylinder comes from the front

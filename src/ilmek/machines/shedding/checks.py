@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from ilmek.cams.limits import convex_radius_min, pressure_angle_max
 from ilmek.cams.programme import TURN
+from ilmek.elements.reducers import reducer_check
 from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.machines.shedding.analysis import SheddingAnalysis, lengthening_of, strain_of
 from ilmek.machines.shedding.cam_shaft import CamShaft
@@ -200,6 +201,8 @@ def _motor_checks(shaft: CamShaft) -> Iterator[Check]:
     drive = shaft.drive
     continuous, other = "continuous torque of the motor", "set another ratio, or more shafts"
     yield at_most("motor torque", drive.motor_torque, drive.motor_limit, "Nm", continuous).with_cure(other)
+    given, load = drive.motor.torque if drive.motor else 0.0, shaft.shaft.torque
+    yield reducer_check("reducer of the cam shaft", drive.reducer, given, load, part_id("reducer"))
 
 
 def _warp_checks(shaft: CamShaft) -> Iterator[Check]:

@@ -16,6 +16,7 @@ import numpy as np
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, IntArray
 from ilmek.cams.programme import TURN
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.elements.reducers import REDUCER_FLANGES
 from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.shedding.cam_shaft import RING, CamShaft
 from ilmek.machines.shedding.design import SheddingDesign
@@ -90,6 +91,7 @@ def _carried(design: SheddingDesign) -> tuple[CarriedShaft, ...]:
             shaft.seat,
             bearing_inner(design, index),
             max(shaft.stack.guide_radius, front_of(design, index), catalogue.face_of(reducer(design, index)) / 2),
+            catalogue.screwed_radius(reducer(design, index)),
         )
         for index, shaft in enumerate(design.shafts)
     )
@@ -310,11 +312,14 @@ def _bearings(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     yield from steadies(shaft, part_id("steady", index), _numbered(design, index, "steady of the cam shaft"))
 
 
+@lru_cache(maxsize=16)
 def reducer(design: SheddingDesign, index: int) -> Part:
-    """The reducer on the driven end of a shaft, outside of its bracket."""
-    drive, title = design.shafts[index].drive, _numbered(design, index, "reducer of the cam shaft")
-    end = design.shafts[index].driven_end
-    return catalogue.reducer(part_id("reducer", index), title, drive.reducer, drive.motor, end)
+    """The reducer on the driven end of a shaft, outside of its bracket: of a class whose screws keep off the seat's."""
+    shaft, title = design.shafts[index], _numbered(design, index, "reducer of the cam shaft")
+    drive = shaft.drive.reducer, shaft.drive.motor, shaft.driven_end
+    faces = (0.0, *(row.face for row in REDUCER_FLANGES if row.number == len(shaft.seat.corners())))
+    parts = [catalogue.reducer(part_id("reducer", index), title, *drive, least=face) for face in faces]
+    return next((one for one in parts if shaft.seat.turned(one) is not None), parts[0])
 
 
 def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
@@ -330,7 +335,7 @@ def _drive(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
         rear=index == 0,  # for the encoder of the shed
     )
     far = bearing_inner(design, index) + shaft.seat.through + catalogue.length_of(geared)
-    flange = placement(z=-far)
+    flange = placement(z=-far, about=_ALONG, angle=shaft.seat.turned(geared) or 0.0)
     yield Occurrence(geared, (flange,))
     yield Occurrence(motor, (flange,))
 

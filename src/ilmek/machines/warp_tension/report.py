@@ -6,6 +6,7 @@ from ilmek.elements.beam import uniform
 from ilmek.elements.bearings import BEARINGS, bearings_for, slope_limit
 from ilmek.elements.drive_parts import no_motor
 from ilmek.elements.fillet_welds import STRENGTH
+from ilmek.elements.reducers import reducer_check
 from ilmek.elements.shoulders import LEAST_SAFETY
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.warp_loads import WarpLoads
@@ -57,6 +58,10 @@ def _design_checks(design: WarpTensionDesign) -> tuple[Check, ...]:
         ),
         *((locks,) if params.self_locking else ()),
         _torque_check(design),
+        reducer_check(
+            *("reducer of a cylinder", design.reducer, design.motor.torque if design.motor else 0.0),
+            *(design.holding_torque, part_id("reducer")),
+        ),
     )
 
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.machines.bearing_seats import TURNED
 from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.warp_tension.attachment import on_cylinder
 from ilmek.machines.warp_tension.cylinders import SPACER, STUB, UPPER, Cylinder, cylinders, part_id
@@ -25,9 +26,6 @@ from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tre
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
 from ilmek.units import format_quantity, mm, turn
-
-TURNED = turn / 24
-"""Angle of a reducer to its bearing's housing: its screws keep off those of the housing and off the shaft's slot."""
 
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
@@ -66,6 +64,7 @@ def _carried(design: WarpTensionDesign) -> tuple[CarriedShaft, ...]:
             own.seat,
             far,
             max(own.flange, reach_of(drives[own.name][0]), wheel),
+            catalogue.screwed_radius(drives[own.name][0]),
         )
         for own in cylinders(design)
     )
@@ -187,7 +186,7 @@ def reach_of(reducer: Part) -> float:
 
 
 def winding_reducer(design: WarpTensionDesign) -> Part:
-    """The reducer of the upper cylinder."""
+    """The reducer of the upper cylinder; those of the others are alike but for their bores."""
     return _drives(design)[UPPER][0]
 
 
@@ -226,8 +225,9 @@ def _crank(params: WarpTensionParams, face: float) -> tuple[Part, Part, Part]:
     rim_of_shaft = min(FLANGE, params.crank_shaft / 2)
     shaft = stepped((CRANK_SHAFT, params.crank_shaft - rim_of_shaft), (face, rim_of_shaft))
     handle = bar(HANDLE_SIZE, HANDLE)
+    turned = _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, STUB)
     return (
-        _made("crank-shaft", "shaft of a hand wheel", "turned part", shaft, STUB),
+        replace(turned, fixing="on the input shaft of its reducer, with the key of that"),
         _made("hand-wheel", "hand wheel of a cylinder", "laser-cut part", wheel, steel),
         _made("handle", "handle of a hand wheel", "turned part", handle, steel),
     )

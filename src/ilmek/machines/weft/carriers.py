@@ -83,7 +83,8 @@ def magnet(params: WeftParams, size: BobbinSize) -> Part:
     """A magnet of a shuttle or of its carriage: along the width, up, and from z = 0 to the front."""
     long, tall, thick = magnet_sides(params, size.diameter)
     text = " x ".join(format_quantity(side / mm, "") for side in (long, tall, thick)) + " mm"
-    return Part(MAGNET, "magnet", "magnet", box(long, tall, thick), NEODYMIUM, size=text)
+    shape = box(long, tall, thick)
+    return Part(MAGNET, "magnet", "magnet", shape, NEODYMIUM, size=text, fixing="bonded in its pocket")
 
 
 def magnet_positions(params: WeftParams, size: BobbinSize) -> tuple[float, float]:

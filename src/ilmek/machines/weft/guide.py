@@ -7,10 +7,12 @@ behind the bar, in line with the right pulley. At each end of the bar a slide wi
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ilmek.elements.linear_guides import LINEAR_GUIDES, LinearGuide, guide_of_height
 from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
+from ilmek.elements.reducers import DIRECT
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.carriers import AXIS, BOX, BOX_MOTOR, CARRIAGE, MOTOR, along, magnet, magnet_positions, part_id
 from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
@@ -29,7 +31,10 @@ from ilmek.units import format_quantity, in_mm, mm
 ALUMINIUM, STEEL = MATERIALS["aluminium alloy"], MATERIALS["structural steel"]
 
 COVER = 2 * mm
-"""Wall of the carriage behind and beside its magnets [m]: assumed by this project."""
+"""Wall of the carriage beside its magnets [m]: assumed by this project."""
+
+BACK = 5 * mm
+"""Wall behind them, in which the heads of the screws of its guide are sunk [m]: assumed by this project."""
 
 BAR = 6 * mm
 """Thickness of the bar that carries the rail [m]."""
@@ -39,6 +44,8 @@ PLAY = 2 * mm
 
 SLIDE = 30 * mm
 """Side of the room for the slide of a box [m]: assumed by this project."""
+
+_ON_SLIDE = "on the adapter of its slide, with the screws of that"
 
 SHIFT_SPEED = 0.1
 """Speed of a box from cell to cell [m/s]."""
@@ -67,8 +74,8 @@ def carriage(params: WeftParams, made: Shuttle, row: LinearGuide) -> Part:
     pockets = (
         tuple(polygon(rectangle(long, tall).points + x) for x in magnet_positions(params, made.bobbin)) if long else ()
     )
-    back, front = Prism(Profile(outline), COVER), Prism(Profile(outline, pockets), thick)
-    shape = Sum((Placed(back), Placed(front, (placement(z=COVER),))))
+    back, front = Prism(Profile(outline), BACK), Prism(Profile(outline, pockets), thick)
+    shape = Sum((Placed(back), Placed(front, (placement(z=BACK),))))
     return Part(CARRIAGE, "carriage of the shuttle", "machined link", shape, ALUMINIUM)
 
 
@@ -95,7 +102,7 @@ class ShuttleGuide:
     def back(self) -> float:
         """Back of the carriage [m]."""
         thick = magnet_sides(self.params, self.made.bobbin.diameter)[2]
-        return -self.made.depth / 2 - self.made.coupling.gap - thick - COVER
+        return -self.made.depth / 2 - self.made.coupling.gap - thick - BACK
 
     @property
     def front(self) -> float:
@@ -148,7 +155,7 @@ class ShuttleGuide:
         params, made, row = self.params, self.made, self.row
         yield Occurrence(carriage(params, made, row), (placement(z=self.back),))
         if params.nose > 0:
-            places = (placement(x, z=self.back + COVER) for x in magnet_positions(params, made.bobbin))
+            places = (placement(x, z=self.back + BACK) for x in magnet_positions(params, made.bobbin))
             yield Occurrence(magnet(params, made.bobbin), tuple(places))
         block = catalogue.guide_block(part_id("guide-carriage"), "carriage of the shuttle's guide", row)
         end = carriage_length(params, made) / 2
@@ -160,7 +167,8 @@ class ShuttleGuide:
 
     def standing(self) -> Iterator[Occurrence]:
         """Bar, rail, belt with pulleys, and the drive."""
-        tall = -self.pulley[1] + self.axis.pulley_radius + self._thick + PLAY
+        below = max(self.axis.pulley_radius + self._thick + PLAY, *(catalogue.face_of(one) / 2 for one in self._driven))
+        tall = below - self.pulley[1]
         plate = Part(
             part_id("bar"),
             "bar of the shuttle's axis",
@@ -192,16 +200,21 @@ class ShuttleGuide:
         shape = Sum((strands, pulleys))
         return Part(AXIS, "belt and pulleys of the shuttle", "belt and pulleys", shape, purchase=bought, size=text)
 
+    @property
+    def _driven(self) -> tuple[Part, ...]:
+        """Reducer, if any, and motor of the axis."""
+        axis = self.axis
+        row, reducer = (axis.drive.motor, axis.drive.reducer) if axis.drive else (None, DIRECT)
+        motor = catalogue.motor(MOTOR, "motor of the shuttle", row, axis.torque, axis.turning)
+        if reducer.ratio == 1:
+            return (motor,)
+        return catalogue.reducer(part_id("reducer"), "reducer of the shuttle", reducer, row), motor
+
     def _drive(self) -> Iterator[Occurrence]:
         """Reducer and motor behind the bar, in line with the right pulley."""
-        axis, (x, y), rear = self.axis, self.pulley, self.rear
-        row = axis.drive.motor if axis.drive else None
-        if axis.drive is not None and axis.drive.reducer.ratio != 1:
-            geared = catalogue.reducer(part_id("reducer"), "reducer of the shuttle", axis.drive.reducer, row)
-            rear -= catalogue.length_of(geared)
-            yield Occurrence(geared, (placement(x, y, rear),))
-        motor = catalogue.motor(MOTOR, "motor of the shuttle", row, axis.torque, axis.turning)
-        yield Occurrence(motor, (placement(x, y, rear),))
+        *geared, motor = self._driven
+        rear = self.rear - sum(catalogue.length_of(one) for one in geared)
+        return (Occurrence(one, (placement(*self.pulley, rear),)) for one in (*geared, motor))
 
     def box(self) -> Part:
         """A box of two cells, one above the other, open at its ends: the part's x up, its y to the front."""
@@ -220,7 +233,7 @@ class ShuttleGuide:
         """The slides of the boxes on the bar, beside their outer ends, with their steppers above."""
         low, high = -self.row.block - PLAY, self.pitch * 2
         deep = self.made.depth / 2 - self.front
-        data = f"slide {in_mm(SLIDE)} wide, belt drive, {catalogue.stroke_of(self.pitch)}"
+        data = f"slide {in_mm(SLIDE)} wide, belt drive, {catalogue.stroke_of(self.pitch)}, adapter for its motor"
         shape, bought = box(SLIDE, high - low, deep), Bought("slide", length=self.pitch, data=data)
         slide = bought_part(part_id("box-slide"), "slide of a box", "linear axis", shape, bought)
         x = self.box_end + SLIDE / 2
@@ -229,7 +242,7 @@ class ShuttleGuide:
         radius = self.axis.pulley_radius
         torque, turning = force * radius, SHIFT_SPEED / radius
         row = smallest_motor(torque, turning, STEPPER)
-        motor = catalogue.motor(BOX_MOTOR, "motor of a box", row, torque, turning)
+        motor = replace(catalogue.motor(BOX_MOTOR, "motor of a box", row, torque, turning), fixing=_ON_SLIDE)
         down = placement(about=(1.0, 0.0, 0.0), angle=math.pi / 2)
         places = (placement(side * x, high, self.front + deep / 2).after(down) for side in (-1, 1))
         yield Occurrence(motor, tuple(places))
