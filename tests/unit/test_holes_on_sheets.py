@@ -48,11 +48,7 @@ def rows_of(file: Path) -> tuple[list[tuple[str, ...]], list[str]]:
     rows = []
     for words in lines.values():
         for start, word in enumerate(words):
-            if (
-                re.fullmatch(r"H\d+", word)
-                and len(words) > start + 5
-                and words[start + 4][1:] in ("X", "Y", "Z")
-            ):
+            if re.fullmatch(r"H\d+", word) and len(words) > start + 5 and words[start + 4][1:] in ("X", "Y", "Z"):
                 rows.append(tuple(words[start : start + 6]))
     return rows, [own.dxf.text for own in texts]
 

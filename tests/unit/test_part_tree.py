@@ -128,7 +128,7 @@ def test_the_checks_of_the_compensator_name_parts_that_it_has() -> None:
 
 
 def test_the_moving_mass_is_that_of_the_parts_about_the_pivot() -> None:
-    """By the mesh of each part, counted by its positions, the eyes with their sleeves at the springs, a third of these."""
+    """By the mesh of each part, by its positions; the eyes with their sleeves at the springs, a third of these."""
     made = design(TensionCompensatorParams())
     moment = 0.0
     for occurrence in sprung_bar(made.parts, "any", None).occurrences:
