@@ -100,7 +100,8 @@ def strut_checks(at: BarSupports) -> tuple[Check, ...]:
     if strut is None:
         return ()
     source = "1.5 of its diameter, assumed by this project"
-    return (at_least("length of a spring's guide rod in its sleeve", strut.engaged, ENGAGED * strut.rod, "mm", source),)
+    engaged = at_least("length of a spring's guide rod in its sleeve", strut.engaged, ENGAGED * strut.rod, "mm", source)
+    return (engaged.with_cure("set a thinner wire, or more springs", part_id("guide-rod"), part_id("guide-sleeve")),)
 
 
 @record
