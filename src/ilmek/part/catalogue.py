@@ -213,7 +213,13 @@ def screwed_radius(driven: Part) -> float:
     """Radius about the axis of a reducer that a plate needs for its screws with their heads [m]."""
     assert driven.purchase is not None
     holes = driven.purchase.holes[0]
-    return abs(complex(holes.across, holes.along)) / 2 + SOCKET_SCREWS[holes.thread].sink / 2 + mm
+    return abs(complex(holes.across, holes.along)) / 2 + head_room(driven)
+
+
+def head_room(driven: Part) -> float:
+    """Room about the axis of a screw of a reducer for its head [m]."""
+    assert driven.purchase is not None
+    return SOCKET_SCREWS[driven.purchase.holes[0].thread].sink / 2 + mm
 
 
 def _holes_text(holes: HolePattern) -> str:
