@@ -112,7 +112,7 @@ class BearingSeat:
         return np.asarray(screws.distance(screws.screw) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]))
 
     def turned(self, driven: Part) -> float | None:
-        """Angle of a reducer on the bracket's other face, at which its four screws keep off those of the seat and off
+        """Angle of a reducer on the bracket's other face, at which its screws keep off those of the seat and off
         the shaft's slot, 0 or `TURNED` [rad]; None: they do not.
         """
         around, screw = catalogue.head_room(driven), self.screws.screw.diameter / 2
@@ -124,7 +124,7 @@ class BearingSeat:
         return None
 
     def half_width(self, driven: Part) -> float:
-        """Half of the width of a plate for the seat and the screws of a reducer, as it is turned, with their heads [m]."""
+        """Half of the width of a plate for the seat and the screws of a reducer, turned to it, with their heads [m]."""
         spots = _spots(driven, self.turned(driven) or 0.0)
         return max(self.side / 2, float(spots.real.max()) + catalogue.head_room(driven))
 
@@ -155,10 +155,11 @@ class BearingSeat:
 
 
 def _spots(driven: Part, angle: float) -> ComplexArray:
-    """Axes of the four screws of a reducer that is turned by an angle [rad] about its shaft [m]."""
+    """Axes of the screws of a reducer that is turned by an angle [rad] about its shaft [m]."""
     assert driven.purchase is not None
     holes = driven.purchase.holes[0]
-    return np.asarray(complex(holes.across, holes.along) / 2 * np.exp(1j * (angle + turn / 4 * np.arange(4))))
+    number = holes.ring or 4
+    return np.asarray(complex(holes.across, holes.along) / 2 * np.exp(1j * (angle + turn / number * np.arange(number))))
 
 
 def seat_of(row: RollingBearing, force: float = 0.0) -> BearingSeat:
