@@ -73,15 +73,10 @@ def test_the_bar_of_a_comb_goes_up_before_the_reed() -> None:
     assert made.beat.design.params.reach >= made.side.cam_front + made.params.clearance
 
 
-@pytest.mark.parametrize(
-    ("settings", "number"),
-    [({}, 2), ({"knots_across": "40/dm", "tension": "4N"}, 1)],
-    ids=["lower beams", "higher beams"],
-)
-def test_beams_across_stand_beside_each_other(settings: dict[str, str], number: int) -> None:
+@pytest.mark.parametrize(("of", "number"), [(0, 2), (4, 1)])
+def test_beams_across_stand_beside_each_other(of: int, number: int) -> None:
     """Posts of the beat and of the rail on one depth, but for rounding, stand on one beam; two have room for welds."""
-    made = design(AutomatedLoomParams.read({"aim": "price", **LOOMS[4], **settings}))
-    bodies = standing_parts(made).bodies
+    bodies = standing_parts(loom(of)).bodies
     (beams,) = (own for body in bodies for own in body.occurrences if own.part.id == "automated-loom/front-beam")
     assert len(beams.positions) == number
     low, high = shape_box(beams.part.shape)
