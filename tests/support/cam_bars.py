@@ -7,6 +7,7 @@ from ilmek.machines.shedding.cam_shaft import RING
 from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import tree
 from ilmek.plane.solids import volume
+from ilmek.units import mm
 
 
 def beyond_cams(design: SheddingDesign, index: int, length: float) -> float:
@@ -16,5 +17,6 @@ def beyond_cams(design: SheddingDesign, index: int, length: float) -> float:
     """
     parts = {part.id: part for part, _ in tree(design).occurrences()}
     bar, side = parts[part_id("cam-shaft", index)], design.shafts[index].shaft.bar
+    bore = design.shafts[index].nut.thread / 2 + 0.25 * mm
     assert bar.shape is not None
-    return volume(bar.shape.mesh(1e-6)) - side**2 * length + 2 * RING * (math.pi - 1) * side**2
+    return volume(bar.shape.mesh(1e-6)) - side**2 * length + 2 * RING * math.pi * (side**2 - bore**2)
