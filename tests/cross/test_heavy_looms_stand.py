@@ -4,6 +4,7 @@ Evidence: volumes of the parts' meshes by manifold3d, in the pose at the start o
 """
 
 from functools import cache
+from itertools import pairwise
 
 import pytest
 
@@ -16,7 +17,9 @@ from ilmek.machines.automated_loom.in_space.standing import standing
 from ilmek.machines.automated_loom.report import all_checks
 from ilmek.machines.shedding.stack import part_id
 from ilmek.part.contacts import contacts
+from ilmek.part.shapes import shape_box
 from ilmek.part.tree import Tree
+from ilmek.units import mm
 
 LOOMS = (
     {"width": "3.4m", "length": "3.5m", "knots_across": "20/dm", "tension": "30N", "lift": "60mm", "beat": "comb"},
@@ -70,7 +73,12 @@ def test_the_bar_of_a_comb_goes_up_before_the_reed() -> None:
     assert made.beat.design.params.reach >= made.side.cam_front + made.params.clearance
 
 
-def test_beams_across_stand_beside_each_other() -> None:
-    """Posts of the beat and of the rail on one depth, but for rounding, stand on one beam."""
-    beams = [own for own in standing_parts(loom(4)).occurrences() if own[0].id == "automated-loom/front-beam"]
-    assert [number for _, number in beams] == [1]
+@pytest.mark.parametrize(("of", "number"), [(0, 2), (4, 1)])
+def test_beams_across_stand_beside_each_other(of: int, number: int) -> None:
+    """Posts of the beat and of the rail on one depth, but for rounding, stand on one beam; two have room for welds."""
+    bodies = standing_parts(loom(of)).bodies
+    (beams,) = (own for body in bodies for own in body.occurrences if own.part.id == "automated-loom/front-beam")
+    assert len(beams.positions) == number
+    low, high = shape_box(beams.part.shape)
+    depths = sorted(position.origin[2] for position in beams.positions)
+    assert all(b - a >= high[0] - low[0] + 30 * mm for a, b in pairwise(depths))

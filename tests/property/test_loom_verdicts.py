@@ -77,7 +77,11 @@ def _plate() -> float:
     return (0.5 * mm - warp_diameter(29.525) - 2 * 0.025 * mm) / 3
 
 
-BESIDE: dict[str, Figure | None] = {"room of the rapier": lambda loom: (loom.task.cloth.width + 0.51, 3.0)}
+BESIDE: dict[str, Figure | None] = {
+    "room of the rapier": lambda loom: (loom.task.cloth.width + 0.51, 3.0),
+    "bow of the beam behind the cams": None,  # between brackets as wide as the reducers' flanges it is low
+    "control: length of its mounting rails": None,  # fuses of large servos: more than the largest cabinet has
+}
 FAR: dict[str, Figure | None] = {"arms of the rapier|energy chain|lag of a head|pull at the eye": None}
 
 DRIVE = r"force of a warp|distance of the rows|force of the crank-rockers"
@@ -92,7 +96,11 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
     ({"beat": "comb", "knot": "asymmetric"}, {}),
     ({"beat": "linkage", "width": "0.6m", "length": "0.9m"}, {}),
     # The yarn is led round every bend of a chain of 6 m from the creel.
-    ({"beat": "comb", "width": "6m", "length": "9m"}, {"yarn path: pull at the eye": None}),
+    # The columns, in the room between the cylinders' reducers, bow under the warps' pull.
+    (
+        {"beat": "comb", "width": "6m", "length": "9m"},
+        {"yarn path: pull at the eye": None, "frame: bow of a column": None},
+    ),
     # A rapier of the cloth's width, both runs to the edge, its clamp and drive, within 3 m beside the cloth.
     # One head on 4 m has too long a chain and belt, and a yarn that is led too far.
     ({"beat": "guide-cams", "width": "4m", "length": "6m"}, BESIDE),
@@ -110,7 +118,8 @@ TABLE: tuple[tuple[dict[str, Any], dict[str, Figure | None]], ...] = (
             "groove against warp": lambda _: (_plate() - 0.02 * mm, warp_diameter(29.525)),
             "cam stack": None,  # nothing is left of a guide cam for shims
             "buckling of a cam": None,  # it is thinner than its groove by the tolerance of the sheet
-            "sensors without room": None,  # the compensator's levers lie closer than the sensor is wide
+            "guide rod in its sleeve": None,  # the compensator's springs are short
+            "sag of the head": None,  # its bracket is for pitches from 0.5 mm on
             "yarn path: tension of the yarn": None,  # a yarn so fine bears less than the pull of the head
         },
     ),

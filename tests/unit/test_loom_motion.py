@@ -45,12 +45,11 @@ def test_the_side_grippers_turn_as_their_screw() -> None:
         assert np.angle(edge / edge[0]) == pytest.approx(hand * turned, abs=5e-3)
 
 
-def test_the_yarn_from_the_front_ends_in_the_centre_gripper() -> None:
-    made = loom()
-    front = knot_from_the_front(made)
-    gripper = stroke(front, "centre gripper").points[-1].mean()
-    apart = np.abs(stroke(front, "yarn").points[-1][[0, -1]] - gripper)
-    assert apart == pytest.approx(0, abs=made.weaver.params.finger / 4)
+def test_the_yarn_from_the_front_ends_at_the_centre_gripper() -> None:
+    front = knot_from_the_front(loom())
+    tube = stroke(front, "centre gripper").points[-1]  # with the slot of its wire
+    gripper = complex(tube.real.min() + tube.real.max(), tube.imag.min() + tube.imag.max()) / 2
+    assert stroke(front, "yarn").points[-1][[0, -1]] == pytest.approx(gripper, abs=1e-4)  # of few chords
 
 
 def test_tools_from_the_side_move_as_far_as_their_tracks() -> None:

@@ -159,10 +159,10 @@ def test_an_axial_load_never_makes_the_equivalent_load_less_than_the_radial_load
 
 
 def test_plates_and_cam_tables_of_the_shedding_fit_the_shaft_and_its_turn() -> None:
-    """Every cam has a square hole for the shaft's bar; the even and the odd table take a turn at 5 rpm."""
+    """Every plate has a square hole for the shaft's bar; the even and the odd table take a turn at 5 rpm."""
     found = report("shedding")
-    others = ("bracket", "pressure-ring")  # of its stand; on the thread
-    on_shaft = [plate for plate in found.plates if not plate.name.endswith(others)]
+    # Brackets are of its stand; the rings that press the cams stand on the thread.
+    on_shaft = [plate for plate in found.plates if not plate.name.endswith(("bracket", "pressure-ring"))]
     assert len(on_shaft) > 3
     for plate in on_shaft:
         (corners,) = (cut.points for cut in plate.cutouts)

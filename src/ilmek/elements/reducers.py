@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray, RealField
+from ilmek.elements.machine_screws import SOCKET_SCREWS
 from ilmek.report import Check, at_most
 from ilmek.units import format_quantity, mm
 
@@ -80,6 +81,11 @@ class ReducerFlange:
     number: int
     mass: float
 
+    @property
+    def waist(self) -> float:
+        """Diameter of the housing behind the flange, beside the heads of its screws [m]."""
+        return self.circle - SOCKET_SCREWS[self.thread].sink - 2 * mm
+
 
 REDUCER_FLANGES = tuple(
     ReducerFlange(torque, face * mm, circle * mm, thread, number, mass)
@@ -99,14 +105,15 @@ REDUCER_FLANGES = tuple(
 2,000 N m are industrial ones; their sizes and masses are assumed, and their screws hold the torque by friction."""
 
 
-def flange_for(torque: float, face: float = 0.0) -> ReducerFlange:
-    """The smallest class for a torque [N m] with a face of at least a size [m]; the largest where none is.
+def flange_for(torque: float, face: float = 0.0, waist: float = 0.0) -> ReducerFlange:
+    """The smallest class for a torque [N m] with a face and a waist of at least some sizes [m]; the largest where none
+    is.
 
     >>> flange_for(100.0).face, flange_for(100.0, 0.1).thread
     (0.08, 'M10')
     """
     enough = (row for row in REDUCER_FLANGES if row.torque >= torque and row.face >= face - 1e-9)
-    return next(enough, REDUCER_FLANGES[-1])
+    return next((row for row in enough if row.waist >= waist), REDUCER_FLANGES[-1])
 
 
 def reducer_check(title: str, by: Reducer, motor_torque: float, load: float, part: str) -> Check:

@@ -16,7 +16,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.elements.bearing_table import INSERT, RollingBearing
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.columns import STEEL
-from ilmek.elements.machine_screws import SCREWS, SOCKET_SCREWS, FourScrews
+from ilmek.elements.machine_screws import SCREWS, FourScrews
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import Placement, placement
@@ -112,18 +112,21 @@ class BearingSeat:
         return np.asarray(screws.distance(screws.screw) / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]))
 
     def turned(self, driven: Part) -> float | None:
-        """Angle of a reducer on the bracket's other face, at which its four screws keep off those of the seat and off
+        """Angle of a reducer on the bracket's other face, at which its screws keep off those of the seat and off
         the shaft's slot, 0 or `TURNED` [rad]; None: they do not.
         """
-        assert driven.purchase is not None
-        holes, screw = driven.purchase.holes[0], self.screws.screw.diameter / 2
-        around = SOCKET_SCREWS[holes.thread].sink / 2 + mm
+        around, screw = catalogue.head_room(driven), self.screws.screw.diameter / 2
         for angle in (0.0, TURNED):
-            spots = complex(holes.across, holes.along) / 2 * np.exp(1j * (angle + turn / 4 * np.arange(4)))
+            spots = _spots(driven, angle)
             gap = float(np.abs(spots[:, None] - self.corners()).min()) - screw
             if min(gap, float(np.abs(spots.real).min()) - self.bore / 2) > around:
                 return angle
         return None
+
+    def half_width(self, driven: Part) -> float:
+        """Half of the width of a plate for the seat and the screws of a reducer, turned to it, with their heads [m]."""
+        spots = _spots(driven, self.turned(driven) or 0.0)
+        return max(self.side / 2, float(spots.real.max()) + catalogue.head_room(driven))
 
     def check(self, title: str, cure: str, part: str) -> Check:
         """The force of the shaft against what the screws hold."""
@@ -149,6 +152,14 @@ class BearingSeat:
         shape = Prism(Profile(rectangle(self.side, self.side), (circle(0j, row.outer / 2), *holes)), row.width)
         housing = Part(ids[1], f"housing of the {title}", "laser-cut part", shape, STEEL, machined=True)
         return Occurrence(own, at), Occurrence(housing, at), screws
+
+
+def _spots(driven: Part, angle: float) -> ComplexArray:
+    """Axes of the screws of a reducer that is turned by an angle [rad] about its shaft [m]."""
+    assert driven.purchase is not None
+    holes = driven.purchase.holes[0]
+    number = holes.ring or 4
+    return np.asarray(complex(holes.across, holes.along) / 2 * np.exp(1j * (angle + turn / number * np.arange(number))))
 
 
 def seat_of(row: RollingBearing, force: float = 0.0) -> BearingSeat:

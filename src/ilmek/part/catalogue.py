@@ -35,7 +35,7 @@ SPECIAL_FACE = 80 * mm
 REDUCER_LENGTH = 1.2
 """Length of a reducer over its flange; assumed by this project."""
 
-HOLLOW, WALL = 0.5 * mm, 10 * mm
+HOLLOW, WALL = 0.5 * mm, 5 * mm
 """Play of a turning key in the room of a reducer's hollow shaft, and least wall about it [m]; assumed."""
 
 _REDUCER_FLANGE = 2.2
@@ -178,32 +178,27 @@ def reducer(  # noqa: PLR0917
         corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
         hollow, keyed = abs(corner) + HOLLOW, BEFORE_KEY + end.length
         shaft = f"hollow shaft {in_mm(end.diameter)} H7, keyway DIN 6885-1"
-    flange = flange_for(given, max(2 * (hollow + WALL) if hollow else 0.0, least))
-    face, across = max(motor_face, flange.face), output is not None
-    long = max(REDUCER_LENGTH * face, keyed)
-    pitch, (motor_holes,), row_of = flange.circle / math.sqrt(2), flange_holes(row), SOCKET_SCREWS[flange.thread]
+    flange = flange_for(given, least, around := 2 * (hollow + WALL) if hollow else 0.0)
+    face, behind, across = max(motor_face, flange.face), max(motor_face, around), output is not None
+    thick, pitch = _REDUCER_FLANGE * SOCKET_SCREWS[flange.thread].diameter, flange.circle / math.sqrt(2)
+    long = max(REDUCER_LENGTH * face, keyed + (0.0 if across else thick))
     ring, faces = flange.number if flange.number > _CORNERS else 0, (0,) if across else (1,)
     holes = HolePattern(pitch, pitch, flange.thread, ring=ring, tapped=across, faces=faces)
     bores = (circle(0j, hollow),) if hollow else ()
     room: Shape = Prism(Profile(rectangle(face, face), bores), long)
     if not across:  # screws from behind a flange at its output
-        thick, waist = _REDUCER_FLANGE * row_of.diameter, flange.circle - row_of.sink - WALL / 5
-        if hollow:  # a shaft can be thicker than its motor
-            waist = max(waist, 2 * (hollow + WALL / 5))
-        behind = max(motor_face, 2 * (hollow + WALL) if hollow else 0.0)
         room = Sum(
             (
-                Placed(Prism(Profile(rectangle(behind, behind), bores), thick)),
-                Placed(Prism(Profile(circle(0j, waist / 2), bores), long - 2 * thick), (placement(z=thick),)),
+                Placed(box(behind, behind, thick)),
+                Placed(Prism(Profile(circle(0j, flange.waist / 2), bores), long - 2 * thick), (placement(z=thick),)),
                 Placed(Prism(Profile(rectangle(face, face), bores), thick), (placement(z=long - thick),)),
             )
         )
     motors = (f"output {format_quantity(given, 'Nm', 3)}", f"for a motor with {_flange_of(row)}") if row else ()
     data = ", ".join((*filter(None, (shaft,)), f"flange {in_mm(face)}, {_holes_text(holes)}", *motors))
     kind = f"right-angle {by.kind}" if across else by.kind
-    power = row.power if row else 0.0
-    both = holes, replace(motor_holes, tapped=True, faces=(-1,))
-    bought = Bought(f"{kind} {by.ratio:g}:1", flange.mass, power=power, data=data, holes=both)
+    both = holes, replace(*flange_holes(row), tapped=True, faces=(-1,))
+    bought = Bought(f"{kind} {by.ratio:g}:1", flange.mass, power=row.power if row else 0.0, data=data, holes=both)
     return bought_part(name, title, "reducer", Sum((Placed(room), Placed(output[1]))) if output else room, bought)
 
 
@@ -216,7 +211,13 @@ def screwed_radius(driven: Part) -> float:
     """Radius about the axis of a reducer that a plate needs for its screws with their heads [m]."""
     assert driven.purchase is not None
     holes = driven.purchase.holes[0]
-    return abs(complex(holes.across, holes.along)) / 2 + SOCKET_SCREWS[holes.thread].sink / 2 + mm
+    return abs(complex(holes.across, holes.along)) / 2 + head_room(driven)
+
+
+def head_room(driven: Part) -> float:
+    """Room about the axis of a screw of a reducer for its head [m]."""
+    assert driven.purchase is not None
+    return SOCKET_SCREWS[driven.purchase.holes[0].thread].sink / 2 + mm
 
 
 def _holes_text(holes: HolePattern) -> str:

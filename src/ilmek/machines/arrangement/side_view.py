@@ -54,8 +54,10 @@ if TYPE_CHECKING:
 ABOVE_FLOOR = 150 * mm
 """The full lower cylinder above the floor [m]."""
 
-_UNDER_REDUCER = 140 * mm
-"""The reducer of the lower cylinder above the floor [m]: a foot of the frame of 80 mm has room there; assumed."""
+_UNDER_REDUCER, _UNDER_LARGE = 140 * mm, 1.05
+"""The reducer of the lower cylinder above the floor [m]: a foot of the frame of 80 mm has room there; and over the
+reach of a large one, by which more is pulled: the feet are stiffer in proportion; assumed by this project.
+"""
 
 ABOVE_CYLINDER = 50 * mm
 """The frame's columns above the upper cylinder [m]."""
@@ -240,7 +242,8 @@ class SideView:
     @property
     def floor(self) -> float:
         """Height of the floor, the fell at 0 [m]."""
-        return self.lower.at.imag - max(self.roll + ABOVE_FLOOR, self.reducer + _UNDER_REDUCER)
+        under = self.reducer + max(_UNDER_REDUCER, _UNDER_LARGE * self.reducer)
+        return self.lower.at.imag - max(self.roll + ABOVE_FLOOR, under)
 
     @property
     def top(self) -> float:

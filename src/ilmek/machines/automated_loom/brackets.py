@@ -276,7 +276,7 @@ def _of_seat(  # noqa: PLR0917
     radius = min(_radius(loom, moment, ends, max(seat.radius, flange)), max(most, half, flange))
     if shift is not None:  # square at its end: a round one would reach farther to what lays the weft
         ends, radius = (ends[0] - radius + _CORNER, ends[1] + radius - _CORNER), _CORNER
-        moved_ends, beyond = at.real + 1j * np.array(ends), max(half, flange) - _CORNER
+        moved_ends, beyond = at.real + 1j * np.array(ends), seat.half_width(driven) - _CORNER
     else:
         # Where the outline is lower than the circle about the seat, it reaches farther, about the seat's corners.
         moved_ends, beyond = moved, max(half - math.sqrt(radius**2 - half**2), 0.0) if radius < seat.radius else 0.0
