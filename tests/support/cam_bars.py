@@ -1,9 +1,7 @@
 """The bar of a cam shaft beyond its cams."""
 
-import math
 
 from ilmek.machines.shedding import SheddingDesign
-from ilmek.machines.shedding.cam_shaft import RING
 from ilmek.machines.shedding.stack import part_id
 from ilmek.machines.shedding.tree import tree
 from ilmek.plane.solids import volume
@@ -15,6 +13,8 @@ def beyond_cams(design: SheddingDesign, index: int, length: float) -> float:
     By the mesh of the bar, whose chords take a little from its journals.
     """
     parts = {part.id: part for part, _ in tree(design).occurrences()}
-    bar, side = parts[part_id("cam-shaft", index)], design.shafts[index].shaft.bar
-    assert bar.shape is not None
-    return volume(bar.shape.mesh(1e-6)) - side**2 * length + 2 * RING * (math.pi - 1) * side**2
+    bar, ring = (parts[part_id(name, index)].shape for name in ("cam-shaft", "pressure-ring"))
+    assert bar is not None
+    assert ring is not None
+    square = design.shafts[index].shaft.bar ** 2 * length
+    return volume(bar.mesh(1e-6)) - square + 2 * volume(ring.mesh(1e-6))

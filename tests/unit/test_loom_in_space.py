@@ -112,12 +112,13 @@ def test_boxes_and_rollers_have_the_coordinates_of_the_side_view() -> None:
         assert complex(at[2], at[1]) == pytest.approx(roller.at, abs=1e-9)
         shell = _part(found, f"warp-tension/cylinder of warp-tension/{name} cylinder")
         assert bounds(shell.solids[0])[1][2] == pytest.approx(roller.radius, abs=3e-4)
-    drawn = {"opener": "weaver/opener-plate", "sley": "weaver/sley", "centre gripper": "weaver/centre-gripper"}
+    drawn = {"opener": ("opener-plate",), "sley": ("sley",), "centre gripper": ("centre-head", "centre-gripper")}
     for tool in side.of_heads.shape.tools:
         if tool.name in drawn:
             # The opener's two plates are one solid here; the tool is the upper one.
             least = tool.corner.imag - 1e-3 if tool.name == "opener" else -math.inf
-            low, high = _in_head(found, _part(found, drawn[tool.name]), least)
+            ends = [_in_head(found, _part(found, f"weaver/{name}"), least) for name in drawn[tool.name]]
+            low, high = np.min([low for low, _ in ends], axis=0), np.max([high for _, high in ends], axis=0)
             assert complex(low[2], low[1]) == pytest.approx(tool.corner, abs=1e-9)
             # To the back they reach as far as what drives them.
             assert high[1] == pytest.approx((tool.corner + tool.size).imag, abs=1e-9)

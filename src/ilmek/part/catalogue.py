@@ -188,9 +188,12 @@ def reducer(  # noqa: PLR0917
     room: Shape = Prism(Profile(rectangle(face, face), bores), long)
     if not across:  # screws from behind a flange at its output
         thick, waist = _REDUCER_FLANGE * row_of.diameter, flange.circle - row_of.sink - WALL / 5
+        if hollow:  # a shaft can be thicker than its motor
+            waist = max(waist, 2 * (hollow + WALL / 5))
+        behind = max(motor_face, 2 * (hollow + WALL) if hollow else 0.0)
         room = Sum(
             (
-                Placed(Prism(Profile(rectangle(motor_face, motor_face), bores), thick)),
+                Placed(Prism(Profile(rectangle(behind, behind), bores), thick)),
                 Placed(Prism(Profile(circle(0j, waist / 2), bores), long - 2 * thick), (placement(z=thick),)),
                 Placed(Prism(Profile(rectangle(face, face), bores), thick), (placement(z=long - thick),)),
             )
