@@ -143,16 +143,11 @@ def test_a_wide_loom_is_many_narrow_ones_beside_each_other(width: float) -> None
 
 
 def test_a_shaft_without_supports_between_would_grow_without_end() -> None:
-    """The cams of a 4 m loom on two bearings: it is said, and supports are what mends it.
-
-    At 7 m the keys of the cylinders do not bear the warps' pull on the largest bore of the bearings, 100 mm.
-    """
+    """The cams of a 4 m loom on two bearings: it is said, and supports are what mends it."""
     free = reported(width=4.0, shaft_span=6.0, beat="comb")
     assert [check.name for check in free.failed if check.name.startswith("shedding: ")] != []
     held = reported(width=4.0, beat="comb")
     assert [check.name for check in held.failed] == []
-    wide = {check.name for check in reported(width=7.0, beat="comb").failed}
-    assert {f"warp-tension: key of the {name} cylinder" for name in ("upper", "lower")} <= wide
     assert held.as_json()["results"]["mass"] < free.as_json()["results"]["mass"]
 
 

@@ -159,18 +159,12 @@ def test_an_axial_load_never_makes_the_equivalent_load_less_than_the_radial_load
 
 
 def test_plates_and_cam_tables_of_the_shedding_fit_the_shaft_and_its_turn() -> None:
-    """Every plate has a square hole for the shaft's bar, the pressure rings a bore for the seats that are turned of it;
-    the even and the odd table take a turn at 5 rpm.
-    """
+    """Every cam has a square hole for the shaft's bar; the even and the odd table take a turn at 5 rpm."""
     found = report("shedding")
-    on_shaft = [plate for plate in found.plates if not plate.name.endswith("bracket")]  # those of its stand are not
-    rings = [plate for plate in on_shaft if plate.holes]
-    assert [plate.name for plate in rings] == ["pressure-ring"]
-    assert all(2 * hole.radius < results("shedding")["shaft_bar"] for ring in rings for hole in ring.holes)
-    assert len(on_shaft) > 4
+    others = ("bracket", "pressure-ring")  # of its stand; on the thread
+    on_shaft = [plate for plate in found.plates if not plate.name.endswith(others)]
+    assert len(on_shaft) > 3
     for plate in on_shaft:
-        if plate in rings:
-            continue
         (corners,) = (cut.points for cut in plate.cutouts)
         sides = np.roll(corners, -1) - corners
         np.testing.assert_allclose(np.abs(sides), results("shedding")["shaft_bar"], rtol=1e-12)
