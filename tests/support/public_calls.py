@@ -192,6 +192,7 @@ WRONG_KNOTS = (
 )
 PAIR = (("a",), "ab", ("a", 1), 3)
 
+
 @cache
 def measured() -> Path:
     """A file with a measured curve of the tufting machine's drive."""
