@@ -126,8 +126,9 @@ def cam(part: Measured) -> float:
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
         ("weaver/side-plate", lambda part: milled(part, 2, ALLOY, 6.0)),
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
-        ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3)),
-        ("tension-compensator/pin", lambda part: turned(part, 1.3, 12e-3, math.pi / 2 * 12e-3**2)),
+        # Turned again after it is welded to its tube.
+        ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3) + money(50, 60 + 0.6 * part.surface * CM2)),
+        ("tension-compensator/pin", lambda part: turned(part, 1.3, 16e-3, math.pi / 2 * 16e-3**2)),
         ("automated-loom/column", welded),
         ("automated-loom/creel-rail", welded),
         ("weaver/pile-handler-cam", cam),
