@@ -89,6 +89,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
         {"needle.needle_distance": "110mm"},
         {"needle.crank": "20mm"},
         {"needle.speed": "3000rpm", "feed.yarn_tension": "100N", "feed.backing_tension": "50000N/m"},
+        {"pattern.colours": "5", "pattern.creel": "3", "pattern.attachment": "rollers"},
     ),
     "warp-tension": (
         {"cloth.yarns.warp_diameter": "1.5mm", "cloth.tension": "20N"},

@@ -57,7 +57,7 @@ def fitted(found: LoomAnalysis) -> float:
     screws = sum(number for part, number in tree.occurrences() if part.process == "fastener")
     sensors = [line for line in lines if "sensor" in line.kind or line.name.startswith("index")]
     wired = ("load cell", "light barrier", "light grid", "interlock", "button", "emergency stop")
-    wired += ("enabling device", "holding brake")
+    wired += ("enabling device", "mode selector", "holding brake")
     sensors += [line for line in lines if line.kind in wired and line not in sensors]
     contacts = joints["transmission"] + joints["cam and follower"] + joints["screw"] + joints["rolling"]
     minutes = pieces * 40 / 60 + 1.5 * screws + 5 * joints["pin"] + 10 * joints["slide"] + 5 * contacts

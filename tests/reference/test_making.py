@@ -101,6 +101,11 @@ def turned(part: Measured, price: float, bar: float, finished: float | None = No
     return STEEL * price * 1.05 * section * (long + 3e-3) + money(50, cut)
 
 
+def finished(part: Measured) -> float:
+    """Turned again, once it is welded on."""
+    return money(50, 60 + 0.6 * part.surface * CM2)
+
+
 def welded(part: Measured) -> float:
     """A square tube: perimeter of its outside from its widest sides, section from its volume."""
     side, long = part.sides[0], part.sides[2]
@@ -126,8 +131,7 @@ def cam(part: Measured) -> float:
         ("automated-loom/chain-trough", lambda part: folded(part, 3)),
         ("weaver/side-plate", lambda part: milled(part, 2, ALLOY, 6.0)),
         ("tension-compensator/lever", lambda part: milled(part, 2, STEEL, 1.3)),
-        # Turned again after it is welded to its tube.
-        ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3) + money(50, 60 + 0.6 * part.surface * CM2)),
+        ("warp-tension/upper-end", lambda part: turned(part, 1.6, 160e-3) + finished(part)),
         ("tension-compensator/pin", lambda part: turned(part, 1.3, 16e-3, math.pi / 2 * 16e-3**2)),
         ("automated-loom/column", welded),
         ("automated-loom/creel-rail", welded),

@@ -192,6 +192,15 @@ WRONG_KNOTS = (
 )
 PAIR = (("a",), "ab", ("a", 1), 3)
 
+
+@cache
+def measured() -> Path:
+    """A file with a measured curve of the tufting machine's drive."""
+    path = Path(tempfile.mkdtemp()) / "measured.csv"
+    path.write_text("crank angle [deg], main shaft [N*m]\n30, 13.9\n60, 10.8\n90, 4.4\n150, 9.3\n210, -0.6\n")
+    return path
+
+
 CALLS: dict[str, Call] = {
     "Mechanism": Call(
         ilmek.Mechanism,
@@ -467,6 +476,52 @@ CALLS: dict[str, Call] = {
             force=Other(False, wrong=("no", 3)),
             progress=Other(ilmek.Progress()),
             colours=Other(4, True, ("x", 0)),
+        ),
+        long=True,
+    ),
+    "tuft": Call(
+        lambda picture, out, **more: ilmek.tuft(picture, new_path(out) if out == "new" else out, **more),
+        (Other(MEDALLION, wrong=("no.png", 3)), Other("new", wrong=("a\0b", 3))),
+        dict(
+            technique=Named("gun"),
+            size=Other("30x40cm", True, ("30x40", 3)),
+            yarns=Other(None, True, ("no.toml", 3)),
+            deadline=Other("400h", True, ("400", "4kg", -1.0, np.nan, [1])),
+            machine=Other({}, wrong=({"x": 1}, {1: 1}, 3)),
+            force=Other(False, wrong=("no", 3)),
+            progress=Other(ilmek.Progress()),
+            colours=Other(2, True, ("x", 0)),
+        ),
+        long=True,
+    ),
+    "study": Call(
+        ilmek.study,
+        (Named("beat-up"), Other({"swing": "28deg..32deg"}, wrong=({1: "1..2"}, [1], {"swing": 3}, {"swing": "x"}))),
+        dict(
+            goals=Other(["drive_torque_max"], wrong=("drive_torque_max", ["x"], [3], 3)),
+            hold=Other(["drive_torque_max <= 9 N*m"], wrong=("x", ["x"], [3], 3)),
+            record=Other([], wrong=("x", ["x"], [3], 3)),
+            fixed=Other({}, wrong=({"x": 1}, {1: 1}, 3, {"swing": "30deg"})),
+            method=Named("sweep"),
+            sampling=Named("grid"),
+            samples=Count(2),
+            seed=Count(1),
+            file=Other(None, True, (3, "a\0b")),
+            workers=Count(1),
+            cluster=Other(None, True, (3,)),
+            progress=Other(ilmek.Progress()),
+        ),
+        long=True,
+    ),
+    "compare": Call(
+        lambda file, machine, **more: ilmek.compare(measured() if file == "measured" else file, machine, **more),
+        (Other("measured", wrong=("no.csv", 3)), Named("tufting")),
+        dict(
+            settings=Other({}, wrong=({"x": 1}, {1: 1}, 3)),
+            fit=Other([], wrong=("friction_force", ["x"], [3], 3)),
+            align=Other(False, wrong=("no", 3)),
+            within=Other(0.5, True, ("x", "1kg", -1.0, np.nan)),
+            progress=Other(ilmek.Progress()),
         ),
         long=True,
     ),

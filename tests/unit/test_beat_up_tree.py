@@ -102,7 +102,9 @@ def test_the_comb_that_crank_rockers_swing_weighs_what_they_bear() -> None:
     one = design.linkage.one
     assert comb.moments.zeroth == pytest.approx(design.linkage.number * one.params.beater_mass, rel=1e-9)
     plates = hammer.MACHINE.plates(design)
-    assert {plate.name for plate in plates} == {"crank", "coupler", "rocker", "carriage-plate", "leaf", "bracket"}
+    assert {plate.name for plate in plates} == {
+        *("crank", "coupler", "rocker", "carriage-plate", "drive-plate", "leaf", "bracket"),
+    }
     assert all(plate.thickness < 0.1 for plate in plates)
 
 

@@ -1,9 +1,7 @@
 """How many functions a design of a loom calls: its cost by a figure that other work on the computer does not change."""
 
-import subprocess
-import sys
-
 import pytest
+from processes import printed, python
 
 GIVEN = {"knotting": "cams", "knot_cycle": "1.4s", "weft": "rapier", "heads": "1"}
 MOST = {"travelling": 240_000, "linkage": 400_000, "comb": 190_000, "guide-cams": 205_000}
@@ -29,5 +27,4 @@ print(calls)
 @pytest.mark.parametrize("beat", MOST)
 def test_a_design_calls_no_more_functions_than_it_needs(beat: str) -> None:
     words = [f"{name}={value}" for name, value in {**GIVEN, "beat": beat}.items()]
-    ended = subprocess.run([sys.executable, "-c", COUNTED, *words], capture_output=True, text=True, check=True)
-    assert MOST[beat] / 4 < int(ended.stdout) <= MOST[beat]
+    assert MOST[beat] / 4 < int(printed(python("-c", COUNTED, *words))) <= MOST[beat]

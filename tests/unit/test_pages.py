@@ -62,7 +62,7 @@ def test_a_long_page_does_what_it_says(page: Path, tmp_path: Path, shared: Path)
 
 def test_blocks_that_are_not_run_are_few_and_say_why() -> None:
     reasons = [(page.name, block.not_run) for page in PAGES for block in BLOCKS[page] if block.not_run]
-    assert len(reasons) <= 16
+    assert len(reasons) <= 17
     assert sum(block.language in RUN for page in PAGES for block in BLOCKS[page]) > 8 * len(reasons)
 
 

@@ -8,7 +8,6 @@ from types import MappingProxyType
 
 from ilmek.api.carpets import Settings
 from ilmek.arguments import Arguments, Quantity
-from ilmek.errors import ParameterError
 from ilmek.jobs import compare as comparing
 from ilmek.jobs.gun import GunResult, read_gun_order, weave_by_gun
 from ilmek.jobs.order import read_order
@@ -65,12 +64,8 @@ def tuft(
     )
     folder, replace = given.path("out", out), given.flag("force", force)
     on = given.record("progress", progress, Progress)
-    if technique == "gun":
+    if given.one_of("technique", technique, TECHNIQUES) == "gun":
         return weave_by_gun(order, read_gun_order(order, own, limit), folder, force=replace, progress=on)
-    if technique != "tufting":
-        raise ParameterError(
-            f"technique {technique!r}", allowed=" or ".join(TECHNIQUES), do="`weave` is for knotted ones"
-        )
     return weave_by_tufting(order, read_tufting_order(order, own, limit), folder, force=replace, progress=on)
 
 
@@ -106,6 +101,6 @@ def compare(
         given.mapping("settings", settings, lambda _, value: value),
         fit=given.sequence("fit", fit, str),
         align=given.flag("align", align),
-        within=None if within is None else given.number("within", within, "1"),
+        within=None if within is None else given.not_negative("within", within, "1"),
     )
     return comparing.compare(order, given.record("progress", progress, Progress))

@@ -261,11 +261,11 @@ def degrees_of_freedom(mechanism: Mechanism) -> int:
 
 
 def _find(name: str, among: Iterable[Named], kind: str, of: str) -> Named:
+    if not isinstance(name, str):
+        raise MechanismError(f"{shown_value(name)} given for a {kind} of {of}", allowed="its name")
     for entry in among:
         if entry.name == name:
             return entry
-    if not isinstance(name, str):
-        raise MechanismError(f"{shown_value(name)} given for a {kind} of {of}", allowed="its name")
     known = [entry.name for entry in among]
     allowed = f"it has {', '.join(known) or 'none'}"
     raise MechanismError(f"{of} has no {kind} {name!r}", allowed=allowed, do=did_you_mean(name, known))

@@ -55,6 +55,9 @@ devices at the edges = kenarlardaki aygıtlar | down = aşağı | draw = çek | 
 driven shaft end = tahrikli mil uc+u | drum = tambur | duct = kanal | eccentric = eksantrik | encoder = kodlayıcı
 emergency stop = acil durdurma | end = uc+u | energy chain = enerji zincir+i | energy chains = enerji zincirler+i
 even bar = çift çubuk | even stand = çift ayaklık | even warps = çift çözgüler | eye = göz | face = alın
+even rods = çift sıra çubuklar+ı | even spring anchors = çift sıra yay ayaklar+ı | guide rod = kılavuz çubuk
+even spring ends = çift sıra yay uçlar+ı | odd spring ends = tek sıra yay uçlar+ı | guide sleeve = kılavuz kovan+ı
+odd rods = tek sıra çubuklar+ı | odd spring anchors = tek sıra yay ayaklar+ı
 finger = parmak | fingers = parmaklar | flag = bayrak | follower = izleyici | followers = izleyiciler | forward = ileri
 frame = gövde | freewheel = tek yönlü kavrama | front foot = ön ayak | gripper = kıskaç | guards = koruyucular
 guide = kızak | guide cam = kılavuz kam | guide cam beside shims = şimli kılavuz kam | hammer = tokmak | head = kafa

@@ -111,31 +111,49 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
 
 
 def standing(parts: CompensatorParts, name: str, position: Placement = IDENTITY) -> RigidBody:
-    """What stands of a parity: beams with the levers' pins, the rods with the rollers that carry them."""
+    """What stands of a parity and is welded: beams, lugs of the pins, cross-pieces with the saddles of the rods."""
     at, thick = parts.supports, parts.supports.params.lever_thickness
-    lever, path, members = at.sprung.lever, at.sprung.lever.path, at.members
-    rods = [complex(-path.radius, side * path.half) for side in (1, -1)]
-    anchor, middle = complex(lever.anchor), -thick / 2
-    lugs = [pin + aside for pin in at.stations for aside in (-members.pin - thick, members.pin)]
-    own = Occurrence(
-        parts.beam,
-        tuple(seat for axis, side in at.beams for seat in _places([axis], [-at.params.cloth.width / 2], turned=side)),
-    )
+    lever, pin, middle = at.sprung.lever, at.members.pin, -thick / 2
+    lugs = [station + aside for station in at.stations for aside in (-pin - thick, pin)]
+    seats = (_places([axis], [-at.params.cloth.width / 2], turned=side) for axis, side in at.beams)
     return RigidBody(
-        part_id(f"{name} stand"),
+        stand_id(name),
         (
-            own,
-            Occurrence(parts.pin, _places([lever.pivot], at.stations, -members.pin - thick)),
+            Occurrence(parts.beam, tuple(chain(*seats))),
             Occurrence(parts.pivot_lug, _places([lever.pivot], lugs, turned=1j)),
-            Occurrence(parts.rod, _places(rods, [-at.params.cloth.width / 2])),
-            Occurrence(parts.saddle, _places(rods, at.stations, thick / 2, turned=-1)),
+            Occurrence(parts.saddle, _places(_rods(at), at.stations, thick / 2, turned=-1)),
             Occurrence(parts.cross_piece, _places([0j], at.stations, middle)),
-            *_rollers(parts, rods, -1, 1),
-            Occurrence(parts.anchor_lug, _places([anchor], at.stations, middle, turned=at.along)),
-            Occurrence(parts.spring_pin, _places([anchor], at.stations, -at.springs_wide / 2)),
+            Occurrence(parts.anchor_lug, _places([complex(lever.anchor)], at.stations, middle, turned=at.along)),
         ),
         positions=(position,),
     )
+
+
+def stand_id(name: str) -> str:
+    """Id of the welded body of a parity."""
+    return part_id(f"{name} stand")
+
+
+def fitted(parts: CompensatorParts, name: str) -> RigidBody:
+    """What is put into the stand of a parity: pins of levers and springs, rods with the rollers that carry them."""
+    at, lever = parts.supports, parts.supports.sprung.lever
+    far = -at.members.pin - at.params.lever_thickness
+    return RigidBody(
+        part_id(f"{name} rods"),
+        (
+            Occurrence(parts.pin, _places([lever.pivot], at.stations, far)),
+            Occurrence(parts.rod, _places(_rods(at), [-at.params.cloth.width / 2])),
+            *_rollers(parts, _rods(at), -1, 1),
+            Occurrence(parts.spring_pin, _places([complex(lever.anchor)], at.stations, -at.springs_wide / 2)),
+        ),
+        parent=stand_id(name),
+    )
+
+
+def _rods(at: BarSupports) -> list[complex]:
+    """Axes of the rods [m]."""
+    path = at.sprung.lever.path
+    return [complex(-path.radius, side * path.half) for side in (1, -1)]
 
 
 def _rollers(

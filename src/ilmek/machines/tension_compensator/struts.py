@@ -100,7 +100,8 @@ def strut_checks(at: BarSupports) -> tuple[Check, ...]:
     if strut is None:
         return ()
     source = "1.5 of its diameter, assumed by this project"
-    return (at_least("length of a spring's guide rod in its sleeve", strut.engaged, ENGAGED * strut.rod, "mm", source),)
+    engaged = at_least("length of a spring's guide rod in its sleeve", strut.engaged, ENGAGED * strut.rod, "mm", source)
+    return (engaged.with_cure("set a thinner wire, or more springs", part_id("guide-rod"), part_id("guide-sleeve")),)
 
 
 @record
@@ -173,54 +174,50 @@ def _spring(at: BarSupports, strut: Strut) -> Part:
 
 
 def strut_bodies(
-    at: BarSupports, parts: StrutParts, name: str, carriers: tuple[str, str], motion: SceneMotion | None
+    at: BarSupports, parts: StrutParts, name: str, carrier: str, motion: SceneMotion | None
 ) -> tuple[RigidBody, ...]:
-    """The halves of a parity's struts, which turn on the pins at their anchor and at the lever; none without springs.
+    """The halves of a parity's struts: one turns on its pin, one slides on it; none without springs.
 
-    carriers  ids of the bodies of the anchor and of the lever      motion  of the lever; None: it stands at rest
+    carrier  id of the body of the pin      motion  of the lever; None: it stands at rest
     """
-    strut, lever, along = parts.strut, at.sprung.lever, at.along
+    strut, anchor, along = parts.strut, complex(at.sprung.lever.anchor), at.along
     if strut is None:
         return ()
     assert parts.eye is not None
     assert parts.rod is not None
     assert parts.sleeve is not None
-    ends = (
-        (complex(lever.anchor), along, parts.rod, (Occurrence(parts.spring, _turned(at, along)),)),
-        (*(at.reach, -along, parts.sleeve, ()),),
-    )
-    motions: tuple[SceneMotion | None, ...] = (None, None)
+    rest = at.sprung.lever.pivot + at.reach - anchor
+    swing, slide = motion, motion
     if motion is not None:
         angle = np.union1d(motion.angle, np.linspace(motion.angle[0], motion.angle[-1], _SAMPLES))
         turned = np.interp(angle, motion.angle, motion.rotation)
-        tip = lever.pivot + lever.reach * np.exp(1j * turned)
-        swing = np.angle((tip - complex(lever.anchor)) / along)
-        still = np.zeros((len(angle), 3))
-        motions = tuple(SceneMotion(motion.drive, angle, still, own) for own in (swing, swing - turned))
-    return tuple(
-        RigidBody(
-            part_id(f"{name} {half}"),
-            (
-                Occurrence(parts.eye, tuple(_across(z, cmath.phase(towards)) for z in at.spring_stations)),
-                Occurrence(guide, _turned(at, towards, strut.seat - strut.socket)),
-                *others,
-            ),
-            parent=carrier,
-            joint=Joint(JointKind.PIN, motion=own, passive="its telescope and its spring hold it in line"),
-            positions=(placement(pin.real, pin.imag),),
-        )
-        for half, carrier, own, (pin, towards, guide, others) in zip(
-            ("spring anchors", "spring ends"), carriers, motions, ends, strict=True
+        reached = at.sprung.lever.pivot + at.reach * np.exp(1j * turned) - anchor
+        still, drawn = 0 * angle, (np.abs(reached) - abs(rest)) * along
+        swing = SceneMotion(motion.drive, angle, np.stack([still, still, still], 1), np.angle(reached / along))
+        slide = SceneMotion(motion.drive, angle, np.stack([drawn.real, drawn.imag, still], 1), still)
+    rod, sleeve = (
+        (Occurrence(parts.eye, (_across(cmath.phase(towards)),)), Occurrence(guide, (_lying(towards, shift),)))
+        for towards, guide, shift in zip(
+            (along, -along), (parts.rod, parts.sleeve), 2 * (strut.seat - strut.socket,), strict=True
         )
     )
+    anchors = RigidBody(
+        part_id(f"{name} spring anchors"),
+        (*rod, Occurrence(parts.spring, (_lying(along),))),
+        carrier,
+        Joint(JointKind.PIN, motion=swing),
+        tuple(placement(anchor.real, anchor.imag, z) for z in at.spring_stations),
+    )
+    sliding = Joint(JointKind.SLIDE, (along.real, along.imag, 0.0), slide)
+    ends = RigidBody(part_id(f"{name} spring ends"), sleeve, anchors.id, sliding, (placement(rest.real, rest.imag),))
+    return anchors, ends
 
 
-def _across(z: float, angle: float) -> Placement:
-    return placement(z=z, about=(0.0, 0.0, 1.0), angle=angle)
+def _across(angle: float) -> Placement:
+    return placement(about=(0.0, 0.0, 1.0), angle=angle)
 
 
-def _turned(at: BarSupports, towards: complex, shift: float = 0.0) -> tuple[Placement, ...]:
-    """What is made along z, along a direction from its pin at each spring's station, further by a shift [m]."""
+def _lying(towards: complex, shift: float = 0.0) -> Placement:
+    """What is made along z, along a direction from its pin, further by a shift [m]."""
     upwards = placement(about=(1.0, 0.0, 0.0), angle=-math.pi / 2)
-    lying = _across(0.0, cmath.phase(towards) - math.pi / 2).after(upwards).after(placement(z=shift))
-    return tuple(placement(z=z).after(lying) for z in at.spring_stations)
+    return _across(cmath.phase(towards) - math.pi / 2).after(upwards).after(placement(z=shift))

@@ -9,13 +9,13 @@ from ilmek.arrays import FloatArray
 from ilmek.machines.tension_compensator.design import TensionCompensator
 from ilmek.machines.tension_compensator.members import part_id
 from ilmek.machines.tension_compensator.params import STEEL
-from ilmek.machines.tension_compensator.parts import CUT, sprung_bar, standing
+from ilmek.machines.tension_compensator.parts import CUT, fitted, sprung_bar, standing
 from ilmek.machines.tension_compensator.struts import strut_bodies
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism
-from ilmek.part.tree import Occurrence, RigidBody, Tree
+from ilmek.part.tree import Closure, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import rounded_hull
 from ilmek.report.scene import SceneMotion
 from ilmek.units import mm
@@ -33,13 +33,16 @@ def tree(design: TensionCompensator, motions: dict[str, SceneMotion] | None = No
     """
     parts, half = design.parts, placement(design.half_depth)
     turned = {EVEN: half, ODD: placement(about=(0.0, 1.0, 0.0), angle=math.pi).after(half)}
-    bodies: list[RigidBody] = []
+    reach = parts.supports.reach
+    bodies, closures = list[RigidBody](), list[Closure]()
     for parity in (EVEN, ODD)[: design.bars]:
-        stand = standing(parts, parity, turned[parity])
+        stand, rods = standing(parts, parity, turned[parity]), fitted(parts, parity)
         motion = (motions or {}).get(parity)
-        bar = replace(sprung_bar(parts, parity, motion), parent=stand.id)
-        bodies += (stand, bar, *strut_bodies(parts.supports, parts.struts, parity, (stand.id, bar.id), motion))
-    return Tree(tuple(bodies))
+        bar = replace(sprung_bar(parts, parity, motion), parent=rods.id)
+        struts = strut_bodies(parts.supports, parts.struts, parity, rods.id, motion)
+        bodies += (stand, rods, bar, *struts)
+        closures += (Closure(JointKind.PIN, (bar.id, end.id), placement(reach.real, reach.imag)) for end in struts[1:])
+    return Tree(tuple(bodies), tuple(closures))
 
 
 def stand(design: TensionCompensator) -> Tree:

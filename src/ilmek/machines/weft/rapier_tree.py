@@ -152,7 +152,7 @@ class RapierSide:
     def _devices(self) -> Iterator[RigidBody]:
         """Cutters, tuck-in needles and selector before the plates, each moved by a motor below it."""
         size, within = box(SIDE, SIDE, SIDE), " x ".join(3 * (in_mm(SIDE),))
-        hub = f"hub for a shaft of {in_mm(catalogue.motor_shaft(smallest_motor(AUXILIARY, 0.0, STEPPER)))}"
+        hub = f"hub bore {in_mm(catalogue.motor_shaft(smallest_motor(AUXILIARY, 0.0, STEPPER)))}"
 
         def device(body: str, names: tuple[str, str, str], mass: float, joint: Joint, *stations: Station) -> RigidBody:
             name, title, text = names
