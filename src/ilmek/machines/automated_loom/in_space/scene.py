@@ -154,17 +154,22 @@ def loom_tree(loom: LoomDesign) -> Tree:
 
 
 def _bodies(tree: Tree) -> dict[str, SceneBody]:
-    """What holds each body of a tree, and what moves it: motor, hand, what leads it, it is fixed to, or carries it."""
+    """What holds each body of a tree, and what moves it: motor, hand, what leads it, it is fixed to, leads what slides
+    on it, or carries it.
+    """
     titles = {part.id: part.title for part, _ in tree.occurrences()}
     fixed = [closure.bodies for closure in tree.closures if closure.kind is JointKind.FIXED]
     leads = [closure.bodies for closure in tree.closures if closure.kind is not JointKind.FIXED]
+    parents = {body.id: body.parent for body in tree.bodies if body.joint.kind is JointKind.SLIDE}
+    drawn = {parents[second]: first for first, second in leads if second in parents}
 
     def held(body: RigidBody) -> SceneBody:
         joint, drive = body.joint, "" if body.joint.motion is None else body.joint.motion.drive
         leading = tuple(first for first, second in leads if second == body.id)
         fixed_to = tuple(second for first, second in fixed if first == body.id)
         carrier = (body.parent,) if drive and not joint.passive and body.parent != GROUND else ()
-        follows = () if joint.motor or joint.hand else leading or fixed_to or carrier
+        through = (drawn[body.id],) if drive and body.id in drawn else ()
+        follows = () if joint.motor or joint.hand else leading or fixed_to or through or carrier
         return SceneBody(
             body.parent, joint.kind.value, drive, titles.get(joint.motor or joint.hand, ""), follows, joint.passive
         )
