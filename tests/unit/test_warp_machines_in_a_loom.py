@@ -10,7 +10,6 @@ from cloths import cloth
 from ilmek.machines import shedding, warp_tension
 from ilmek.machines.automated_loom import AutomatedLoomParams, design
 from ilmek.machines.loom_task import LoomTask
-from ilmek.machines.shedding.cam_shaft import RING
 from ilmek.machines.warp_tension.cylinders import cylinders
 from ilmek.machines.warp_tension.design import USUAL_TUBES, keeps_limits, worst_load
 from ilmek.units import mm
@@ -41,9 +40,8 @@ def test_parts_of_the_shedding_weigh_what_the_design_weighs() -> None:
     sheets = "shedding cam", "guide cam", "guide cam beside shims", "shims of the cams"
     cams = sum(parts[name].mass_all for name in sheets)
     # The stack is weighed with the bar in its bores; the shaft goes on to its bearings and has journals.
-    (shaft,) = made.shafts
-    beyond = beyond_cams(made, 0, made.params.cloth.width) - 2 * RING * (math.pi - 1) * shaft.shaft.bar**2
-    within = parts["cam shaft"].mass - made.params.density * beyond
+    rings = parts["pressure ring of the cams"].mass_all
+    within = parts["cam shaft"].mass + rings - made.params.density * beyond_cams(made, 0, made.params.cloth.width)
     assert cams + within == pytest.approx(made.stack.mass, rel=1e-6)
     assert [part.name for part in parts.values() if part.drives] == ["motor of the cam shaft"]
     assert parts["bearing of the cam shaft"].number == 2
