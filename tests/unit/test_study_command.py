@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from processes import ended, ilmek
 
 from ilmek.cli import main
 
@@ -59,6 +60,25 @@ def test_a_study_without_a_design_that_holds_ends_with_3() -> None:
     found = call(*SWING, *GOAL, "--samples", "2", "--hold", "drive_torque_max <= 0.1 N*m")
     assert found.exit_code == 3
     assert "drive_torque_max <= limit fails in 100%" in found.stdout
+
+
+def test_a_time_limit_holds_for_one_process_too() -> None:
+    """The command works beside the main thread, which alone can be interrupted."""
+    done = ended(ilmek("study", "beat-up", *SWING, *GOAL, "--samples", "2", "--time-limit", "100s", "--json", "-"))
+    assert json.loads(done.stdout)["done"] == 2
+    slow = ended(ilmek("study", "beat-up", *SWING, *GOAL, "--samples", "1", "--time-limit", "1ms", "--json", "-"))
+    assert json.loads(slow.stdout)["results"]["reasons"] == [["timeout", "longer than 0.001 s", 1]]
+
+
+def test_a_wrong_word_leaves_the_results_file_that_it_would_replace(tmp_path: Path) -> None:
+    out = tmp_path / "s.sqlite"
+    words = (*SWING, "--samples", "2", "--out", str(out), "--force")
+    assert call(*words, *GOAL).exit_code == 0
+    before = out.read_bytes()
+    assert call(*words, "--goal", "drive").exit_code == 2
+    assert out.read_bytes() == before
+    assert call(*words, *GOAL, "--seed", "1").exit_code == 0
+    assert out.read_bytes() != before
 
 
 def test_a_study_file_gives_the_words(tmp_path: Path) -> None:

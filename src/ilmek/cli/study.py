@@ -86,7 +86,7 @@ def command(
     order = _order(target, read_settings(vary), read_settings(settings), time_limit, words)
     _require_file(out, resume, force)
     with call_outputs({"--json": json_to, "--report": page_to, "--csv": csv_to}, force=force) as call:
-        found = study(order, out, workers=workers, cluster=cluster, progress=call.progress)
+        found = study(order, out, replace=not resume, workers=workers, cluster=cluster, progress=call.progress)
         report = study_report(found)
         call.give_page("--report", report)
         call.give("--csv", lambda: csv_text(found.columns(), call.progress.part(0.0, 1.0, "table")))
@@ -142,9 +142,7 @@ def _require_file(out: Path | None, resume: bool, force: bool) -> None:
         return
     if resume and not out.is_file():
         raise ParameterError(f"--resume: there is no results file {out}", do="leave out --resume to begin one")
-    if out.exists() and not resume:
-        if not force:
-            raise OutputError(f"results file {out} exists", do="go on with --resume, or replace it with --force")
-        out.unlink()
+    if out.exists() and not resume and not force:
+        raise OutputError(f"results file {out} exists", do="go on with --resume, or replace it with --force")
     if not out.parent.is_dir():
         raise OutputError(f"--out {out}: there is no folder {out.parent}", do="make it first")

@@ -26,7 +26,7 @@ TUFTS = "tufts"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TuftingTechnique:
-    """A technique: its order from texts, its job, and what is told of the result."""
+    """A technique: its order from texts, its job, and what is printed of the result."""
 
     read: Callable[..., Any]
     weave: Callable[..., Any]

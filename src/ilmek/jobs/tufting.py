@@ -43,7 +43,7 @@ OF_THE_PICTURE = {"width": "--size", "pattern.colours": "--colours"}
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TuftingOrder:
-    """What a tufting machine is asked for: its settings, its parameters as far as they are known, the time [s]."""
+    """What is ordered of a tufting machine: its settings, its parameters as far as they are known, the time [s]."""
 
     settings: Mapping[str, Setting]
     params: TuftingMachineParams

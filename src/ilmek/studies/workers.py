@@ -6,6 +6,7 @@ from concurrent.futures import Executor, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack
 from importlib import import_module
+from threading import current_thread, main_thread
 from typing import Any
 
 from ilmek.errors import ParameterError
@@ -24,7 +25,7 @@ Design = Mapping[str, Value]
 class Workers:
     """Evaluates designs; the outcomes come in the order of the designs. Use it in a `with` block.
 
-    count    processes; 1: this one
+    count    processes; 1: this one, unless a time limit needs another
     cluster  address of a Dask scheduler; None: none
     A process that ends by itself costs one design: its row has the reason. Raises ParameterError without the extra, or
     where no scheduler answers or goes away.
@@ -45,10 +46,12 @@ class Workers:
         self._stack.close()
 
     def _start(self) -> None:
+        if self._cluster is not None and self._question.time_limit:
+            raise ParameterError("--time-limit on a cluster", allowed="a time limit needs processes of this machine")
         if self._cluster is not None:
             self._executor = self._stack.enter_context(cluster_client(self._cluster)).get_executor(pure=False)
-        elif self._count > 1:
-            self._executor = _pool(self._count)
+        elif self._count > 1 or (self._question.time_limit and current_thread() is not main_thread()):
+            self._executor = _pool(self._count)  # a time limit interrupts the main thread of a process alone
 
     def outcomes(self, designs: Sequence[Design]) -> Iterator[Outcome]:
         """The outcome of each design, in order."""

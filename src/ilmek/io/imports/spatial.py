@@ -81,7 +81,7 @@ def planar(tree: SpatialTree) -> Foreign:
             continue
         joints[joint.name] = {"pin": [joint.parent, joint.child]}
         if joint.axis @ normal < 0:
-            left_out.append(f"the sense of {joint.name}: its angle counts the other way")
+            left_out.append(f"the sense of {joint.name}: its angle counts against it")
     for loop in tree.loops:
         for body in loop.bodies:
             points.setdefault(body, {})[loop.name] = flat(loop.at)

@@ -21,16 +21,11 @@ from ilmek.units import turn
 _FULL = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
-class CamLift:
-    """The lift of a follower over the cam's angle from `first_at` on, by steps with motion laws that fill one turn.
+class _Lift:
+    """What every lift of a cam is; `groove`  whether the cam also pulls."""
 
-    slides  whether it is a displacement [m], not an angle [rad]      groove  whether the cam also pulls
-    """
-
-    steps: tuple[MotionStep, ...]
-    slides: bool
-    groove: bool = False
+    __slots__ = ()
+    groove: bool
 
     @property
     def turns(self) -> int:
@@ -41,6 +36,18 @@ class CamLift:
     def one_sided(self) -> bool:
         """Whether the cam can only press."""
         return not self.groove
+
+
+@dataclass(frozen=True, slots=True)
+class CamLift(_Lift):
+    """The lift of a follower over the cam's angle from `first_at` on, by steps with motion laws that fill one turn.
+
+    slides  whether it is a displacement [m], not an angle [rad]      groove  whether the cam also pulls
+    """
+
+    steps: tuple[MotionStep, ...]
+    slides: bool
+    groove: bool = False
 
     def motion(self, angle: RealField) -> FollowerMotion:
         """Lift and its first three derivatives at angles [rad]."""
@@ -59,23 +66,13 @@ def programme_of(steps: tuple[MotionStep, ...]) -> CamProgramme:
 
 
 @dataclass(frozen=True, slots=True)
-class LiftTable:
+class LiftTable(_Lift):
     """The same by a cubic spline through lifts at ascending angles [rad] of one turn, periodic."""
 
     angles: tuple[float, ...]
     lifts: tuple[float, ...]
     slides: bool
     groove: bool = False
-
-    @property
-    def turns(self) -> int:
-        """1: the follower returns in every turn."""
-        return 1
-
-    @property
-    def one_sided(self) -> bool:
-        """Whether the cam can only press."""
-        return not self.groove
 
     def motion(self, angle: RealField) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Lift and its first three derivatives at angles [rad]."""

@@ -85,13 +85,15 @@ def study(
     order: StudyOrder,
     file: Path | None = None,
     *,
+    replace: bool = False,
     workers: int = 1,
     cluster: str | None = None,
     progress: Progress = SILENT,
 ) -> StudyResult:
     """Carry out a study; designs that its results file has already are not computed again.
 
-    file  where the designs are kept; None: nowhere
+    file     where the designs are kept; None: nowhere
+    replace  a file that exists is removed first, once the order is read
     Raises ParameterError for an order that cannot be read, or a file of another study; errors of the target;
     OutputError; Cancelled, after which the file has all designs until then.
     """
@@ -120,6 +122,8 @@ def study(
         if file is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory())
         path = file or Path(folder) / "study.sqlite"
+        if replace:
+            path.unlink(missing_ok=True)
         kept = stack.enter_context(StudyFile(path, plan, [v.name for v in variables], results))
         running = stack.enter_context(Workers(Question(target, results, holds, order.time_limit), workers, cluster))
         recorder = DesignRecorder(kept, variables, running, samples, progress)
