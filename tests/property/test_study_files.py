@@ -11,7 +11,7 @@ from study_targets import FunctionTarget
 
 from ilmek.errors import OutputError, ParameterError
 from ilmek.progress import Cancelled, Progress
-from ilmek.studies.outcome import Question
+from ilmek.studies.outcome import Outcome, Question
 from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import sampled
 from ilmek.studies.store import StudyFile
@@ -46,6 +46,25 @@ def test_a_study_that_goes_on_has_the_same_file_bit_for_bit(
         assert carried_out(folder / "parts.sqlite", stop=stop) in ("cancelled", whole)
     assert carried_out(folder / "parts.sqlite") == whole
     assert (folder / "parts.sqlite").read_bytes() == (folder / "whole.sqlite").read_bytes()
+
+
+@pytest.mark.parametrize("batches", [[1, 15, 16, 8], [256, 256, 100]])
+def test_how_often_a_file_is_opened_leaves_no_trace(tmp_path: Path, batches: list[int]) -> None:
+    """Batches of an optimiser are small: they change no size of the file, and SQLite counts changes otherwise there."""
+    outcome = Outcome("done", "", (1.0,), {"check": 1.0}, 0)
+
+    def written(path: Path, sessions: list[list[int]]) -> bytes:
+        for session in sessions:
+            with StudyFile(path, {}, ["x"], ["f"]) as file:
+                for count in session:
+                    file.append(np.zeros((count, 1)), [outcome] * count)
+        check = sqlite3.connect(path)
+        assert check.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+        check.close()
+        return path.read_bytes()
+
+    once = written(tmp_path / "once.sqlite", [batches])
+    assert written(tmp_path / "often.sqlite", [[], *([count] for count in batches), []]) == once
 
 
 def test_workers_write_the_same_file(tmp_path: Path) -> None:

@@ -84,7 +84,11 @@ class StudyFile:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._base.close()
+        try:
+            rows = len(self)
+        finally:
+            self._base.close()
+        _set_counters(self.path, rows + 1)
 
     def __len__(self) -> int:
         """The number of designs that are committed."""
@@ -197,6 +201,20 @@ class StudyRows:
     def feasible(self) -> np.ndarray:
         """Whether each design was made and every check of it holds."""
         return np.asarray(self.made & (self.failed == 0))
+
+
+_COUNTERS = (24, 92)
+"""Offsets in the header of an SQLite file: the counter of its changes, and for which its size there is valid
+[SQLite, Database File Format, 1.3.7 and 1.3.15].
+"""
+
+
+def _set_counters(path: Path, number: int) -> None:
+    """Let the counters of changes follow from the rows: SQLite counts how often the file was opened for writing too."""
+    with path.open("r+b") as file:
+        for offset in _COUNTERS:
+            file.seek(offset)
+            file.write(number.to_bytes(4, "big"))
 
 
 def _stored(value: float) -> float | None:
