@@ -44,7 +44,7 @@ def test_urdf_arm(tmp_path: Path) -> None:
     """The tool by the product of the transforms of the specification, at 20 random values of its joints."""
     (tmp_path / "arm.urdf").write_text(URDF)
     file, left_out = imported_mechanism(tmp_path / "arm.urdf")
-    assert left_out == ("limit of joint shoulder", "the sense of shoulder: its angle counts the other way")
+    assert left_out == ("limit of joint shoulder", "the sense of shoulder: its angle counts against it")
     rng = np.random.default_rng(0)
     q1, q2, s = rng.uniform(-1, 1, (3, 20))
     senses = {"shoulder": -1, "elbow": +1}  # about the normal of x to the right and z up, which is -y
@@ -97,7 +97,7 @@ def test_mjcf_slider_crank(tmp_path: Path) -> None:
     path = tmp_path / "model.xml"
     path.write_text(MJCF)
     file, left_out = imported_mechanism(path)
-    assert left_out == tuple(f"the sense of {name}: its angle counts the other way" for name in "OA")
+    assert left_out == tuple(f"the sense of {name}: its angle counts against it" for name in "OA")
     assert file.machine.gravity == -9.81j
     assert [entry.name for entry in file.mechanism.inputs] == ["crank"]
     model = mujoco.MjModel.from_xml_path(str(path))
