@@ -1,5 +1,6 @@
 """Results whose values are columns over samples: a DataFrame, a plot, a CSV file."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from contextlib import suppress
 from importlib import import_module
@@ -15,14 +16,14 @@ SHOWN_UNITS = {"rad": "deg", "m": "mm", "rad/s": "rpm"}
 """Units in which curves are drawn, where not in SI."""
 
 
-class Framed(Shown):
+class Framed(Shown, ABC):
     """A result whose values are columns over its samples."""
 
     __slots__ = ()
 
+    @abstractmethod
     def table(self) -> Mapping[str, FloatArray]:
         """Columns by heading with the unit, SI and radians."""
-        raise NotImplementedError
 
     def frame(self) -> Any:
         """`table` as a DataFrame of pandas or polars, whichever is installed. Raises ParameterError without either."""
