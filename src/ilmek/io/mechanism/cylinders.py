@@ -8,8 +8,14 @@ import cmath
 from collections.abc import Mapping
 
 from ilmek.errors import MechanismError
+from ilmek.io.declared import TableEntry
+from ilmek.io.mechanism.names import two_spots
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Body, Joint, Pin, Slide
+
+CYLINDER = TableEntry(
+    "", {"between": two_spots("its ends, of barrel and rod: each a body and its point")}, name="cylinder"
+)
 
 Pose = tuple[complex, float]
 """Origin [m] and angle [rad]."""
