@@ -10,6 +10,7 @@ of the names of a table, that is the name of another entry.
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import field
+from types import MappingProxyType
 from typing import Any, NoReturn
 
 from ilmek.errors import IlmekError, MechanismError, did_you_mean
@@ -230,13 +231,12 @@ class TableEntry(DeclaredEntry):
     """A table; its first required key tells it from the other tables of a `VariantEntry`.
 
     required, optional  key -> entry      others  entry of every other key; None: there are none
-    title  of a variant                   refers  what the other keys are the names of      most  number of keys
+    refers  what the other keys are the names of      most  number of keys
     """
 
     required: Mapping[str, DeclaredEntry] = field(default_factory=dict)
     optional: Mapping[str, DeclaredEntry] = field(default_factory=dict)
     others: DeclaredEntry | None = None
-    title: str = field(default="", kw_only=True)
     refers: str = field(default="", kw_only=True)
     most: int | None = field(default=None, kw_only=True)
 
@@ -251,7 +251,6 @@ class TableEntry(DeclaredEntry):
 
     def _form(self, definitions: JsonObject) -> JsonObject:
         further = {
-            "title": self.title,
             "required": list(self.required),
             "properties": {key: entry.schema(definitions) for key, entry in self.entries.items()},
             "propertyNames": {"refers": self.refers} if self.refers else {},
@@ -279,6 +278,13 @@ class TableEntry(DeclaredEntry):
         return {key: self.entry(key).write(one, si=si) for key, one in value.items()}
 
 
+def keys(
+    required: Mapping[str, DeclaredEntry], optional: Mapping[str, DeclaredEntry] = MappingProxyType({}), **more: Any
+) -> TableEntry:
+    """A table of required and optional keys; meaning and name as of `TableEntry`."""
+    return TableEntry(more.pop("doc", ""), required, optional, **more)
+
+
 def names(entry: DeclaredEntry, doc: str, *, refers: str = "", most: int | None = None) -> TableEntry:
     """A table of names and an entry of each."""
     return TableEntry(doc, others=entry, refers=refers, most=most)
@@ -291,7 +297,9 @@ class VariantEntry(DeclaredEntry):
     options: tuple[DeclaredEntry, ...]
 
     def _form(self, definitions: JsonObject) -> JsonObject:
-        return {"oneOf": [option.schema(definitions) for option in self.options]}
+        titles = {id(entry): f"{self.name} {key}".strip() for key, entry in self._tables().items()}
+        options = [(option.schema(definitions), titles.get(id(option))) for option in self.options]
+        return {"oneOf": [{**form, "title": title} if title else form for form, title in options]}
 
     def table(self, value: Mapping[str, object]) -> TableEntry:
         """The table that fits a value. Raises TypeError where there is none."""
@@ -334,3 +342,8 @@ class VariantEntry(DeclaredEntry):
         if option is None:
             raise TypeError(f"{value!r} is no {self.name or self.doc}")
         return option.write(value, si=si)
+
+
+def variant(*options: DeclaredEntry, doc: str = "", name: str = "") -> VariantEntry:
+    """One of several entries."""
+    return VariantEntry(doc, options, name=name)

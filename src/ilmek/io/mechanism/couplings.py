@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence, Set
 from dataclasses import replace
 
 from ilmek.errors import MechanismError
-from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, VariantEntry, WholeEntry, quantity
+from ilmek.io.declared import FlagEntry, ListEntry, TextEntry, WholeEntry, keys, quantity, variant
 from ilmek.io.mechanism.motions import step_data, steps_entry, table_rows
 from ilmek.io.mechanism.names import ANGLE, LENGTH, position_of_input, two_spots, value_of
 from ilmek.io.mechanism.pairs import CamLift, LiftTable, law_of_pair
@@ -25,22 +25,18 @@ _TEETH = {
     "pressure_angle": replace(ANGLE, doc="of the teeth at the pitch point, at most 45 degrees; default: 20 degrees")
 }
 
-_GEARS = TableEntry(
-    "",
+_GEARS = keys(
     {
         "gears": _WHEELS,
         "ratio": quantity(
-            "1",
-            "-z1/z2, the teeth of the first by those of the second; without the sign where one is inside the other",
+            "1", "-z1/z2, the teeth of the first by those of the second; without the sign where one is inside the other"
         ),
         **_MESH,
     },
     {**_CARRIER, **_TEETH},
-    title="gears",
 )
 
-_BELT = TableEntry(
-    "",
+_BELT = keys(
     {
         "belt": _WHEELS,
         "ratio": quantity("1", "r1/r2, the first's radius by the second's; with a minus sign for a crossed belt"),
@@ -58,11 +54,9 @@ _BELT = TableEntry(
             "1", "coefficient on the pulleys: for the grip of a flat belt; default: teeth, which do not slip"
         ),
     },
-    title="belt",
 )
 
-_RACK = TableEntry(
-    "",
+_RACK = keys(
     {
         "rack": two_spots("the pinion and its middle; the rack and its slide"),
         "ratio": quantity("m/rad", "travel per radian of the pinion: its pitch radius, with a sign"),
@@ -70,11 +64,9 @@ _RACK = TableEntry(
         "second_at": replace(LENGTH, doc=_SECOND),
     },
     {**_CARRIER, **_TEETH},
-    title="rack",
 )
 
-_CAM = TableEntry(
-    "",
+_CAM = keys(
     {"cam": two_spots("the cam and its middle; the follower and its slide, or its pin")},
     {
         **_CARRIER,
@@ -88,14 +80,7 @@ _CAM = TableEntry(
         "groove": FlagEntry("whether the cam also pulls; default: false"),
         "lift": steps_entry(
             "lifts and dwells that fill one turn of the cam",
-            TableEntry(
-                "",
-                {
-                    "to": position_of_input("lift at the end"),
-                    "over": quantity("rad", "angle of the cam", above=0.0),
-                },
-                title="lift",
-            ),
+            keys({"to": position_of_input("lift at the end"), "over": quantity("rad", "angle of the cam", above=0.0)}),
             "angle of the cam at rest",
             "rad",
         ),
@@ -106,11 +91,9 @@ _CAM = TableEntry(
             1000,
         ),
     },
-    title="cam",
 )
 
-_GENEVA = TableEntry(
-    "",
+_GENEVA = keys(
     {
         "geneva": two_spots("the crank and its middle; the wheel and its middle"),
         "slots": WholeEntry(
@@ -120,10 +103,9 @@ _GENEVA = TableEntry(
         "second_at": replace(ANGLE, doc="angle of the wheel then"),
     },
     _CARRIER,
-    title="Geneva wheel",
 )
 
-COUPLING = VariantEntry("", (_GEARS, _BELT, _RACK, _CAM, _GENEVA), name="coupling")
+COUPLING = variant(_GEARS, _BELT, _RACK, _CAM, _GENEVA, name="coupling")
 
 
 def couplings_of(tables: Table, joints: Sequence[Joint], source: SourceText) -> Iterator[Coupling]:

@@ -5,15 +5,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.own_machine import PinMember
 from ilmek.errors import MechanismError
-from ilmek.io.declared import TableEntry, quantity
+from ilmek.io.declared import keys, quantity
 from ilmek.io.mechanism.masses import Tables
 from ilmek.io.mechanism.names import unknown, value_of
 from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import Joint, Slide
 from ilmek.records import JsonObject
 
-FRICTION = TableEntry(
-    "",
+FRICTION = keys(
     {"coefficient": quantity("1")},
     {
         "radius": quantity("m", "of a pin; default: half its diameter in `pins`"),

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations
 
-from ilmek.io.declared import ListEntry, TableEntry, TextEntry, VariantEntry
+from ilmek.io.declared import ListEntry, TextEntry, keys, variant
 from ilmek.io.mechanism.names import ANGLE, two_names
 from ilmek.io.schema import Table
 from ilmek.linkage.model import GROUND, KINDS, Body, Joint, Pin, Slide
@@ -19,22 +19,15 @@ from ilmek.linkage.model import GROUND, KINDS, Body, Joint, Pin, Slide
 _BODIES = "the bodies that the pin joins: two or more; of two: branch +1 is on the left of first to second"
 _ALONG = replace(ANGLE, doc="direction of the line in the guide's frame; default: 0")
 
-JOINT = VariantEntry(
-    "",
-    (
-        TableEntry("", {"pin": ListEntry(_BODIES, TextEntry("", "body"), 2, 10)}, title="pin"),
-        TableEntry(
-            "",
-            {"slide": two_names("the sliding body and its guide", "body")},
-            {"along": _ALONG, "turned": replace(ANGLE, doc="the sliding body against the guide; default: 0")},
-            title="slide",
-        ),
-        TableEntry(
-            "",
-            {"slot": two_names("the body with the pin and the body with the slot", "body")},
-            {"along": replace(ANGLE, doc="direction of the slot's line in the frame of its body; default: 0")},
-            title="slot",
-        ),
+JOINT = variant(
+    keys({"pin": ListEntry(_BODIES, TextEntry("", "body"), 2, 10)}),
+    keys(
+        {"slide": two_names("the sliding body and its guide", "body")},
+        {"along": _ALONG, "turned": replace(ANGLE, doc="the sliding body against the guide; default: 0")},
+    ),
+    keys(
+        {"slot": two_names("the body with the pin and the body with the slot", "body")},
+        {"along": replace(ANGLE, doc="direction of the slot's line in the frame of its body; default: 0")},
     ),
     name="joint",
 )

@@ -8,7 +8,7 @@ from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
 from ilmek.dynamics.loads import Load, PointForce, Torque
 from ilmek.dynamics.own_machine import NamedLoad
 from ilmek.errors import MechanismError
-from ilmek.io.declared import ChoiceEntry, ListEntry, TableEntry, TextEntry, VariantEntry, quantity
+from ilmek.io.declared import ChoiceEntry, ListEntry, TableEntry, TextEntry, keys, quantity, variant
 from ilmek.io.mechanism.motions import table_rows
 from ilmek.io.mechanism.names import ANGLE, input_of, position_of_input, spot, spot_of, unit_of, value_of, xy_of
 from ilmek.io.mechanism.points import complex_of, polar
@@ -20,13 +20,11 @@ from ilmek.records import JsonObject
 TIME = "time"
 """What a table is over in place of an input."""
 
-GRAVITY = VariantEntry(
-    "default: none, the plane of motion is horizontal",
-    (
-        quantity("m/s^2", "downward, in -y"),
-        ListEntry("x and y components", quantity("m/s^2"), 2, 2),
-        TableEntry("", {"value": quantity("m/s^2"), "direction": ANGLE}, title="direction"),
-    ),
+GRAVITY = variant(
+    quantity("m/s^2", "downward, in -y"),
+    ListEntry("x and y components", quantity("m/s^2"), 2, 2),
+    keys({"value": quantity("m/s^2"), "direction": ANGLE}),
+    doc="default: none, the plane of motion is horizontal",
 )
 
 _WINDOW = TableEntry(
@@ -35,13 +33,7 @@ _WINDOW = TableEntry(
     {"input": TextEntry("the driven joint or body; default: the only input", "input")},
     name="window",
 )
-_FORCE = VariantEntry(
-    "",
-    (
-        quantity("N", "magnitude, with `direction`"),
-        ListEntry("x and y components", quantity("N"), 2, 2),
-    ),
-)
+_FORCE = variant(quantity("N", "magnitude, with `direction`"), ListEntry("x and y components", quantity("N"), 2, 2))
 _OVER = TextEntry(
     "input of the table, or `time`; default: time where its first column has seconds, else the only input", "input"
 )
@@ -53,46 +45,35 @@ def _rows(unit: str, doc: str) -> ListEntry:
     return ListEntry(doc, row, 2, 1000)
 
 
-LOAD = VariantEntry(
-    "",
-    (
-        TableEntry(
-            "",
-            {"force": _FORCE, "on": spot("body and point")},
-            {
-                "direction": ANGLE,
-                "frame": ChoiceEntry("frame of the direction; default: ground", ("ground", "body")),
-                "table": _rows(
-                    "N",
-                    "[[input or time, magnitude], ...] with straight lines between; replaces the magnitude of `force`",
-                ),
-                "over": _OVER,
-                "while": _WINDOW,
-            },
-            title="force",
-        ),
-        TableEntry(
-            "",
-            {"torque": quantity("N*m", "counter-clockwise"), "on": TextEntry("body", "body")},
-            {
-                "table": _rows("N*m", "[[input or time, torque], ...] with straight lines between; replaces `torque`"),
-                "over": _OVER,
-                "while": _WINDOW,
-            },
-            title="torque",
-        ),
-        TableEntry(
-            "",
-            {"friction": quantity("N", "magnitude, against the velocity of the point", least=0.0), "on": spot()},
-            {"over": replace(_OVER, doc="input; default: the only input"), "while": _WINDOW},
-            title="friction",
-        ),
-        TableEntry(
-            "",
-            {"drag": quantity("N*s/m", "viscous: force per speed of the point, against it"), "on": spot()},
-            {"while": _WINDOW},
-            title="drag",
-        ),
+LOAD = variant(
+    keys(
+        {"force": _FORCE, "on": spot("body and point")},
+        {
+            "direction": ANGLE,
+            "frame": ChoiceEntry("frame of the direction; default: ground", ("ground", "body")),
+            "table": _rows(
+                "N",
+                "[[input or time, magnitude], ...] with straight lines between; replaces the magnitude of `force`",
+            ),
+            "over": _OVER,
+            "while": _WINDOW,
+        },
+    ),
+    keys(
+        {"torque": quantity("N*m", "counter-clockwise"), "on": TextEntry("body", "body")},
+        {
+            "table": _rows("N*m", "[[input or time, torque], ...] with straight lines between; replaces `torque`"),
+            "over": _OVER,
+            "while": _WINDOW,
+        },
+    ),
+    keys(
+        {"friction": quantity("N", "magnitude, against the velocity of the point", least=0.0), "on": spot()},
+        {"over": replace(_OVER, doc="input; default: the only input"), "while": _WINDOW},
+    ),
+    keys(
+        {"drag": quantity("N*s/m", "viscous: force per speed of the point, against it"), "on": spot()},
+        {"while": _WINDOW},
     ),
     name="load",
 )

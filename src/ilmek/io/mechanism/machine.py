@@ -6,7 +6,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
-from ilmek.io.declared import ChoiceEntry, ListEntry, QuantityEntry, TableEntry, TextEntry, names
+from ilmek.io.declared import ChoiceEntry, ListEntry, QuantityEntry, TableEntry, TextEntry, keys, names
 from ilmek.io.mechanism.couplings import COUPLING, coupling_data
 from ilmek.io.mechanism.cylinders import CYLINDER
 from ilmek.io.mechanism.frictions import FRICTION, friction_data, frictions_of
@@ -46,7 +46,7 @@ from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.records import JsonObject
 
-_POSE = TableEntry("", {"origin": XY, "angle": ANGLE}, name="pose")
+_POSE = keys({"origin": XY, "angle": ANGLE}, name="pose")
 
 FILE = TableEntry(
     'A quantity is text with its unit, like "60mm" or "170deg", or an expression of named values, like "2*r + 5mm"; 0 '
@@ -93,9 +93,7 @@ FILE = TableEntry(
             refers="joint",
         ),
         "pose": names(
-            _POSE,
-            "body -> approximate pose when assembled; for groups without a closed form",
-            refers="body",
+            _POSE, "body -> approximate pose when assembled; for groups without a closed form", refers="body"
         ),
         "redundant": ListEntry(
             "joints that stand still by constraints elsewhere, as written by --as; found in a drawing without this key",

@@ -11,7 +11,7 @@ from ilmek.dynamics.own_machine import FlatMember, FlatShape, PinMember
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.materials import find_material
 from ilmek.errors import MechanismError
-from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, VariantEntry, names, quantity
+from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, keys, names, quantity, variant
 from ilmek.io.mechanism.names import LEAST_SIZE, MATERIAL, size, two_names, unknown, xy_of
 from ilmek.io.mechanism.points import AT, POINT, complex_of
 from ilmek.io.schema import SourceText, Table
@@ -40,27 +40,15 @@ _MATTER = {
 }
 _CENTRE = replace(AT, doc="its centre")
 
-SHAPE = VariantEntry(
-    "",
-    (
-        TableEntry(
-            "",
-            {"bar": ListEntry("its two ends, with round ends about them", AT, 2, 2), "width": quantity("m")},
-            _MATTER,
-            title="bar",
-        ),
-        TableEntry("", {"disc": _CENTRE, "radius": quantity("m")}, _MATTER, title="disc"),
-        TableEntry(
-            "",
-            {"ring": _CENTRE, "outer": quantity("m", "radius"), "inner": quantity("m", "radius")},
-            _MATTER,
-            title="ring",
-        ),
-        TableEntry("", {"plate": ListEntry("corners in order", AT, 3, 100)}, _MATTER, title="plate"),
-        TableEntry(
-            "", {"point": replace(AT, doc="its position"), "mass": quantity("kg", above=0.0)}, title="point mass"
-        ),
+SHAPE = variant(
+    keys(
+        {"bar": ListEntry("its two ends, with round ends about them", AT, 2, 2), "width": quantity("m")},
+        _MATTER,
     ),
+    keys({"disc": _CENTRE, "radius": quantity("m")}, _MATTER),
+    keys({"ring": _CENTRE, "outer": quantity("m", "radius"), "inner": quantity("m", "radius")}, _MATTER),
+    keys({"plate": ListEntry("corners in order", AT, 3, 100)}, _MATTER),
+    keys({"point": replace(AT, doc="its position"), "mass": quantity("kg", above=0.0)}),
     name="shape",
 )
 
@@ -74,8 +62,7 @@ _INERTIA = {
 STATED = frozenset(_INERTIA)
 """Keys of a body's inertia."""
 
-BODY = TableEntry(
-    "",
+BODY = keys(
     {},
     {
         "points": names(POINT, "name -> position in the body's own frame", refers="point"),
@@ -90,8 +77,7 @@ BODY = TableEntry(
     name="body",
 )
 
-PIN = TableEntry(
-    "",
+PIN = keys(
     {},
     {
         "diameter": size("m"),

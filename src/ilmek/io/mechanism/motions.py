@@ -13,7 +13,7 @@ from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
 from ilmek.dynamics.own_machine import GivenMotion
 from ilmek.errors import MechanismError
-from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, VariantEntry, quantity
+from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, keys, quantity, variant
 from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, value_of
 from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import Mechanism
@@ -24,17 +24,15 @@ _SAME = 1e-9
 
 _NUMBER = quantity("1")
 
-LAW = VariantEntry(
-    "motion law",
-    (
-        TextEntry("name of the law"),
-        TableEntry(
-            "name and parameters",
-            {"name": TextEntry("")},
-            others=VariantEntry("", (_NUMBER, ListEntry("numbers", _NUMBER, 1, 100))),
-        ),
+LAW = variant(
+    TextEntry("name of the law"),
+    TableEntry(
+        "name and parameters",
+        {"name": TextEntry("")},
+        others=variant(_NUMBER, ListEntry("numbers", _NUMBER, 1, 100)),
     ),
     name="law",
+    doc="motion law",
 )
 
 
@@ -42,59 +40,40 @@ def steps_entry(doc: str, move: TableEntry, dwell: str, of: str) -> ListEntry:
     """Motions and dwells in sequence; dwell  meaning of its duration, in the unit `of`."""
     further = {"law": replace(LAW, doc="default: 3-4-5")}
     move = replace(move, optional=further)
-    rest = TableEntry("", {"dwell": quantity(of, dwell, above=0.0)}, title="dwell")
-    return ListEntry(doc, VariantEntry("", (move, rest)), 1, 100)
+    rest = keys({"dwell": quantity(of, dwell, above=0.0)})
+    return ListEntry(doc, variant(move, rest), 1, 100)
 
 
 _START = position_of_input("default: 0")
 _SPEED = speed_of_input()
 
-MOTION = VariantEntry(
-    "",
-    (
-        _SPEED,
-        TableEntry(
-            "",
-            {"speed": _SPEED},
-            {"start": replace(_START, doc="value at time 0; default: 0")},
-            title="constant speed",
-        ),
-        TableEntry(
-            "",
-            {
-                "steps": steps_entry(
-                    "motions and dwells, one after the other",
-                    TableEntry(
-                        "",
-                        {
-                            "to": position_of_input("value at the end"),
-                            "time": quantity("s", "duration", above=0.0),
-                        },
-                        title="motion",
-                    ),
-                    "duration at rest",
-                    "s",
-                )
-            },
-            {
-                "start": _START,
-                "repeat": FlagEntry("default: true where the last value is the first, or a full turn further"),
-            },
-            title="motion laws",
-        ),
-        TableEntry(
-            "",
-            {
-                "table": ListEntry(
-                    "[[time, value], ...] with a smooth curve through them",
-                    ListEntry("time and value", quantity(("s", "rad", "m")), 2, 2),
-                    3,
-                    1000,
-                )
-            },
-            {"repeat": FlagEntry("default: as of steps")},
-            title="table",
-        ),
+MOTION = variant(
+    _SPEED,
+    keys({"speed": _SPEED}, {"start": replace(_START, doc="value at time 0; default: 0")}),
+    keys(
+        {
+            "steps": steps_entry(
+                "motions and dwells, one after the other",
+                keys({"to": position_of_input("value at the end"), "time": quantity("s", "duration", above=0.0)}),
+                "duration at rest",
+                "s",
+            )
+        },
+        {
+            "start": _START,
+            "repeat": FlagEntry("default: true where the last value is the first, or a full turn further"),
+        },
+    ),
+    keys(
+        {
+            "table": ListEntry(
+                "[[time, value], ...] with a smooth curve through them",
+                ListEntry("time and value", quantity(("s", "rad", "m")), 2, 2),
+                3,
+                1000,
+            )
+        },
+        {"repeat": FlagEntry("default: as of steps")},
     ),
     name="motion",
 )

@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import Any, NamedTuple
 
 from ilmek.errors import MechanismError, did_you_mean
-from ilmek.io.declared import ChoiceEntry, ListEntry, TableEntry, TextEntry, VariantEntry, quantity
+from ilmek.io.declared import ChoiceEntry, ListEntry, TextEntry, keys, quantity, variant
 from ilmek.io.mechanism.joints import Members
 from ilmek.io.mechanism.names import LENGTH, XY, two_names
 from ilmek.io.schema import SourceText, Table
@@ -17,34 +17,28 @@ _ROUNDING = 1e-15
 
 _FROM = TextEntry("a point of the body", "point")
 
-POINT = VariantEntry(
-    "position in the body's own frame",
-    (
-        XY,
-        TableEntry(
-            "",
-            {
-                "radius": quantity("m", "distance from the origin, or from the point `from`"),
-                "angle": quantity("rad", "of the direction, against x of the body"),
-            },
-            {"from": _FROM},
-            title="polar",
-        ),
-        TableEntry(
-            "",
-            {
-                "sides": ListEntry("distances from the two points `from`", LENGTH, 2, 2),
-                "side": ChoiceEntry("of the line from the first to the second", ("left", "right")),
-            },
-            {"from": two_names("two points of the body; of a body with length: by default its two ends", "point")},
-            title="triangle",
-        ),
-        TableEntry("", {"offset": replace(XY, doc="from the point `from`"), "from": _FROM}, title="offset"),
+POINT = variant(
+    XY,
+    keys(
+        {
+            "radius": quantity("m", "distance from the origin, or from the point `from`"),
+            "angle": quantity("rad", "of the direction, against x of the body"),
+        },
+        {"from": _FROM},
     ),
+    keys(
+        {
+            "sides": ListEntry("distances from the two points `from`", LENGTH, 2, 2),
+            "side": ChoiceEntry("of the line from the first to the second", ("left", "right")),
+        },
+        {"from": two_names("two points of the body; of a body with length: by default its two ends", "point")},
+    ),
+    keys({"offset": replace(XY, doc="from the point `from`"), "from": _FROM}),
     name="point",
+    doc="position in the body's own frame",
 )
 
-AT = VariantEntry("a point of the body, or [x, y] in its frame", (_FROM, XY), name="at")
+AT = variant(_FROM, XY, doc="a point of the body, or [x, y] in its frame", name="at")
 
 LARGEST_RATIO = 200.0
 """Greatest ratio of the longest to the shortest link length that needs no confirmation."""

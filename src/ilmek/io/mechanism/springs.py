@@ -5,7 +5,7 @@ from typing import Any
 
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
-from ilmek.io.declared import TableEntry, VariantEntry, quantity
+from ilmek.io.declared import keys, quantity, variant
 from ilmek.io.mechanism.names import spot_of, two_names, two_spots
 from ilmek.io.schema import Table
 from ilmek.linkage.model import Mechanism
@@ -16,34 +16,21 @@ _BODIES = {"torsion": two_names("the two bodies", "body")}
 _DAMPING = quantity("N*s/m", "default: 0")
 _TORSIONAL_DAMPING = quantity("N*m*s/rad", "default: 0")
 
-SPRING = VariantEntry(
-    "",
-    (
-        TableEntry(
-            "",
-            {**_ENDS, "stiffness": quantity("N/m"), "length": quantity("m", "unloaded")},
-            {"damping": _DAMPING},
-            title="linear",
-        ),
-        TableEntry(
-            "",
-            {**_BODIES, "stiffness": quantity("N*m/rad")},
-            {
-                "angle": quantity("rad", "of the second against the first, unloaded; default: 0"),
-                "damping": _TORSIONAL_DAMPING,
-            },
-            title="torsional",
-        ),
+SPRING = variant(
+    keys({**_ENDS, "stiffness": quantity("N/m"), "length": quantity("m", "unloaded")}, {"damping": _DAMPING}),
+    keys(
+        {**_BODIES, "stiffness": quantity("N*m/rad")},
+        {
+            "angle": quantity("rad", "of the second against the first, unloaded; default: 0"),
+            "damping": _TORSIONAL_DAMPING,
+        },
     ),
     name="spring",
 )
 
-DAMPER = VariantEntry(
-    "",
-    (
-        TableEntry("", {**_ENDS, "damping": replace(_DAMPING, doc="")}, title="linear"),
-        TableEntry("", {**_BODIES, "damping": replace(_TORSIONAL_DAMPING, doc="")}, title="torsional"),
-    ),
+DAMPER = variant(
+    keys({**_ENDS, "damping": replace(_DAMPING, doc="")}),
+    keys({**_BODIES, "damping": replace(_TORSIONAL_DAMPING, doc="")}),
     name="damper",
 )
 

@@ -7,7 +7,7 @@ import numpy as np
 from ilmek.dynamics.friction import Friction
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
-from ilmek.io.declared import ChoiceEntry, FlagEntry, ListEntry, TableEntry, VariantEntry, WholeEntry, names, quantity
+from ilmek.io.declared import ChoiceEntry, FlagEntry, ListEntry, TableEntry, WholeEntry, keys, names, quantity, variant
 from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, unknown, value_of
 from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import Joint, Mechanism, Pin, Rotation
@@ -20,34 +20,26 @@ MOST_SPEEDS_RATIO = 1e4
 _SLIP = quantity("1", "default: 5 %", above=0.0)
 _DIRECTIONS = {"up": 1, "down": -1, "both": 0}
 
-_MOTOR = VariantEntry(
-    "",
-    (
-        TableEntry(
-            "",
-            {"torque": quantity("N*m", "limit of the motor, at a turning input")},
-            {
-                "speed": quantity("rad/s", "without load; default: constant torque"),
-                "slip": _SLIP,
-                "inertia": quantity("kg*m^2", "of rotor and flywheel at the input; default: 0", least=0.0),
-            },
-            title="turning",
-        ),
-        TableEntry(
-            "",
-            {"force": quantity("N", "limit of the drive, at a sliding input")},
-            {
-                "speed": quantity("m/s", "without load; default: constant force"),
-                "slip": _SLIP,
-                "inertia": quantity("kg", "at the input; default: 0", least=0.0),
-            },
-            title="sliding",
-        ),
+_MOTOR = variant(
+    keys(
+        {"torque": quantity("N*m", "limit of the motor, at a turning input")},
+        {
+            "speed": quantity("rad/s", "without load; default: constant torque"),
+            "slip": _SLIP,
+            "inertia": quantity("kg*m^2", "of rotor and flywheel at the input; default: 0", least=0.0),
+        },
+    ),
+    keys(
+        {"force": quantity("N", "limit of the drive, at a sliding input")},
+        {
+            "speed": quantity("m/s", "without load; default: constant force"),
+            "slip": _SLIP,
+            "inertia": quantity("kg", "at the input; default: 0", least=0.0),
+        },
     ),
 )
 
-_EVENT = TableEntry(
-    "",
+_EVENT = keys(
     {},
     {
         "position": position_of_input(),
@@ -71,22 +63,14 @@ FORWARD = TableEntry(
     name="forward",
 )
 
-STUDY = VariantEntry(
-    "speeds of the driving input to compare",
-    (
-        TableEntry(
-            "",
-            {"speeds": ListEntry("speeds of the driving input", speed_of_input(), 1, 50)},
-            title="list",
-        ),
-        TableEntry(
-            "",
-            {"from": speed_of_input(), "to": speed_of_input()},
-            {"count": WholeEntry("number of speeds; default: 5", 2, 50)},
-            title="range",
-        ),
+STUDY = variant(
+    keys({"speeds": ListEntry("speeds of the driving input", speed_of_input(), 1, 50)}),
+    keys(
+        {"from": speed_of_input(), "to": speed_of_input()},
+        {"count": WholeEntry("number of speeds; default: 5", 2, 50)},
     ),
     name="study",
+    doc="speeds of the driving input to compare",
 )
 
 
