@@ -56,7 +56,7 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
 
 def _show_schema(ctx: click.Context, _: click.Parameter, value: bool) -> None:
     if value:
-        click.echo(json.dumps(schema(), indent=1, ensure_ascii=False))
+        click.echo(json.dumps(schema(), ensure_ascii=False))
         ctx.exit()
 
 

@@ -135,7 +135,7 @@ def schema() -> JsonObject:
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "https://ilmek.invalid/mechanism.schema.json",
-        "title": "A planar machine for ilmek",
+        "title": "Mechanism file",
         **FILE.schema(definitions),
         "$defs": definitions,
     }
