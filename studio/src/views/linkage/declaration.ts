@@ -40,6 +40,7 @@ function resolved(entry: Declared, value: unknown): Declared {
 }
 
 function inside(entry: Declared, key: string): Declared {
+  if (entry.refers === "spot") return { ...entry.items, refers: key === "0" ? "body" : "point" };
   return entry.items ?? entry.properties?.[key] ?? (entry.additionalProperties || {});
 }
 

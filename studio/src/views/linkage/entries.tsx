@@ -148,6 +148,7 @@ function Lacking({ data, path, table, onAdd }: LackingProps) {
       value=""
       onChange={(event) => {
         const found = lacking.find(([key]) => key === event.currentTarget.value);
+        event.currentTarget.value = "";
         if (found) onAdd([...keys, found[0]], found[1]);
       }}
     >

@@ -203,6 +203,7 @@ describe("the declaration of the file", () => {
     );
     expect(hintOf(entryAt(data, ["bodies", "jib", "points", "T", "0"]))).toBe('like "60mm" [m]');
     expect(choicesOf(entryAt(data, ["joints", "S", "slide", "0"]), data)).toEqual(["ground", "jib"]);
+    expect(choicesOf(entryAt(data, ["loads", "pull", "on", "0"]), data)).toEqual(["ground", "jib"]);
     expect(choicesOf(entryAt(data, ["loads", "pull", "frame"]), data)).toEqual(["ground", "body"]);
     expect(choicesOf(entryAt(data, ["bodies", "jib", "mass"]), data)).toBeUndefined();
     const lacking = lackingKeys(entryAt(data, ["joints", "S"]), data.joints?.["S"] ?? {});
