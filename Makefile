@@ -60,6 +60,7 @@ studio/node_modules/.installed: studio/package.json studio/package-lock.json
 # Users need no Node: the built client is in the package. Who changes studio/src builds it again.
 client: venv studio/node_modules/.installed
 	PYTHONPATH=src $(BIN)/python -m ilmek.web.schema studio/src/api
+	PYTHONPATH=src $(BIN)/python -m ilmek mechanism --schema > studio/src/api/mechanism.json
 	PYTHONPATH=src $(BIN)/python -m ilmek.web.api_page docs/reference/studio-api.md
 	cd studio && npm run --silent types && npm run --silent build
 

@@ -33,12 +33,14 @@ try {
   execFileSync("node", ["scripts/page.mjs", join(work, "client")], { cwd: studio, stdio: "inherit" });
   execFileSync("node", ["scripts/stamp.mjs", join(work, "client")], { cwd: studio, stdio: "inherit" });
   const changed = differing(shipped, join(work, "client"));
-  const types = readFileSync(join(studio, "src/api/messages.ts"));
-  run(
-    ...["json2ts", "-i", "src/api/messages.json", "-o", join(work, "messages.ts")],
-    ...["--unknownAny", "--no-additionalProperties", "--unreachableDefinitions"],
-  );
-  if (!types.equals(readFileSync(join(work, "messages.ts")))) changed.push("studio/src/api/messages.ts");
+  for (const of of ["messages", "mechanism"]) {
+    run(
+      ...["json2ts", "-i", `src/api/${of}.json`, "-o", join(work, `${of}.ts`)],
+      ...["--unknownAny", "--no-additionalProperties", "--unreachableDefinitions"],
+    );
+    const types = readFileSync(join(studio, `src/api/${of}.ts`));
+    if (!types.equals(readFileSync(join(work, `${of}.ts`)))) changed.push(`studio/src/api/${of}.ts`);
+  }
   if (changed.length > 0) {
     console.error(`not the build of the sources: ${changed.join(", ")}; run make client`);
     process.exitCode = 1;

@@ -11,6 +11,7 @@ import pytest
 from processes import printed, python
 from sources import tree_of
 
+from ilmek.io.mechanism_file import schema
 from ilmek.jobs.studio.answers import Binary
 from ilmek.web.api_page import with_table
 from ilmek.web.endpoints import ENDPOINTS, Endpoint
@@ -81,6 +82,11 @@ def test_the_server_imports_no_engineering() -> None:
 def test_the_clients_types_are_those_of_the_server() -> None:
     committed = json.loads((ROOT / "studio" / "src" / "api" / "messages.json").read_text(encoding="utf-8"))
     assert committed == messages(), "run: python -m ilmek.web.schema studio/src/api && npm --prefix studio run types"
+
+
+def test_the_client_knows_mechanism_files_by_their_declaration() -> None:
+    committed = json.loads((ROOT / "studio" / "src" / "api" / "mechanism.json").read_text(encoding="utf-8"))
+    assert committed == schema(), "run: make client"
 
 
 def test_each_record_of_the_messages_is_a_type_of_the_client() -> None:

@@ -153,3 +153,16 @@ def test_a_mechanism_that_cannot_close_is_drawn_with_the_reason(page: Page, runn
     page.get_by_role("button", name="Save as…").click()
     expect(page.get_by_role("dialog")).to_be_visible()
     assert violations(page) == []
+
+
+def test_an_optional_key_is_added_and_a_body_is_chosen(page: Page, running: Studio) -> None:
+    path = "linkages/slider-crank-press.toml"
+    open_view(page, running, "linkage/slider-crank-press")
+    page.get_by_role("tab", name="Parts").click()
+    springs = page.locator(".linkage-numbers").filter(has_text="Springs")
+    assert springs.get_by_label("balance between 1 body").locator("option").all_inner_texts() == list(
+        data_of(running.project, path)["bodies"]
+    )
+    springs.get_by_label("Add …").select_option("damping")
+    expect(springs.get_by_label("balance damping")).to_have_value("1N*s/m")
+    until(lambda: data_of(running.project, path)["springs"]["balance"].get("damping") == "1N*s/m")

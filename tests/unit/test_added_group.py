@@ -15,8 +15,7 @@ import pytest
 from ilmek.arrays import ComplexArray, FloatArray, RealField
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.writing import machine_data
-from ilmek.io.mechanism_file import mechanism_of_data
+from ilmek.io.mechanism_file import data_of_mechanism, mechanism_of_data
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.linkage.tasks import MechanismRequest, mechanism
 from ilmek.linkage import structure
@@ -243,7 +242,7 @@ def test_it_is_compiled_judged_and_swept() -> None:
 
 
 def test_the_studio_shows_its_symbol_and_its_sign() -> None:
-    data = machine_data(OwnMachine(LIFT), si=True)
+    data = data_of_mechanism(OwnMachine(LIFT), si=True)
     answer = mechanism(MechanismRequest(data, over="0.5m..0.9m", steps=8), Context())
     assert [(group.kind, group.symbol, group.branch, group.free) for group in answer.structure.groups] == [
         ("dyad", "RPRR", -1, "C")

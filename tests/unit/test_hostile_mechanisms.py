@@ -12,7 +12,8 @@ from mechanisms import two_motors
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError
 from ilmek.io.json_file import json_text
-from ilmek.io.mechanism_file import MOST_ENTRIES, mechanism_toml, parse_mechanism
+from ilmek.io.mechanism.names import MOST_ENTRIES
+from ilmek.io.mechanism_file import mechanism_toml, parse_mechanism
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import MOST_BODIES, run

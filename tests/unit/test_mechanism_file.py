@@ -95,7 +95,11 @@ MISTAKES = {
         "weight =",
         "line 7, bodies.crank.weight: unknown key 'weight'; keys: points, length, between",
     ),
-    "unknown table": ("[branches]", "[brnches]", "line 23, brnches: unknown key 'brnches'; keys: $schema"),
+    "unknown table": (
+        "[branches]",
+        "[brnches]",
+        "line 23, brnches: unknown key 'brnches'; keys: bodies, joints, inputs, $schema",
+    ),
     "missing table": ("[inputs]", "[inputs2]", "line 1: has no 'inputs'"),
     "unknown body": ('["ground", "rocker"]', '["ground", "rockr"]', "line 18, joints.B0: four-bar has no body 'rockr'"),
     "unknown point": (
@@ -218,6 +222,7 @@ def test_the_schema_holds_only_words_that_its_reader_knows():
     words = {
         *("$schema", "$id", "$defs", "$ref", "title", "description", "type", "required", "additionalProperties"),
         *("properties", "items", "minItems", "maxItems", "minimum", "maximum", "enum", "oneOf", "unit", "units"),
+        *("exclusiveMinimum", "maxProperties", "propertyNames", "refers"),
     }
     places = dict(look(schema()))
     for at, part in places.items():

@@ -195,7 +195,7 @@ MISTAKES = {
         "loads.table: a table over a turning input is 6.98132 rad long",
     ),
     "table of lengths": ('"100N"]', '"100mm"]', "loads.table: the second of a row is a quantity in m"),
-    "negative friction": ('"5N"', '"-5N"', "loads.f: friction is -5 N; 0 or more"),
+    "negative friction": ('"5N"', '"-5N"', "loads.f.friction: is -5 N; 0 or more"),
     "negative stiffness": ('"2N/mm"', '"-2N/mm"', "springs.s: stiffness of a spring is -2000"),
     "spring on one body": ('["ground", "rod"], stiff', '["rod", "rod"], stiff', "springs.ts: both ends are on 'rod'"),
     "name twice": ("dd = {", "s = {", "dampers.s: the name 's' is used twice"),
@@ -222,9 +222,9 @@ MISTAKES = {
     "no width": (
         'links = { width = "30mm"',
         'links = { width = "-30mm"',
-        "line 6, links: width of a section is -0.03 in SI; 1e-09 to",
+        "line 6, links.width: is -0.03 m; 1e-09 to 1e+15; check its unit",
     ),
-    "no diameter": ('diameter = "16mm"', "diameter = 0", "pins.A: diameter of a pin is 0 in SI; 1e-09 to 1e+15"),
+    "no diameter": ('diameter = "16mm"', "diameter = 0", "pins.A.diameter: is 0 m; 1e-09 to 1e+15; check its unit"),
     "mass and shapes": (
         'length = "r", shapes',
         'length = "r", mass = "1kg", shapes',
@@ -243,7 +243,7 @@ MISTAKES = {
         '{ position = "720deg", time = "1s" }',
         "event 'end' has position and time",
     ),
-    "no duration": ('duration = "2s"', 'duration = "0s"', "forward: duration is 0 s; above 0"),
+    "no duration": ('duration = "2s"', 'duration = "0s"', "forward.duration: is 0 s; above 0"),
     "run from rest": ('speed = "1rpm"\n', "", "forward: the run starts at rest, where friction 'f' has no direction"),
     "motor of a slide": (
         '{ torque = "60N*m", speed = "130rpm", inertia = "0.2kg*m^2" }',
@@ -265,7 +265,7 @@ MISTAKES = {
         "line 5, transmission.0: 'guide' is a slide",
     ),
     "other units": ('servo = "O"', 'units = "mm"', "line 3, units: is 'mm'; allowed: SI"),
-    "length of a crank": ('length = "r"', 'length = "-r"', "bodies.crank.length: is -0.04 m; a length above 0"),
+    "length of a crank": ('length = "r"', 'length = "-r"', "bodies.crank.length: is -0.04 m; above 0"),
     "no slide's branch": ("B = 1\n", "", "has no branch for the free pin 'B' of rod and ram"),
 }
 
@@ -465,7 +465,7 @@ def test_an_input_follows_its_motion(text: str) -> None:
 NO_MOTIONS = {
     '{ steps = [{ to = "1deg", time = "1s", law = "uniform" }] }': "the velocity of law uniform of step 1 jumps",
     '{ steps = [{ to = "1deg", time = "1s", law = "cycloid" }] }': "there is no law 'cycloid'",
-    '{ steps = [{ to = "1deg", time = "0s" }] }': "step 1 lasts 0 s; above 0",
+    '{ steps = [{ to = "1deg", time = "0s" }] }': "motions.O.steps.0.time: is 0 s; above 0",
     '{ steps = [{ dwell = "1s" }] }': "all steps are at one value: the input does not move",
     '{ steps = [{ to = "1mm", time = "1s" }] }': "to is a quantity in m; a quantity in rad is required here",
     '{ steps = [{ to = "1deg", time = "1s" }], repeat = true }': "a motion that repeats ends elsewhere",

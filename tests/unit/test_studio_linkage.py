@@ -15,6 +15,7 @@ from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism
 from ilmek.jobs.studio.answers import Context
 from ilmek.jobs.studio.linkage.answer import MechanismAnswer
+from ilmek.jobs.studio.linkage.part import joined_part
 from ilmek.jobs.studio.linkage.quality import quality
 from ilmek.jobs.studio.linkage.tasks import DraggedJoint, MechanismRequest, changed, mechanism
 
@@ -310,3 +311,17 @@ def test_a_joint_dragged_in_another_position_keeps_its_branch() -> None:
     after = mechanism_of_data(changed(DRAWN, list(answer.changes)))
     assert after.mechanism.branches == {"B": 1}
     assert {one.path: one.value for one in answer.changes}[("branches", "B")] == 1
+
+
+def test_a_cylinder_of_a_loose_body_is_left_out_with_it() -> None:
+    data = {
+        "bodies": {"ground": {"points": {"A": [0, 0]}}, "arm": {"points": {"A": [0, 0]}}, "lid": {}},
+        "joints": {"A": {"pin": ["ground", "arm"]}},
+        "inputs": {},
+        "cylinders": {"lift": {"between": [["ground", "A"], ["lid", "P"]]}},
+        "branches": {"lid": 1},  # a joint may have the name of a body
+    }
+    part, loose = joined_part(data)
+    assert loose == ("lid",)
+    assert "cylinders" not in part
+    assert part["branches"] == {"lid": 1}

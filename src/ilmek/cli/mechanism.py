@@ -1,5 +1,6 @@
 """`ilmek mechanism`: analyse a mechanism from a file, tabulate and draw its motion."""
 
+import json
 from collections.abc import Mapping
 from math import isfinite
 from pathlib import Path
@@ -23,7 +24,7 @@ from ilmek.cli.settings import read_settings
 from ilmek.cli.terminal import note, say, show_checks, show_table
 from ilmek.cli.verdict import exit_code, note_verdict, show_verdict
 from ilmek.errors import MechanismError, printable
-from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism
+from ilmek.io.mechanism_file import mechanism_json, mechanism_toml, read_mechanism, schema
 from ilmek.io.table_csv import MOST_NUMBERS, csv_text
 from ilmek.jobs.design import DesignResult
 from ilmek.jobs.mechanism.analysis import Analysis, analysis
@@ -51,6 +52,12 @@ Examples:
 
 Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table.
 """
+
+
+def _show_schema(ctx: click.Context, _: click.Parameter, value: bool) -> None:
+    if value:
+        click.echo(json.dumps(schema(), ensure_ascii=False))
+        ctx.exit()
 
 
 @click.command(epilog=EXAMPLES)
@@ -90,6 +97,14 @@ Limits: file 250 kB; 100 bodies, joints, couplings; 2,000,000 numbers in a table
 @issue_option
 @click.option("--tolerance", metavar="ERROR", help="Tolerance of cam tables: 1um, 0.01deg, or 0.01% of the stroke.")
 @click.option("--as", "kind", type=click.Choice(("toml", "json")), help="Convert the file to this format and exit.")
+@click.option(
+    "--schema",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_schema,
+    help="Print the JSON Schema of these files.",
+)
 @force_option
 @json_option
 def command(

@@ -1,4 +1,4 @@
-"""Mechanism files, TOML or JSON: a whole machine with the same keys (`ilmek.data/mechanism.schema.json`).
+"""Mechanism files, TOML or JSON: a whole machine with the same keys (`ilmek.io.mechanism.machine.FILE`).
 
     name = "slider-crank"
     gravity = "9.81m/s^2"
@@ -31,34 +31,23 @@ every name, every order.
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
-from importlib import resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
 from ilmek.dynamics.inertia import Inertia
-from ilmek.dynamics.own_machine import FlatMember, OwnMachine
+from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.data_text import DataText, parse_data, plain_data, read_data
-from ilmek.io.mechanism.joints import members_of
-from ilmek.io.mechanism.loads import frictions_of, gravity_of, loads_of
-from ilmek.io.mechanism.masses import STATED, check_link, flat_member, inertia_of, pin_members, sections_of, shapes_of
-from ilmek.io.mechanism.mechanism import mechanism_of
-from ilmek.io.mechanism.motions import motions_of
-from ilmek.io.mechanism.names import parts_of
-from ilmek.io.mechanism.tasks import actuators_of, forward_of, paths_of, servo_of, study_of, transmission_of
+from ilmek.io.declared import EntryReader
+from ilmek.io.mechanism.machine import FILE, machine_data, machine_of
 from ilmek.io.mechanism.values import named_values
-from ilmek.io.mechanism.writing import machine_data
 from ilmek.io.output import write_file
-from ilmek.io.schema import Reader, Schema, SourceText, Table
+from ilmek.io.schema import SourceText
 from ilmek.io.toml_text import toml_text
-from ilmek.linkage.model import GROUND, Mechanism
+from ilmek.linkage.model import Mechanism
 from ilmek.linkage.structure import Plan, plan
-from ilmek.records import brief
-
-MOST_ENTRIES = 100
-"""Largest number of bodies, of joints, of couplings, and of loads, springs or dampers of a file."""
+from ilmek.records import JsonObject, brief
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,69 +125,20 @@ def _read(text: DataText, name: str) -> MechanismFile:
         data = {key: value for key, value in data.items() if key != "values"}
     else:
         values = named_values({}, source, si=False)
-    checked = Reader(schema(), source, values.quantity).read(data)
-    for key in ("bodies", "joints", "couplings", "cylinders", "loads", "springs", "dampers"):
-        if len(checked.get(key, ())) > MOST_ENTRIES:
-            given = f"has {len(checked[key])} {key}"
-            source.refuse((key,), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
-    return MechanismFile(_machine(checked, source), source, text.text)
+    checked = FILE.read(data, EntryReader(source, values.quantity))
+    return MechanismFile(machine_of(checked, source), source, text.text)
 
 
-@lru_cache(maxsize=1)
-def schema() -> Schema:
-    """The JSON schema of both kinds of file."""
-    text = resources.files("ilmek.data").joinpath("mechanism.schema.json").read_text(encoding="utf-8")
-    found: Schema = json.loads(text)
-    return found
-
-
-def _machine(data: Table, source: SourceText) -> OwnMachine:
-    """The records from data that satisfy the schema."""
-    mechanism = mechanism_of(data, source)
-    if len(mechanism.joints) > MOST_ENTRIES:
-        given = f"{mechanism.name} has {len(mechanism.joints)} joints of two bodies"
-        source.refuse(("joints",), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
-    parts = parts_of(data["joints"], mechanism)
-    members, inertias = _masses(data, mechanism, source)
-    pins = pin_members(data.get("pins", {}), parts, source)
-    loads = loads_of(data, mechanism, source)
-    actuators = actuators_of(data.get("actuators", {}), parts, mechanism, source)
-    return OwnMachine(
-        mechanism,
-        inertias,
-        gravity_of(data.get("gravity")),
-        loads,
-        frictions_of(data.get("friction", {}), parts, pins, source),
-        members,
-        pins,
-        motions_of(data.get("motions", {}), mechanism, source),
-        forward_of(data.get("forward"), mechanism, loads, source),
-        study_of(data.get("study"), mechanism, source),
-        servo_of(data.get("servo"), mechanism, actuators, source),
-        paths_of(data.get("paths", ()), mechanism, source),
-        transmission_of(data.get("transmission", ()), parts, source),
-        {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
-        frozenset(name for name, table in data["bodies"].items() if name != GROUND and not table.keys() & STATED),
-        actuators,
-    )
-
-
-def _masses(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[dict[str, FlatMember], dict[str, Inertia]]:
-    """Sections and inertias of the bodies."""
-    bodies = members_of(data["joints"])
-    joints = {name: [joint for joint, own in bodies.items() if name in own] for name in data["bodies"]}
-    sections = sections_of(data["bodies"], data.get("links"), mechanism, joints)
-    members, inertias = {}, {}
-    for name, table in data["bodies"].items():
-        with source.located(*(("links",) if "section" not in table and name in sections else ("bodies", name))):
-            if name in sections:
-                members[name] = flat_member(sections[name])
-                check_link(mechanism.body(name), joints[name])
-        with source.located("bodies", name):
-            inertia = inertia_of(table, mechanism.body(name), members.get(name))
-            if inertia is not None:
-                inertias[name] = inertia
-    return members, inertias
+def schema() -> JsonObject:
+    """The JSON Schema of both kinds of file."""
+    definitions: JsonObject = {}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "$id": "https://ilmek.invalid/mechanism.schema.json",
+        "title": "Mechanism file",
+        **FILE.schema(definitions),
+        "$defs": definitions,
+    }
 
 
 def write_mechanism(path: Path, machine: OwnMachine) -> None:
@@ -215,11 +155,17 @@ def writer_for(path: Path) -> Callable[[OwnMachine], str]:
     return writer
 
 
+def data_of_mechanism(machine: OwnMachine, *, si: bool) -> JsonObject:
+    """The plain data of a file; with `si` plain numbers in SI, else texts with units. Raises as `mechanism_toml`."""
+    data = FILE.write(machine_data(machine), si=si)
+    return {"units": "SI", **data} if si else data
+
+
 def mechanism_toml(machine: OwnMachine) -> str:
     """The machine as TOML text, quantities with their units. Raises MechanismError for a load without a file form."""
-    return toml_text(machine_data(machine, si=False))
+    return toml_text(data_of_mechanism(machine, si=False))
 
 
 def mechanism_json(machine: OwnMachine) -> str:
     """The machine as JSON text, numbers in SI. Raises MechanismError for a load without a file form."""
-    return json.dumps(machine_data(machine, si=True), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(data_of_mechanism(machine, si=True), indent=2, ensure_ascii=False, allow_nan=False) + "\n"

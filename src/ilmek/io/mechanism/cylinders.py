@@ -8,18 +8,19 @@ import cmath
 from collections.abc import Mapping
 
 from ilmek.errors import MechanismError
+from ilmek.io.declared import keys
+from ilmek.io.mechanism.names import two_spots
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import Body, Joint, Pin, Slide
+
+CYLINDER = keys({"between": two_spots("its ends, of barrel and rod: each a body and its point")}, name="cylinder")
 
 Pose = tuple[complex, float]
 """Origin [m] and angle [rad]."""
 
 
 def add_cylinders(
-    tables: Table,
-    points: dict[str, dict[str, complex]],
-    pose: dict[str, Pose],
-    source: SourceText,
+    tables: Table, points: dict[str, dict[str, complex]], pose: dict[str, Pose], source: SourceText
 ) -> tuple[tuple[Body, ...], tuple[Joint, ...]]:
     """The bodies and joints of all cylinders; their ends are added to the points, and their poses where they have none.
 

@@ -8,10 +8,29 @@ dyad keeps its closed form. The first of these pins has the joint's name, the ot
 """
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import combinations
 
+from ilmek.io.declared import ListEntry, TextEntry, keys, variant
+from ilmek.io.mechanism.names import ANGLE, two_names
 from ilmek.io.schema import Table
 from ilmek.linkage.model import GROUND, KINDS, Body, Joint, Pin, Slide
+
+_BODIES = "the bodies that the pin joins: two or more; of two: branch +1 is on the left of first to second"
+_ALONG = replace(ANGLE, doc="direction of the line in the guide's frame; default: 0")
+
+JOINT = variant(
+    keys({"pin": ListEntry(_BODIES, TextEntry("", "body"), 2, 10)}),
+    keys(
+        {"slide": two_names("the sliding body and its guide", "body")},
+        {"along": _ALONG, "turned": replace(ANGLE, doc="the sliding body against the guide; default: 0")},
+    ),
+    keys(
+        {"slot": two_names("the body with the pin and the body with the slot", "body")},
+        {"along": replace(ANGLE, doc="direction of the slot's line in the frame of its body; default: 0")},
+    ),
+    name="joint",
+)
 
 Members = Mapping[str, tuple[str, ...]]
 """Joint -> its bodies, two or more."""
@@ -63,6 +82,13 @@ def _joints(name: str, table: Table, rank: Mapping[str, int]) -> Iterator[Joint]
     for number, other in enumerate(others):
         pair = sorted((first, other), key=bodies.index)
         yield Pin(name if number == 0 else f"{name}.{other}", *pair)
+
+
+def joint_data(joint: Joint) -> Table:
+    """The table of a joint of two bodies."""
+    if isinstance(joint, Pin):
+        return {"pin": list(joint.bodies)}
+    return {"slide": list(joint.bodies), "along": float(joint.along), "turned": float(joint.turned)}
 
 
 def _ranks(members: Members, inputs: Mapping[str, str], couplings: Table) -> dict[str, int]:

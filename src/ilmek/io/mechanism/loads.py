@@ -1,28 +1,87 @@
-"""Loads of a mechanism file: forces, torques, friction and drag of points, springs, dampers; friction of joints."""
+"""Loads of a mechanism file: forces, torques, friction and drag of points; gravity."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeGuard
 
 from ilmek.dynamics.friction import AngleRange, Friction, ValueRange, WindowedLoad
 from ilmek.dynamics.input_loads import Drag, FollowerForce, TabulatedLoad
-from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, PointForce, Torque
-from ilmek.dynamics.own_machine import NamedLoad, PinMember
-from ilmek.dynamics.springs import Spring, TorsionSpring
+from ilmek.dynamics.own_machine import NamedLoad
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.masses import Tables
-from ilmek.io.mechanism.names import input_of, unknown, value_of
+from ilmek.io.declared import ChoiceEntry, ListEntry, TableEntry, TextEntry, keys, quantity, variant
+from ilmek.io.mechanism.motions import table_rows
+from ilmek.io.mechanism.names import ANGLE, input_of, position_of_input, spot, spot_of, unit_of, value_of, xy_of
 from ilmek.io.mechanism.points import complex_of, polar
-from ilmek.io.schema import SourceText, Table
-from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
+from ilmek.io.mechanism.springs import spring_of
+from ilmek.io.schema import Measured, SourceText, Table
+from ilmek.linkage.model import Input, Mechanism, Rotation
+from ilmek.records import JsonObject
 
 TIME = "time"
 """What a table is over in place of an input."""
 
+GRAVITY = variant(
+    quantity("m/s^2", "downward, in -y"),
+    ListEntry("x and y components", quantity("m/s^2"), 2, 2),
+    keys({"value": quantity("m/s^2"), "direction": ANGLE}),
+    doc="default: none, the plane of motion is horizontal",
+)
+
+_WINDOW = TableEntry(
+    "the load acts from one value of the input up to another",
+    {"from": position_of_input(), "to": position_of_input()},
+    {"input": TextEntry("the driven joint or body; default: the only input", "input")},
+    name="window",
+)
+_FORCE = variant(quantity("N", "magnitude, with `direction`"), ListEntry("x and y components", quantity("N"), 2, 2))
+_OVER = TextEntry(
+    "input of the table, or `time`; default: time where its first column has seconds, else the only input", "input"
+)
+
+
+def _rows(unit: str, doc: str) -> ListEntry:
+    """A table of a load over an input or time."""
+    row = ListEntry("a value of the input, or a time, and the load", quantity(("rad", "m", "s", unit)), 2, 2)
+    return ListEntry(doc, row, 2, 1000)
+
+
+LOAD = variant(
+    keys(
+        {"force": _FORCE, "on": spot("body and point")},
+        {
+            "direction": ANGLE,
+            "frame": ChoiceEntry("frame of the direction; default: ground", ("ground", "body")),
+            "table": _rows(
+                "N",
+                "[[input or time, magnitude], ...] with straight lines between; replaces the magnitude of `force`",
+            ),
+            "over": _OVER,
+            "while": _WINDOW,
+        },
+    ),
+    keys(
+        {"torque": quantity("N*m", "counter-clockwise"), "on": TextEntry("body", "body")},
+        {
+            "table": _rows("N*m", "[[input or time, torque], ...] with straight lines between; replaces `torque`"),
+            "over": _OVER,
+            "while": _WINDOW,
+        },
+    ),
+    keys(
+        {"friction": quantity("N", "magnitude, against the velocity of the point", least=0.0), "on": spot()},
+        {"over": replace(_OVER, doc="input; default: the only input"), "while": _WINDOW},
+    ),
+    keys(
+        {"drag": quantity("N*s/m", "viscous: force per speed of the point, against it"), "on": spot()},
+        {"while": _WINDOW},
+    ),
+    name="load",
+)
+
 
 def loads_of(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[NamedLoad, ...]:
     """The loads, springs and dampers of a file whose data satisfy the schema. Raises MechanismError with the line."""
-    kinds = {"loads": _load, "springs": _spring, "dampers": _spring}
+    kinds = {"loads": _load, "springs": spring_of, "dampers": spring_of}
     loads: dict[str, Load] = {}
     for key, made in kinds.items():
         for name, table in data.get(key, {}).items():
@@ -60,11 +119,9 @@ def _varying(table: Table, mechanism: Mechanism) -> Load:
         mechanism.body(table["on"])
         torque = 1.0 if "table" in table else table["torque"]
         return _tabulated(table, "N*m", Torque(table["on"], torque), mechanism)
-    body, point = _spot(table["on"], mechanism)
+    body, point = spot_of(table["on"], mechanism)
     if "drag" in table:
         return Drag(body, point, table["drag"])
-    if not table["friction"] >= 0:
-        raise MechanismError(f"friction is {table['friction']:g} N", allowed="0 or more")
     if "while" in table:
         entry, window = _window(table["while"], mechanism)
         return Friction(body, point, table["friction"], entry.name, window)
@@ -72,7 +129,7 @@ def _varying(table: Table, mechanism: Mechanism) -> Load:
 
 
 def _force(table: Table, mechanism: Mechanism) -> PointForce | FollowerForce:
-    body, point = _spot(table["on"], mechanism)
+    body, point = spot_of(table["on"], mechanism)
     given, tabulated = table["force"], "table" in table
     if isinstance(given, list):
         if "direction" in table:
@@ -97,7 +154,7 @@ def _tabulated(table: Table, unit: str, load: Load, mechanism: Mechanism) -> Loa
     timed = table.get("over", TIME if any(row[0].unit == "s" for row in table["table"]) else None) == TIME
     entry = None if timed else input_of(table.get("over"), mechanism)
     turning = isinstance(entry, Rotation)
-    at_unit = "s" if timed else "rad" if turning else "m"
+    at_unit = "s" if entry is None else unit_of(entry)
     at = tuple(value_of(row[0], at_unit, "the first of a row") for row in table["table"])
     factors = tuple(value_of(row[1], unit, "the second of a row") for row in table["table"])
     return TabulatedLoad(load, None if entry is None else entry.name, at, factors, turning)
@@ -106,71 +163,55 @@ def _tabulated(table: Table, unit: str, load: Load, mechanism: Mechanism) -> Loa
 def _window(table: Table, mechanism: Mechanism) -> tuple[Input, AngleRange | ValueRange]:
     entry = input_of(table.get("input"), mechanism)
     turning = isinstance(entry, Rotation)
-    start, end = (value_of(table[key], "rad" if turning else "m", key) for key in ("from", "to"))
+    start, end = (value_of(table[key], unit_of(entry), key) for key in ("from", "to"))
     if not turning and not start < end:
         raise MechanismError(f"the range from {start:g} m to {end:g} m is empty", do="give a greater value in `to`")
     return entry, AngleRange(start, end) if turning else ValueRange(start, end)
 
 
-def _spot(spot: Sequence[str], mechanism: Mechanism) -> tuple[str, str]:
-    """A body and its point. Raises MechanismError if the mechanism does not have them."""
-    body, point = spot
-    mechanism.point(body, point)
-    return body, point
+def load_data(name: str, load: Load, mechanism: Mechanism) -> JsonObject:
+    """The table of a load that is no spring. Raises MechanismError for one that no file can express."""
+    if isinstance(load, WindowedLoad) and _is_default(load.side):
+        return {**load_data(name, load.load, mechanism), "while": _window_data(load.window, load.input_name, mechanism)}
+    if isinstance(load, TabulatedLoad) and load.turns == (_unit(load.input_name, mechanism) == "rad"):
+        data = load_data(name, load.load, mechanism)
+        unit, at_unit = "N" if "force" in data else "N*m", _unit(load.input_name, mechanism)
+        return {**data, "over": load.input_name or TIME, "table": table_rows(load.at, at_unit, load.factors, unit)}
+    if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_complex(load.force):
+        frame = "body" if isinstance(load, FollowerForce) else "ground"
+        return {"force": xy_of(complex(load.force)), "on": [load.body, load.point], "frame": frame}
+    if isinstance(load, Torque) and _is_real(load.torque):
+        return {"torque": load.torque, "on": load.body}
+    if isinstance(load, Drag):
+        return {"drag": load.coefficient, "on": [load.body, load.point]}
+    if (
+        isinstance(load, Friction)
+        and isinstance(load.point, str)
+        and _is_real(load.magnitude)
+        and _is_default(load.side)
+    ):
+        window = {} if load.window is None else {"while": _window_data(load.window, load.input_name, mechanism)}
+        return {"friction": load.magnitude, "on": [load.body, load.point], "over": load.input_name, **window}
+    raise MechanismError(f"load {name!r} is a function that no file expresses", do="write the others to the file")
 
 
-def _spring(table: Table, mechanism: Mechanism) -> Load:
-    stiffness, damping = table.get("stiffness", 0.0), table.get("damping", 0.0)
-    if "torsion" in table:
-        first, second = table["torsion"]
-        for body in (first, second):
-            mechanism.body(body)
-        _check_apart(first, second)
-        return TorsionSpring(first, second, stiffness, table.get("angle", 0.0), damping)
-    (first, first_point), (second, second_point) = (_spot(one, mechanism) for one in table["between"])
-    _check_apart(first, second)
-    return Spring(first, first_point, second, second_point, stiffness, table.get("length", 0.0), damping)
+def _window_data(window: AngleRange | ValueRange, name: str, mechanism: Mechanism) -> JsonObject:
+    unit = _unit(name, mechanism)
+    return {"input": name, "from": Measured(window.start, unit), "to": Measured(window.end, unit)}
 
 
-def _check_apart(first: str, second: str) -> None:
-    if first == second:
-        raise MechanismError(f"both ends are on {first!r}", allowed="two bodies")
+def _unit(name: str | None, mechanism: Mechanism) -> str:
+    """The unit of what a load is over: an input, or time."""
+    return "s" if name is None else unit_of(input_of(name, mechanism))
 
 
-def frictions_of(
-    tables: Tables, parts: Mapping[str, Sequence[Joint]], pins: Mapping[str, PinMember], source: SourceText
-) -> tuple[JointFriction, ...]:
-    """Friction of the joints of a file.
-
-    parts  joint of the file -> the joints into which it was divided      pins  joint -> its pin
-    """
-    return tuple(
-        friction for name, table in tables.items() for friction in _frictions(name, table, parts, pins, source)
-    )
+def _is_real(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float)
 
 
-def _frictions(
-    name: str, table: Table, parts: Mapping[str, Sequence[Joint]], pins: Mapping[str, PinMember], source: SourceText
-) -> Iterator[JointFriction]:
-    with source.located("friction", name):
-        if name not in parts:
-            raise unknown("joint", name, parts)
-        slots = [joint for joint in parts[name] if isinstance(joint, Slide)]
-        for joint in slots or parts[name]:
-            slides = isinstance(joint, Slide)
-            size, other = ("breadth", "radius") if slides else ("radius", "breadth")
-            if other in table:
-                kind = "slide" if slides else "pin"
-                raise MechanismError(f"{other} is given for {name!r}, a {kind}", allowed=f"a {kind} has a {size}")
-            drag = value_of(table["drag"], "N*s/m" if slides else "N*m*s/rad", "drag") if "drag" in table else 0.0
-            if slides:
-                in_slot = joint.name != name
-                if "breadth" not in table and not in_slot:
-                    raise MechanismError(f"slide {name!r} has no breadth", do="give the length of its guide")
-                breadth = table.get("breadth", 1.0)  # a pin in a slot transmits no couple, which it would depend on
-                yield SlideFriction(joint.name, breadth, table["coefficient"], drag)
-                continue
-            if "radius" not in table and joint.name not in pins:
-                raise MechanismError(f"pin {name!r} has no radius", do="give it, or the pin's diameter in [pins]")
-            radius = table["radius"] if "radius" in table else pins[joint.name].diameter / 2
-            yield PinFriction(joint.name, radius, table["coefficient"], drag)
+def _is_complex(value: object) -> TypeGuard[complex]:
+    return isinstance(value, int | float | complex)
+
+
+def _is_default(side: object) -> bool:
+    return isinstance(side, float) and side == 1.0

@@ -11,17 +11,87 @@ from ilmek.dynamics.own_machine import FlatMember, FlatShape, PinMember
 from ilmek.elements.bearings import find_bearing
 from ilmek.elements.materials import find_material
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.names import unknown
-from ilmek.io.mechanism.points import complex_of
+from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, keys, names, quantity, variant
+from ilmek.io.mechanism.names import LEAST_SIZE, MATERIAL, size, two_names, unknown, xy_of
+from ilmek.io.mechanism.points import AT, POINT, complex_of
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import GROUND, Body, Joint, Mechanism, Pin, Slide
 from ilmek.records import JsonObject
 
-LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
-"""Bounds of sizes and allowed stresses of sections and pins [SI]."""
+SECTION = TableEntry(
+    "a flat bar: strength, and the mass if no other is given",
+    {
+        "width": size("m", "in the plane of motion"),
+        "thickness": size("m", "across it"),
+        "material": TextEntry(MATERIAL),
+    },
+    {
+        "stress": size("Pa", "allowed; default: the material's fatigue limit, or its strength, over `safety`"),
+        "safety": size("1", "default: 2"),
+    },
+    name="section",
+)
 
-STATED = frozenset({"mass", "centre", "moment"})
+_MATTER = {
+    "thickness": quantity("m"),
+    "material": TextEntry(f"{MATERIAL}: gives the density"),
+    "density": quantity("kg/m^3"),
+    "mass": quantity("kg", "instead of thickness and density", above=0.0),
+}
+_CENTRE = replace(AT, doc="its centre")
+
+SHAPE = variant(
+    keys(
+        {"bar": ListEntry("its two ends, with round ends about them", AT, 2, 2), "width": quantity("m")},
+        _MATTER,
+    ),
+    keys({"disc": _CENTRE, "radius": quantity("m")}, _MATTER),
+    keys({"ring": _CENTRE, "outer": quantity("m", "radius"), "inner": quantity("m", "radius")}, _MATTER),
+    keys({"plate": ListEntry("corners in order", AT, 3, 100)}, _MATTER),
+    keys({"point": replace(AT, doc="its position"), "mass": quantity("kg", above=0.0)}),
+    name="shape",
+)
+
+_INERTIA = {
+    "mass": quantity("kg", "default: of the shapes, of the section, else 0"),
+    "centre": replace(AT, doc="mass centre; default: the origin, of a link with length its middle"),
+    "moment": quantity(
+        "kg*m^2", "of inertia about the mass centre; default: 0, of a link with length and no centre m L^2 / 12"
+    ),
+}
+STATED = frozenset(_INERTIA)
 """Keys of a body's inertia."""
+
+BODY = keys(
+    {},
+    {
+        "points": names(POINT, "name -> position in the body's own frame", refers="point"),
+        "length": quantity("m", "of a link: from its first joint, at the origin, to its second, on x", above=0.0),
+        "between": two_names(
+            "the two joints of `length`; default: the two joints of the body that have no point of their own", "point"
+        ),
+        **_INERTIA,
+        "shapes": ListEntry("shapes that form the body: their masses are added", SHAPE, 1, 50),
+        "section": SECTION,
+    },
+    name="body",
+)
+
+PIN = keys(
+    {},
+    {
+        "diameter": size("m"),
+        "length": size("m", "of the bearing in the bush"),
+        "fork": FlagEntry("sheared in two sections; default: true"),
+        "shear": size("Pa", "allowed; default: 60 MPa"),
+        "bending": size("Pa", "allowed in a fork; default: 105 MPa"),
+        "pressure": size("Pa", "allowed mean F / (d l); default: 15 MPa"),
+        "wear": size("Pa*m/s", "allowed mean of pressure times sliding speed; default: 1 MPa m/s"),
+        "bearing": TextEntry("rolling bearing of the catalogue instead of a bush"),
+        "life": quantity("s", "required life of the bearing", least=0.0, written="h"),
+    },
+    name="pin",
+)
 
 Tables = Mapping[str, Table]
 """Name -> table, checked by the schema."""
@@ -47,11 +117,7 @@ def sections_of(
 
 def flat_member(section: Table) -> FlatMember:
     """The section of a link. Raises IlmekError for a material that is not in the table."""
-    material = find_material(section["material"]).name
-    for key in ("width", "thickness", "stress", "safety"):
-        if key in section:
-            _check_size(f"{key} of a section", section[key])
-    return FlatMember(**{**section, "material": material})
+    return FlatMember(**{**section, "material": find_material(section["material"]).name})
 
 
 def check_link(body: Body, joints: Sequence[str]) -> None:
@@ -106,15 +172,18 @@ def _at(at: Any, body: Body) -> complex:
 
 def _shape(table: Table, body: Body) -> Inertia:
     if "point" in table:
-        return point_mass(_positive(table, "mass"), _at(table["point"], body))
+        return point_mass(table["mass"], _at(table["point"], body))
     by_mass = "mass" in table
+    further = table.keys() & {"material", "density", "thickness"}
+    if by_mass and further:
+        raise MechanismError(f"a shape has a mass and {', '.join(sorted(further))}", do="leave one of them")
     thickness, density = (1.0, 1.0) if by_mass else (table.get("thickness", 0.0), _density(table))
     if not by_mass and "thickness" not in table:
         raise MechanismError("a shape has no thickness", do="give thickness and material, or its mass")
     inertia = _flat(table, body, thickness, density)
     if not by_mass:
         return inertia
-    mass = _positive(table, "mass")
+    mass = table["mass"]
     return replace(inertia, mass=mass, moment=inertia.moment * mass / inertia.mass)
 
 
@@ -153,20 +222,15 @@ def _density(table: Table) -> float:
     return find_material(table["material"]).density if "material" in table else float(table["density"])
 
 
-def _positive(table: Table, key: str) -> float:
-    other = table.keys() & {"material", "density", "thickness"}
-    if other and key == "mass":
-        raise MechanismError(f"a shape has a mass and {', '.join(sorted(other))}", do="leave one of them")
-    if not table[key] > 0:
-        raise MechanismError(f"{key} of a shape is {table[key]:g}", allowed="above 0")
-    return float(table[key])
-
-
-def _check_size(what: str, value: float) -> None:
-    """Raise MechanismError for a value [SI] that is not above 0, or with which powers over- or underflow."""
-    if not LEAST_SIZE <= value <= GREATEST_SIZE:
-        given = f"{what} is {value:g} in SI"
-        raise MechanismError(given, allowed=f"{LEAST_SIZE:g} to {GREATEST_SIZE:g}", do="check its unit")
+def body_data(body: Body, inertia: Inertia | None, member: FlatMember | None) -> JsonObject:
+    """The table of a body."""
+    data: JsonObject = {"points": {name: xy_of(point) for name, point in body.points.items()}}
+    if inertia is not None:
+        data |= {**BODY.given(inertia), "centre": xy_of(inertia.centre)}
+    if member is not None:
+        data["section"] = SECTION.given(member)
+        data.setdefault("mass", 0.0)  # else the section would give the body a mass
+    return data
 
 
 def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: SourceText) -> dict[str, PinMember]:
@@ -179,11 +243,6 @@ def pin_members(tables: Tables, parts: Mapping[str, Sequence[Joint]], source: So
         with source.located("pins", name):
             if name not in parts or isinstance(parts[name][0], Slide):
                 raise unknown("pin", name, [joint for joint, own in parts.items() if isinstance(own[0], Pin)])
-            for key, value in table.items():
-                if key not in ("fork", "bearing", "life"):
-                    _check_size(f"{key} of a pin", value)
-            if not table.get("life", 0.0) >= 0:
-                raise MechanismError(f"life of a bearing is {table['life']:g} s", allowed="0 or more")
             member = PinMember(**_pin_of(table))
             pin_members |= {joint.name: member for joint in parts[name] if isinstance(joint, Pin)}
     return pin_members

@@ -1,30 +1,16 @@
 """The mechanism of a file: bodies, joints, couplings, inputs, branches."""
 
-from collections.abc import Iterator, Mapping, Sequence, Set
+from collections.abc import Mapping
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.mechanism.couplings import couplings_of
 from ilmek.io.mechanism.cylinders import add_cylinders
 from ilmek.io.mechanism.joints import blocks_of, joints_of, members_of
-from ilmek.io.mechanism.names import value_of
-from ilmek.io.mechanism.pairs import law_of_pair
 from ilmek.io.mechanism.points import check_lengths, complex_of, points_of
-from ilmek.io.schema import Measured, SourceText, Table
+from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.drawing import as_drawn
-from ilmek.linkage.model import (
-    GROUND,
-    KINDS,
-    BeltSpans,
-    Body,
-    Coupling,
-    Displacement,
-    Input,
-    Joint,
-    Mechanism,
-    Rotation,
-    Slide,
-)
+from ilmek.linkage.model import Body, Displacement, Input, Joint, Mechanism, Rotation, Slide
 from ilmek.linkage.redundant import without_redundant
-from ilmek.plane.teeth import PRESSURE_ANGLE
 
 
 def mechanism_of(data: Table, source: SourceText) -> Mechanism:
@@ -46,7 +32,7 @@ def mechanism_of(data: Table, source: SourceText) -> Mechanism:
             inputs=tuple(_input(joint, body, joints, members) for joint, body in data["inputs"].items()),
             branches=data.get("branches", {}),
             name=name,
-            couplings=tuple(_couplings(data.get("couplings", {}), joints, source)),
+            couplings=tuple(couplings_of(data.get("couplings", {}), joints, source)),
             redundant=data.get("redundant", ()),
             pose=pose,
         )
@@ -103,42 +89,3 @@ def _check_driven(mechanism: Mechanism, entry: Input, bodies: Mapping[str, str])
     if isinstance(joint, Slide) and bodies[joint.name] != joint.body:
         given = f"slide {joint.name!r} is driven by {bodies[joint.name]!r}"
         raise MechanismError(given, allowed=f"its sliding body is {joint.body!r}", about=("inputs", joint.name))
-
-
-def _couplings(tables: Table, joints: Sequence[Joint], source: SourceText) -> Iterator[Coupling]:
-    sliding = {joint.name for joint in joints if isinstance(joint, Slide)}
-    for name, table in tables.items():
-        with source.located("couplings", name):
-            yield _coupling(name, table, sliding)
-
-
-def _coupling(name: str, table: Table, sliding: Set[str]) -> Coupling:
-    kind = next(kind for kind in KINDS if kind in table)
-    first, second = (tuple(end) for end in table[kind])
-    law = law_of_pair(kind, table, slides=second[1] in sliding)
-    second_at = table.get("second_at", 0.0)
-    if isinstance(second_at, Measured):
-        second_at = value_of(second_at, "m" if law is not None and law.slides else "rad", "second_at")
-    return Coupling(
-        name,
-        kind,
-        first,
-        second,
-        table.get("ratio", 0.0),
-        table.get("first_at", 0.0),
-        second_at,
-        table.get("carrier", GROUND),
-        table.get("pressure_angle", PRESSURE_ANGLE),
-        law,
-        table.get("roller", ""),
-        _spans(table),
-    )
-
-
-def _spans(table: Table) -> BeltSpans | None:
-    """The spans of a belt that is given with a radius. Raises MechanismError for a tension without one."""
-    if "radius" in table:
-        return BeltSpans(table["radius"], table.get("pretension", 0.0), table.get("friction"))
-    if table.keys() & {"pretension", "friction"}:
-        raise MechanismError("a belt has a tension or friction and no radius", do="give the radius of its first pulley")
-    return None

@@ -3,7 +3,7 @@
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -13,12 +13,70 @@ from ilmek.cams.laws import law_of
 from ilmek.cams.laws.law import Law
 from ilmek.dynamics.own_machine import GivenMotion
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.names import input_of, value_of
+from ilmek.io.declared import FlagEntry, ListEntry, TableEntry, TextEntry, keys, quantity, variant
+from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, value_of
 from ilmek.io.schema import Measured, SourceText, Table
-from ilmek.linkage.model import Mechanism, Rotation
+from ilmek.linkage.model import Mechanism
+from ilmek.records import JsonObject
 from ilmek.units import turn
 
 _SAME = 1e-9
+
+_NUMBER = quantity("1")
+
+LAW = variant(
+    TextEntry("name of the law"),
+    TableEntry(
+        "name and parameters",
+        {"name": TextEntry("")},
+        others=variant(_NUMBER, ListEntry("numbers", _NUMBER, 1, 100)),
+    ),
+    name="law",
+    doc="motion law",
+)
+
+
+def steps_entry(doc: str, move: TableEntry, dwell: str, of: str) -> ListEntry:
+    """Motions and dwells in sequence; dwell  meaning of its duration, in the unit `of`."""
+    further = {"law": replace(LAW, doc="default: 3-4-5")}
+    move = replace(move, optional=further)
+    rest = keys({"dwell": quantity(of, dwell, above=0.0)})
+    return ListEntry(doc, variant(move, rest), 1, 100)
+
+
+_START = position_of_input("default: 0")
+_SPEED = speed_of_input()
+
+MOTION = variant(
+    _SPEED,
+    keys({"speed": _SPEED}, {"start": replace(_START, doc="value at time 0; default: 0")}),
+    keys(
+        {
+            "steps": steps_entry(
+                "motions and dwells, one after the other",
+                keys({"to": position_of_input("value at the end"), "time": quantity("s", "duration", above=0.0)}),
+                "duration at rest",
+                "s",
+            )
+        },
+        {
+            "start": _START,
+            "repeat": FlagEntry("default: true where the last value is the first, or a full turn further"),
+        },
+    ),
+    keys(
+        {
+            "table": ListEntry(
+                "[[time, value], ...] with a smooth curve through them",
+                ListEntry("time and value", quantity(("s", "rad", "m")), 2, 2),
+                3,
+                1000,
+            )
+        },
+        {"repeat": FlagEntry("default: as of steps")},
+    ),
+    name="motion",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,14 +184,13 @@ def motions_of(
             entry = input_of(name, mechanism)
             if entry.name in motions:
                 raise MechanismError(f"the motion of {name!r} is given twice", do="give it once")
-            motions[entry.name] = _motion(table, turning=isinstance(entry, Rotation))
+            motions[entry.name] = _motion(table, unit_of(entry))
     return motions
 
 
-def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:
+def _motion(table: Table | Measured, unit: str) -> GivenMotion:
     if isinstance(table, Measured):
         table = {"speed": table}
-    unit = "rad" if turning else "m"
     start = value_of(table["start"], unit, "start") if "start" in table else 0.0
     if "speed" in table:
         speed = value_of(table["speed"], f"{unit}/s", "speed")
@@ -143,7 +200,7 @@ def _motion(table: Table | Measured, *, turning: bool) -> GivenMotion:
     if "table" in table:
         return _table_motion(table, unit)
     steps = steps_of(table["steps"], unit, start)
-    repeats = _repeats(table.get("repeat"), start, steps[-1].to, turning=turning)
+    repeats = _repeats(table.get("repeat"), start, steps[-1].to, turning=unit == "rad")
     law = MotionSequence(start, steps, repeats)
     breaks = sorted(
         {
@@ -163,10 +220,6 @@ def steps_of(rows: Sequence[Table], unit: str, start: float, over: str = "time")
     at = start
     for number, row in enumerate(rows, start=1):
         duration = row["dwell"] if "dwell" in row else row[over]
-        if not duration > 0:
-            raise MechanismError(
-                f"step {number} lasts {duration:g} {'s' if over == 'time' else 'rad'}", allowed="above 0"
-            )
         at = value_of(row["to"], unit, "to") if "to" in row else at
         law = _law(row.get("law", "3-4-5"))
         if not math.isfinite(law.acceleration_peak):
@@ -204,3 +257,29 @@ def _repeats(given: bool | None, first: float, last: float, *, turning: bool) ->
             "a motion that repeats ends elsewhere", allowed=f"its last value is its first one{further}"
         )
     return closed if given is None else given
+
+
+def motion_data(name: str, motion: GivenMotion, unit: str) -> JsonObject:
+    """The table of a motion in a unit. Raises MechanismError for one that no file can express."""
+    law = motion.law
+    if isinstance(law, ConstantSpeed):
+        return {"speed": Measured(law.speed, f"{unit}/s"), "start": Measured(law.start, unit)}
+    if isinstance(law, TableMotion):
+        rows = table_rows(law.times, "s", law.values, unit)
+        return {"table": rows, "repeat": law.repeats}
+    if isinstance(law, MotionSequence):
+        steps = [step_data(step, unit) for step in law.steps]
+        return {"start": Measured(law.start, unit), "steps": steps, "repeat": law.repeats}
+    raise MechanismError(f"the motion of {name!r} is a function that no file expresses")
+
+
+def step_data(step: MotionStep, unit: str, over: str = "time") -> JsonObject:
+    """The table of a step; over: the key of its duration."""
+    parameters = {key: list(value) if isinstance(value, tuple) else value for key, value in step.law.parameters.items()}
+    law = {"name": step.law.name, **parameters} if parameters else step.law.name
+    return {"to": Measured(step.to, unit), over: step.time, "law": law}
+
+
+def table_rows(first: Sequence[float], unit: str, second: Sequence[float], of: str) -> list[list[Measured]]:
+    """The rows of a table of two columns, with their units."""
+    return [[Measured(one, unit), Measured(other, of)] for one, other in zip(first, second, strict=True)]

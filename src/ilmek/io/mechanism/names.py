@@ -1,10 +1,56 @@
-"""Names that one table of a mechanism file has for entries of another."""
+"""Names that one table of a mechanism file has for entries of another, and entries that many tables have."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.declared import ListEntry, QuantityEntry, TextEntry, quantity
 from ilmek.io.schema import Measured
-from ilmek.linkage.model import Input, Joint, Mechanism, Slide
+from ilmek.linkage.model import Input, Joint, Mechanism, Rotation, Slide
+
+MOST_ENTRIES = 100
+"""Largest number of bodies, of joints, of couplings, and of loads, springs or dampers of a file."""
+
+LENGTH = quantity("m", 'like "60mm"')
+ANGLE = quantity("rad", 'like "170deg"')
+XY = ListEntry("x and y", LENGTH, 2, 2)
+MATERIAL = "of the table of materials"
+LEAST_SIZE, GREATEST_SIZE = 1e-9, 1e15
+"""Bounds of sizes and allowed stresses of sections and pins [SI], with which no power over- or underflows."""
+
+
+def size(unit: str, doc: str = "") -> QuantityEntry:
+    """A size or an allowed stress of a section or pin."""
+    return quantity(unit, doc, least=LEAST_SIZE, most=GREATEST_SIZE)
+
+
+def position_of_input(doc: str = "") -> QuantityEntry:
+    """A value of an input, which turns or slides."""
+    return quantity(("rad", "m"), doc)
+
+
+def speed_of_input(doc: str = "") -> QuantityEntry:
+    """A speed of an input, which turns or slides."""
+    return quantity(("rad/s", "m/s"), doc)
+
+
+def two_names(doc: str, refers: str) -> ListEntry:
+    """Two bodies, or two points of a body."""
+    return ListEntry(doc, TextEntry("", refers), 2, 2)
+
+
+def spot(doc: str = "a body and its point") -> ListEntry:
+    """A body and its point."""
+    return ListEntry(doc, TextEntry(""), 2, 2, "spot")
+
+
+def two_spots(doc: str) -> ListEntry:
+    """Two bodies, each with its point."""
+    return ListEntry(doc, spot(), 2, 2)
+
+
+def xy_of(point: complex) -> list[float]:
+    """The coordinates of a point or vector."""
+    return [float(point.real), float(point.imag)]
 
 
 def parts_of(names: Iterable[str], mechanism: Mechanism) -> dict[str, tuple[Joint, ...]]:
@@ -40,6 +86,18 @@ def input_of(name: str | None, mechanism: Mechanism) -> Input:
         known = [each for entry in inputs for each in (entry.joint, driven_body(entry, mechanism))]
         raise unknown("driven joint or body", name, known)
     return found
+
+
+def unit_of(entry: Input) -> str:
+    """The unit of an input's value."""
+    return "rad" if isinstance(entry, Rotation) else "m"
+
+
+def spot_of(given: Sequence[str], mechanism: Mechanism) -> tuple[str, str]:
+    """A body and its point. Raises MechanismError if the mechanism does not have them."""
+    body, point = given
+    mechanism.point(body, point)
+    return body, point
 
 
 def driven_body(entry: Input, mechanism: Mechanism) -> str:

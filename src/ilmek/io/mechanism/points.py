@@ -2,15 +2,43 @@
 
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from itertools import combinations
 from typing import Any, NamedTuple
 
 from ilmek.errors import MechanismError, did_you_mean
+from ilmek.io.declared import ChoiceEntry, ListEntry, TextEntry, keys, quantity, variant
 from ilmek.io.mechanism.joints import Members
+from ilmek.io.mechanism.names import LENGTH, XY, two_names
 from ilmek.io.schema import SourceText, Table
 from ilmek.linkage.model import GROUND, Joint
 
 _ROUNDING = 1e-15
+
+_FROM = TextEntry("a point of the body", "point")
+
+POINT = variant(
+    XY,
+    keys(
+        {
+            "radius": quantity("m", "distance from the origin, or from the point `from`"),
+            "angle": quantity("rad", "of the direction, against x of the body"),
+        },
+        {"from": _FROM},
+    ),
+    keys(
+        {
+            "sides": ListEntry("distances from the two points `from`", LENGTH, 2, 2),
+            "side": ChoiceEntry("of the line from the first to the second", ("left", "right")),
+        },
+        {"from": two_names("two points of the body; of a body with length: by default its two ends", "point")},
+    ),
+    keys({"offset": replace(XY, doc="from the point `from`"), "from": _FROM}),
+    name="point",
+    doc="position in the body's own frame",
+)
+
+AT = variant(_FROM, XY, doc="a point of the body, or [x, y] in its frame", name="at")
 
 LARGEST_RATIO = 200.0
 """Greatest ratio of the longest to the shortest link length that needs no confirmation."""
@@ -64,9 +92,6 @@ def _ends(body: str, table: Table, free: list[str], source: SourceText) -> tuple
                 ("bodies", body, "between"), MechanismError("is given without a length", do="give length too")
             )
         return ()
-    if not table["length"] > 0:
-        given = f"is {table['length']:g} m"
-        source.refuse(("bodies", body, "length"), MechanismError(given, allowed="a length above 0"))
     ends = tuple(table.get("between", free))
     if len(ends) != 2 or ends[0] == ends[1]:
         names = ", ".join(ends) or "none"

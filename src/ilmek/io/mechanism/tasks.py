@@ -7,13 +7,71 @@ import numpy as np
 from ilmek.dynamics.friction import Friction
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, NamedLoad, SpeedStudy, StopEvent
 from ilmek.errors import MechanismError
-from ilmek.io.mechanism.names import input_of, unknown, value_of
-from ilmek.io.schema import SourceText, Table
+from ilmek.io.declared import ChoiceEntry, FlagEntry, ListEntry, TableEntry, WholeEntry, keys, names, quantity, variant
+from ilmek.io.mechanism.names import input_of, position_of_input, speed_of_input, unit_of, unknown, value_of
+from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import Joint, Mechanism, Pin, Rotation
+from ilmek.records import JsonObject
 from ilmek.units import counted
 
 MOST_SPEEDS_RATIO = 1e4
 """Greatest ratio of the speeds of a study."""
+
+_SLIP = quantity("1", "default: 5 %", above=0.0)
+_DIRECTIONS = {"up": 1, "down": -1, "both": 0}
+
+_MOTOR = variant(
+    keys(
+        {"torque": quantity("N*m", "limit of the motor, at a turning input")},
+        {
+            "speed": quantity("rad/s", "without load; default: constant torque"),
+            "slip": _SLIP,
+            "inertia": quantity("kg*m^2", "of rotor and flywheel at the input; default: 0", least=0.0),
+        },
+    ),
+    keys(
+        {"force": quantity("N", "limit of the drive, at a sliding input")},
+        {
+            "speed": quantity("m/s", "without load; default: constant force"),
+            "slip": _SLIP,
+            "inertia": quantity("kg", "at the input; default: 0", least=0.0),
+        },
+    ),
+)
+
+_EVENT = keys(
+    {},
+    {
+        "position": position_of_input(),
+        "speed": speed_of_input(),
+        "time": quantity("s"),
+        "direction": ChoiceEntry("of the crossing; default: both", tuple(_DIRECTIONS)),
+        "stop": FlagEntry("the run ends there; default: true"),
+    },
+    name="event",
+)
+
+FORWARD = TableEntry(
+    "a run from a state under a motor",
+    {"duration": quantity("s", above=0.0)},
+    {
+        "position": position_of_input("of the input at the start; default: 0"),
+        "speed": speed_of_input("of the input at the start; default: 0"),
+        "motor": _MOTOR,
+        "events": names(_EVENT, "name -> one of position, speed, time"),
+    },
+    name="forward",
+)
+
+STUDY = variant(
+    keys({"speeds": ListEntry("speeds of the driving input", speed_of_input(), 1, 50)}),
+    keys(
+        {"from": speed_of_input(), "to": speed_of_input()},
+        {"count": WholeEntry("number of speeds; default: 5", 2, 50)},
+    ),
+    name="study",
+    doc="speeds of the driving input to compare",
+)
 
 
 def forward_of(
@@ -23,9 +81,7 @@ def forward_of(
     if table is None:
         return None
     with source.located("forward"):
-        unit = "rad" if isinstance(input_of(None, mechanism), Rotation) else "m"
-        if not table["duration"] > 0:
-            raise MechanismError(f"duration is {table['duration']:g} s", allowed="above 0")
+        unit = unit_of(input_of(None, mechanism))
         events = []
         for name, event in table.get("events", {}).items():
             with source.located("forward", "events", name):
@@ -49,7 +105,7 @@ def _event(name: str, table: Table, unit: str) -> StopEvent:
         raise MechanismError(f"event {name!r} has {stated} of position, speed and time", allowed="one of them")
     of = given[0]
     value = table[of] if of == "time" else value_of(table[of], units[of], of)
-    direction = {"up": 1, "down": -1, "both": 0}[table.get("direction", "both")]
+    direction = _DIRECTIONS[table.get("direction", "both")]
     return StopEvent(name, of, value, table.get("stop", True), direction)
 
 
@@ -62,11 +118,31 @@ def _motor(table: Table | None, unit: str) -> MotorDrive | None:
         raise MechanismError(f"the motor of a {kind} input has a {other}", do=f"give its {effort}")
     if "speed" in table and not abs(table["speed"]) > 0:
         raise MechanismError("speed of the motor without load is 0", allowed="not 0")
-    if not table.get("slip", 1.0) > 0:
-        raise MechanismError(f"slip of the motor is {table['slip']:g}", allowed="above 0")
-    if not table.get("inertia", 0.0) >= 0:
-        raise MechanismError(f"inertia of the motor is {table['inertia']:g}", allowed="0 or more")
-    return MotorDrive(table[effort], table.get("speed"), table.get("slip", 0.05), table.get("inertia", 0.0))
+    return MotorDrive(table[effort], **{key: value for key, value in table.items() if key != effort})
+
+
+def forward_data(task: ForwardTask, unit: str) -> JsonObject:
+    """The table of a forward run of an input in a unit."""
+    units = {"position": unit, "speed": f"{unit}/s", "time": "s"}
+    data: JsonObject = {
+        "duration": task.duration,
+        "position": Measured(task.position, unit),
+        "speed": Measured(task.speed, units["speed"]),
+    }
+    if task.drive is not None:
+        effort = {"torque" if unit == "rad" else "force": task.drive.effort}
+        data["motor"] = {**effort, **_MOTOR.table(effort).given(task.drive)}
+    if task.events:
+        direction = {sign: name for name, sign in _DIRECTIONS.items()}
+        data["events"] = {
+            event.name: {
+                event.of: event.value if event.of == "time" else Measured(event.value, units[event.of]),
+                "direction": direction[event.direction],
+                "stop": event.terminal,
+            }
+            for event in task.events
+        }
+    return data
 
 
 def study_of(table: Table | None, mechanism: Mechanism, source: SourceText) -> SpeedStudy | None:

@@ -77,6 +77,7 @@ export default {
   mirror: "Mirror",
   remove: "Delete",
   removeOf: "Delete {name}",
+  addKey: "Add …",
   panels: "Panels",
   structure: "Structure",
   parts: "Parts",

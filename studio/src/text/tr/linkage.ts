@@ -79,6 +79,7 @@ export default {
   mirror: "Aynala",
   remove: "Sil",
   removeOf: "{name} öğesini sil",
+  addKey: "Ekle …",
   panels: "Paneller",
   structure: "Yapı",
   parts: "Parçalar",

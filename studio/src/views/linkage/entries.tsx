@@ -1,25 +1,42 @@
 /** Numbers and texts of the file as fields: each is written as the file has it, and taken over with Enter or on leaving. */
 import { useState } from "preact/hooks";
 import { t } from "../../text";
+import { choicesOf, entryAt, hintOf, lackingKeys } from "./declaration";
 import type { Editor } from "./editor";
-import { apply, type Table } from "./mechanism";
+import { apply, type Entry, type Table } from "./mechanism";
 
 interface EntryFieldProps {
   label: string;
   value: string;
+  /** What it means, and its unit. */
+  hint?: string;
+  /** Among which it is chosen; without them it is typed. */
+  choices?: readonly string[] | undefined;
   /** Takes over a text; returns false where it cannot be. */
   onCommit: (text: string) => unknown;
 }
 
 /** A text that is taken over with Enter or on leaving; Escape brings the old one back. */
-export function EntryField({ label, value, onCommit }: EntryFieldProps) {
+export function EntryField({ label, value, hint = "", choices, onCommit }: EntryFieldProps) {
   const [draft, setDraft] = useState({ of: value, text: value });
   const reset = () => setDraft({ of: value, text: value });
   const commit = (typed: string) => {
     if (typed.trim() !== value && onCommit(typed.trim()) === false) reset();
   };
+  if (choices?.includes(value)) {
+    return (
+      <label class="linkage-entry" title={hint}>
+        <span>{label}</span>
+        <select class="ui-input" value={value} onChange={(event) => commit(event.currentTarget.value)}>
+          {choices.map((choice) => (
+            <option key={choice}>{choice}</option>
+          ))}
+        </select>
+      </label>
+    );
+  }
   return (
-    <label class="linkage-entry">
+    <label class="linkage-entry" title={hint}>
       <span>{label}</span>
       <input
         class="ui-input"
@@ -81,22 +98,66 @@ interface EntriesProps {
   skip?: readonly string[];
 }
 
-/** The entries below a table of the file as fields. */
+/** The entries below a table of the file as fields, as they are declared. */
 export function Entries({ editor, path, table, skip = [] }: EntriesProps) {
   if (table === undefined) return null;
+  const data = editor.document.data.value ?? {};
   const kept = Object.fromEntries(Object.entries(table).filter(([key]) => !skip.includes(key)));
+  const set = (keys: readonly string[], value: Entry) =>
+    editor.edit((copy) => apply(copy, [{ path: [...path, ...keys], value }]));
   return (
     <div class="linkage-entries">
-      {leaves(kept).map((leaf) => (
-        <EntryField
-          key={leaf.path.join(".")}
-          label={entryLabel(leaf.path)}
-          value={leaf.value}
-          onCommit={(text) =>
-            editor.edit((data) => apply(data, [{ path: [...path, ...leaf.path], value: entryOf(text) }]))
-          }
-        />
-      ))}
+      {leaves(kept).map((leaf) => {
+        const declared = entryAt(data, [...path, ...leaf.path]);
+        return (
+          <EntryField
+            key={leaf.path.join(".")}
+            label={entryLabel(leaf.path)}
+            value={leaf.value}
+            hint={hintOf(declared)}
+            choices={choicesOf(declared, data)}
+            onCommit={(text) => set(leaf.path, entryOf(text))}
+          />
+        );
+      })}
+      <Lacking data={data} path={path} table={table} onAdd={set} />
     </div>
+  );
+}
+
+interface LackingProps {
+  data: Table;
+  path: readonly string[];
+  table: Table;
+  onAdd: (keys: readonly string[], value: Entry) => void;
+}
+
+/** The optional keys that a table, or the only table in it, does not have yet. */
+function Lacking({ data, path, table, onAdd }: LackingProps) {
+  const [name, inner] = Object.entries(table)[0] ?? [];
+  const isNamed = entryAt(data, path).properties === undefined && name !== undefined;
+  const [keys, own] = isNamed ? [[name], inner] : [[], table];
+  if (own === null || typeof own !== "object") return null;
+  const entry = entryAt(data, [...path, ...keys]);
+  const lacking = lackingKeys(entry, own);
+  if (lacking.length === 0) return null;
+  return (
+    <select
+      class="ui-input"
+      aria-label={t("linkage.addKey")}
+      value=""
+      onChange={(event) => {
+        const found = lacking.find(([key]) => key === event.currentTarget.value);
+        event.currentTarget.value = "";
+        if (found) onAdd([...keys, found[0]], found[1]);
+      }}
+    >
+      <option value="">{t("linkage.addKey")}</option>
+      {lacking.map(([key]) => (
+        <option key={key} value={key} title={hintOf(entry.properties?.[key] ?? {})}>
+          {key}
+        </option>
+      ))}
+    </select>
   );
 }

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { choicesOf, entryAt, hintOf, lackingKeys } from "./declaration";
 import { entryLabel, entryOf, leaves } from "./entries";
 import { STILL, vec } from "./geometry";
 import {
@@ -77,7 +78,7 @@ describe("edits of a mechanism", () => {
     expect(Object.keys(data.joints ?? {})).toEqual(["B", "A"]);
     expect(data["loads"]).toEqual({ pull: { force: "1N", on: ["link2", "C"] } });
     expect(data["paths"]).toBeUndefined();
-    expect(data.branches).toEqual({});
+    expect(data.branches).toBeUndefined();
     expect(data.bodies?.["ground"]?.points).toEqual({ A: [0, 0] });
     removeAll(data, { joints: ["A"] });
     expect(data.inputs).toEqual({});
@@ -183,5 +184,45 @@ describe("new names", () => {
     const own = data();
     expect([renamePoint(own, "crank", "P", "B"), renamePoint(own, "crank", "P", "tip")]).toEqual([false, true]);
     expect(own["paths"]).toEqual([["crank", "tip"]]);
+  });
+});
+
+describe("the declaration of the file", () => {
+  const data: MechanismData = {
+    units: "mm",
+    bodies: { ground: { points: { S: [0, 0] } }, jib: { points: { S: [0, 0], T: ["1m", 0] }, mass: "2kg" } },
+    joints: { S: { slide: ["jib", "ground"] } },
+    cylinders: { lift: { between: [["ground", "S"], ["jib", "T"]] } }, // biome-ignore format: one table
+    loads: { pull: { force: "1N", on: ["jib", "T"], while: { from: 0, to: "1mm", input: "jib" } } },
+    redundant: ["S"],
+  };
+
+  it("gives each entry its meaning, unit and choices", () => {
+    expect(hintOf(entryAt(data, ["joints", "S", "along"]))).toBe(
+      "direction of the line in the guide's frame; default: 0 [rad]",
+    );
+    expect(hintOf(entryAt(data, ["bodies", "jib", "points", "T", "0"]))).toBe('like "60mm" [m]');
+    expect(choicesOf(entryAt(data, ["joints", "S", "slide", "0"]), data)).toEqual(["ground", "jib"]);
+    expect(choicesOf(entryAt(data, ["loads", "pull", "on", "0"]), data)).toEqual(["ground", "jib"]);
+    expect(choicesOf(entryAt(data, ["loads", "pull", "frame"]), data)).toEqual(["ground", "body"]);
+    expect(choicesOf(entryAt(data, ["bodies", "jib", "mass"]), data)).toBeUndefined();
+    const lacking = lackingKeys(entryAt(data, ["joints", "S"]), data.joints?.["S"] ?? {});
+    expect(lacking).toEqual([
+      ["along", "10deg"],
+      ["turned", "10deg"],
+    ]);
+  });
+
+  it("renames and removes in tables that no list of the editor names", () => {
+    const own = structuredClone(data);
+    renameBody(own, "jib", "boom");
+    expect(own["cylinders"]).toEqual({ lift: { between: [["ground", "S"], ["boom", "T"]] } }); // biome-ignore format: one table
+    expect(own["loads"]).toEqual({
+      pull: { force: "1N", on: ["boom", "T"], while: { from: 0, to: "1mm", input: "boom" } },
+    });
+    renameJoint(own, "S", "way");
+    expect(own["redundant"]).toEqual(["way"]);
+    removeAll(own, { bodies: ["boom"] });
+    expect([own["cylinders"], own["loads"], own["redundant"]]).toEqual([undefined, undefined, undefined]);
   });
 });

@@ -1,31 +1,26 @@
 /** The plain data of a mechanism file, and the edits of the drawing: each a function of the data that it changes. */
+import type { Body, Joint, MechanismFile } from "../../api/mechanism";
 import { quantityText } from "../../ui";
+import { FILE, hasName } from "./declaration";
 import { type Pose, STILL, toLocal, type Vec } from "./geometry";
 
 export type Entry = unknown;
 export type Table = Record<string, Entry>;
 
-export interface BodyTable extends Table {
-  points?: Record<string, Entry>;
-  length?: string | number;
-}
+/** The keys of all kinds of a table, each of which it may lack: a file may be unfinished. */
+type Unfinished<T> = { [K in T extends unknown ? keyof T : never]?: T extends Record<K, infer V> ? V : Entry };
 
-export interface JointTable {
-  pin?: string[];
-  slide?: string[];
-  along?: string | number;
-  turned?: string | number;
-}
+export type BodyTable = Omit<Body, "points"> & { points?: Record<string, Entry> };
+export type JointTable = Unfinished<Joint> & { pin?: string[]; slide?: string[]; slot?: string[] };
 
 /** A mechanism file. Keys that the editor does not draw are kept. */
-export interface MechanismData extends Table {
-  name?: string;
-  units?: string;
-  bodies?: Record<string, BodyTable>;
-  joints?: Record<string, JointTable>;
-  inputs?: Record<string, string>;
-  branches?: Record<string, number>;
-}
+export type MechanismData = Table &
+  Pick<Partial<MechanismFile>, "name" | "inputs"> & {
+    units?: string;
+    bodies?: Record<string, BodyTable>;
+    joints?: Record<string, JointTable>;
+    branches?: Record<string, number>;
+  };
 
 export type Poses = Readonly<Record<string, Pose>>;
 
@@ -33,7 +28,7 @@ export const GROUND = "ground";
 
 /** Bodies of a joint. */
 export function bodiesOf(joint: JointTable | undefined): readonly string[] {
-  return joint?.pin ?? joint?.slide ?? [];
+  return joint?.pin ?? joint?.slide ?? joint?.slot ?? [];
 }
 
 /** The joints of a body. */
@@ -52,7 +47,7 @@ export function angleEntry(data: MechanismData, value: number): string | number 
   return data.units === "SI" ? clean : clean === 0 ? 0 : quantityText(clean, "deg", 7);
 }
 
-export function pointEntry(data: MechanismData, at: Vec): (string | number)[] {
+export function pointEntry(data: MechanismData, at: Vec): [string | number, string | number] {
   return [lengthEntry(data, at.x), lengthEntry(data, at.y)];
 }
 
@@ -237,9 +232,6 @@ export function addMass(data: MechanismData, body: string, at: Vec, poses: Poses
   table["centre"] = pointEntry(data, toLocal(poses[body] ?? STILL, at));
 }
 
-/** Tables whose entries name bodies. */
-export const REFERRING = ["loads", "springs", "dampers", "couplings", "paths", "transmission"] as const;
-
 /** Removes bodies, joints and couplings, with everything that refers to them. */
 export function removeAll(data: MechanismData, names: { bodies?: string[]; joints?: string[] }): void {
   const gone = new Set((names.bodies ?? []).filter((body) => body !== GROUND));
@@ -254,14 +246,7 @@ export function removeAll(data: MechanismData, names: { bodies?: string[]; joint
       delete data.joints?.[name];
     }
   }
-  for (const name of lost) {
-    delete data.inputs?.[name];
-    delete data.branches?.[name];
-    for (const key of ["friction", "pins", "motions", "couplings", "actuators"]) dropKey(data, key, name);
-  }
-  for (const [joint, body] of Object.entries(data.inputs ?? {})) if (gone.has(body)) delete data.inputs?.[joint];
-  for (const body of gone) for (const key of ["pose", "motions"]) dropKey(data, key, body);
-  for (const key of REFERRING) dropReferring(data, key, gone, lost);
+  for (const key of Object.keys(data)) if (key !== "bodies" && key !== "joints") dropReferring(data, key, gone, lost);
   dropGroundPoints(data, lost);
 }
 
@@ -273,33 +258,29 @@ function keepEnds(data: MechanismData, gone: ReadonlySet<string>, lost: Readonly
     return lost.has(name) || left.length < (data.joints?.[name]?.pin ? 2 : members.length);
   };
   for (const [body, table] of Object.entries(data.bodies ?? {})) {
-    const ends = jointsOf(data, body).filter((name) => table.points?.[name] === undefined);
-    if (table.length !== undefined && table["between"] === undefined && ends.some(goes)) table["between"] = ends;
+    const [first, second] = jointsOf(data, body).filter((name) => table.points?.[name] === undefined);
+    if (table.length === undefined || table.between !== undefined || first === undefined || second === undefined)
+      continue;
+    if (goes(first) || goes(second)) table.between = [first, second];
   }
 }
 
-function dropKey(data: MechanismData, key: string, name: string): void {
-  const table = data[key];
-  if (table === null || typeof table !== "object" || Array.isArray(table)) return;
-  delete (table as Table)[name];
-  if (Object.keys(table).length === 0) delete data[key];
-}
-
+/** Leaves out the entries of a table or list that name what is gone; of a coupling a wheel's middle is a joint. */
 function dropReferring(data: MechanismData, key: string, gone: ReadonlySet<string>, lost: ReadonlySet<string>): void {
-  const table = data[key];
-  const names = (entry: Entry): boolean => {
-    if (typeof entry === "string") return gone.has(entry) || (key !== "loads" && lost.has(entry));
-    if (Array.isArray(entry)) return entry.some(names);
-    return entry !== null && typeof entry === "object" && Object.values(entry).some(names);
-  };
-  if (Array.isArray(table)) {
-    const kept = table.filter((entry) => !names(entry));
-    if (kept.length > 0) data[key] = kept;
-    else delete data[key];
-  } else if (table !== null && typeof table === "object") {
-    for (const [name, entry] of Object.entries(table)) if (names(entry)) delete (table as Table)[name];
-    if (Object.keys(table).length === 0) delete data[key];
-  }
+  const isGone = (kind: string, name: string, body?: string) =>
+    kind === "body"
+      ? gone.has(name)
+      : kind === "point"
+        ? lost.has(name) && (body === GROUND || key === "couplings")
+        : lost.has(name) || (kind === "input" && gone.has(name));
+  const [value, entry] = [data[key], FILE.properties?.[key] ?? {}];
+  const drops = (one: Entry) => hasName(one, entry, isGone);
+  if (!drops(value)) return;
+  if (Array.isArray(value)) data[key] = value.filter((one) => !drops([one]));
+  else if (value !== null && typeof value === "object") {
+    data[key] = Object.fromEntries(Object.entries(value).filter(([name, one]) => !drops({ [name]: one })));
+  } else delete data[key];
+  if (key !== "inputs" && Object.keys((data[key] as Table | undefined) ?? {}).length === 0) delete data[key];
 }
 
 /** Points of the ground that belonged to joints that are gone. */

@@ -63,13 +63,13 @@ function isRelative(entry: Entry): boolean {
   return entry !== null && typeof entry === "object" && ("from" in entry || "sides" in entry);
 }
 
-function shifted(data: MechanismData, [x, y]: readonly Entry[], by: Vec): Entry {
+function shifted(data: MechanismData, [x, y]: readonly Entry[], by: Vec): [string | number, string | number] {
   return [shiftedLength(data, x, by.x), shiftedLength(data, y, by.y)];
 }
 
-function shiftedLength(data: MechanismData, entry: Entry, by: number): Entry {
-  if (by === 0) return entry;
-  if (typeof entry === "number") return lengthEntry(data, entry + by);
+function shiftedLength(data: MechanismData, entry: Entry, by: number): string | number {
+  if (typeof entry === "number") return by === 0 ? entry : lengthEntry(data, entry + by);
+  if (by === 0) return String(entry);
   const read = readQuantity(String(entry), "mm");
   return "si" in read ? lengthEntry(data, read.si + by) : `${entry} + ${lengthEntry(data, by)}`;
 }

@@ -5,7 +5,9 @@ from typing import Any
 
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import IlmekError
+from ilmek.io.declared import TableEntry
 from ilmek.io.mechanism.joints import members_of
+from ilmek.io.mechanism.machine import FILE
 from ilmek.io.mechanism_file import mechanism_of_data
 from ilmek.io.schema import LocatedError, Table
 from ilmek.linkage.branches_in_pose import Pose, branches_in_pose, required_branches
@@ -14,8 +16,8 @@ from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.structure import solvable_steps
 from ilmek.records import JsonObject
 
-REFERRING = ("loads", "springs", "dampers", "couplings", "pose")
-"""Tables whose entries name bodies."""
+_NAMED = {key: entry.refers for key, entry in FILE.entries.items() if isinstance(entry, TableEntry)}
+"""Table of the file -> what its keys are the names of."""
 
 
 def joined_part(data: Table) -> tuple[JsonObject, tuple[str, ...]]:
@@ -35,10 +37,11 @@ def joined_part(data: Table) -> tuple[JsonObject, tuple[str, ...]]:
     if not loose:
         return given, ()
     given["bodies"] = {body: table for body, table in given["bodies"].items() if body in held}
-    for key in REFERRING:
-        if isinstance(given.get(key), dict):
+    for key in _NAMED.keys() & given.keys() - {"bodies", "joints", "inputs", "values"}:
+        if isinstance(given[key], dict):
+            gone = loose if _NAMED[key] in ("body", "input") else ()
             given[key] = {
-                name: entry for name, entry in given[key].items() if name not in loose and not _names(entry, loose)
+                name: entry for name, entry in given[key].items() if name not in gone and not _names(entry, loose)
             }
     if isinstance(given.get("paths"), list):
         given["paths"] = [entry for entry in given["paths"] if not _names(entry, loose)]
@@ -93,8 +96,8 @@ def _without(data: JsonObject, path: tuple[str | int, ...]) -> JsonObject | None
     made["bodies"] = {
         body: _with_ends(body, entry, _table(data, "joints"), joints) for body, entry in _table(made, "bodies").items()
     }
-    for key in ("inputs", "branches", "friction", "pins"):
-        if key in made:
+    for key in made.keys() - {"joints"}:
+        if _NAMED.get(key) == "joint":
             own = _table(made, key).items()
             made[key] = {joint: value for joint, value in own if joint in joints and value != name}
     return made
