@@ -168,10 +168,7 @@ class Motion:
 
     def frame(self) -> Any:
         """`table` as a DataFrame of pandas or polars, whichever is installed. Raises MechanismError without either."""
-        for library in ("pandas", "polars"):
-            with suppress(ImportError):
-                return import_module(library).DataFrame(self.table())
-        raise MechanismError("a DataFrame needs pandas or polars", do="install one, or use Motion.table()")
+        return data_frame(self.table())
 
     def require(self) -> "Motion":
         """The motion itself, if every sample is solved.
@@ -194,6 +191,14 @@ class Motion:
     def _reals(self, value: RealField) -> Reals:
         reals: Reals = _over(value, self.status.shape, np.dtype(float))
         return reals
+
+
+def data_frame(columns: Mapping[str, np.ndarray]) -> Any:
+    """Columns as a DataFrame of pandas or polars, whichever is installed. Raises MechanismError without either."""
+    for library in ("pandas", "polars"):
+        with suppress(ImportError):
+            return import_module(library).DataFrame(columns)
+    raise MechanismError("a DataFrame needs pandas or polars", do="install one, or use the arrays themselves")
 
 
 def moving_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:

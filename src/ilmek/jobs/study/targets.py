@@ -7,10 +7,7 @@ from typing import Any
 
 from ilmek.errors import MechanismError, ParameterError, did_you_mean
 from ilmek.io.data_text import read_data
-from ilmek.io.mechanism.expressions import printed_dimension
-from ilmek.io.mechanism.values import named_values
-from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism, with_values
-from ilmek.io.schema import SourceText
+from ilmek.io.mechanism_file import mechanism_of_values, read_mechanism, value_of, with_values
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.report import report as mechanism_report
@@ -77,11 +74,9 @@ class MechanismTarget:
 
     def parameter(self, name: str) -> Parameter:
         """The entry of `values` of a name, in its unit. Raises ParameterError, naming the nearest."""
-        values = with_values(self.data, {name: self.data.get("values", {}).get(name)})["values"]
-        amount = named_values(values, SourceText("mechanism", {(): 1}), si=self.data.get("units") == "SI").known[name]
-        unit = printed_dimension(amount.dimension)
-        shown = {"m": "mm", "rad": "deg", "a plain number": ""}.get(unit, unit)
-        return Parameter(name, float, amount.value, "value of the mechanism file", shown)
+        value, unit = value_of(self.data, name)
+        shown = {"m": "mm", "rad": "deg"}.get(unit, unit)
+        return Parameter(name, float, value, "value of the mechanism file", shown)
 
     def nominal(self, name: str) -> Value:
         """The value in the file [SI]."""
@@ -89,13 +84,8 @@ class MechanismTarget:
 
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """The results and checks of the mechanism in motion. Raises any IlmekError."""
-        units = {name: self._unit(name) for name in values}
-        texts = {name: f"{value!r} {units[name]}".strip() for name, value in values.items()}
-        found = analysis(run(mechanism_of_data(with_values(self.data, texts)), self.request))
+        found = analysis(run(mechanism_of_values(self.data, values), self.request))
         return numbers_of(mechanism_report(found, drawn=False))
-
-    def _unit(self, name: str) -> str:
-        return {"mm": "m", "deg": "rad"}.get(unit := self.parameter(name).unit, unit)
 
 
 StudyTarget = MachineTarget | MechanismTarget
