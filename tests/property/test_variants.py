@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from study_targets import FOUR_BAR
 
 from ilmek import four_bar, read_mechanism, slider_crank, solve
 from ilmek.dynamics.inverse_run import InverseRun, inverse_run
@@ -17,37 +18,6 @@ from ilmek.linkage.structure import plan
 from ilmek.linkage.transmission import transmission_angles
 
 TURN = np.linspace(0.0, 2 * np.pi, 37)
-
-FOUR_BAR = """
-name = "four-bar"
-gravity = "9.81m/s^2"
-
-[values]
-a = "60mm"
-b = "200mm"
-weight = "0.4kg"
-
-[bodies]
-ground.points = { A0 = [0, 0], B0 = ["300mm", 0] }
-crank = { length = "a", mass = "0.1kg" }
-coupler = { length = "b", mass = "0.3kg" }
-rocker = { length = "230mm", mass = "weight" }
-
-[joints]
-A0.pin = ["ground", "crank"]
-A.pin = ["crank", "coupler"]
-B.pin = ["coupler", "rocker"]
-B0.pin = ["ground", "rocker"]
-
-[inputs]
-A0 = "crank"
-
-[motions]
-A0 = "150rpm"
-
-[branches]
-B = 1
-"""
 
 LENGTHS = st.lists(st.floats(0.02, 0.3), min_size=1, max_size=6)
 

@@ -86,3 +86,36 @@ def bad_of(x: list[float]) -> Numbers:
     if x[0] < 0.5 and os.environ.get("ILMEK_STUDY_DIES"):
         os._exit(9)
     return _of({"f": x[0]}, ("limit", x[0], 0.8))
+
+
+FOUR_BAR = """
+name = "four-bar"
+gravity = "9.81m/s^2"
+
+[values]
+a = "60mm"
+b = "200mm"
+weight = "0.4kg"
+
+[bodies]
+ground.points = { A0 = [0, 0], B0 = ["300mm", 0] }
+crank = { length = "a", mass = "0.1kg" }
+coupler = { length = "b", mass = "0.3kg" }
+rocker = { length = "230mm", mass = "weight" }
+
+[joints]
+A0.pin = ["ground", "crank"]
+A.pin = ["crank", "coupler"]
+B.pin = ["coupler", "rocker"]
+B0.pin = ["ground", "rocker"]
+
+[inputs]
+A0 = "crank"
+
+[motions]
+A0 = "150rpm"
+
+[branches]
+B = 1
+"""
+"""A mechanism file with values."""

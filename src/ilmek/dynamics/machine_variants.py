@@ -21,12 +21,12 @@ from ilmek.linkage.status import Status
 from ilmek.linkage.structure import plan
 from ilmek.linkage.variants import (
     VariantResults,
-    check_wanted,
+    check_result_names,
     given_arrays,
     in_blocks,
     motion_result,
+    result_names,
     variant_motion,
-    wanted_of,
 )
 from ilmek.records import layout, with_fields
 from ilmek.units import turn as full_turn
@@ -69,8 +69,8 @@ class MachineVariants:
         samples = np.linspace(0.0, full_turn, turn) if values is None else np.atleast_1d(values).astype(float)
         if len(samples) > BLOCK:
             raise MechanismError(f"{len(samples)} samples", allowed=f"at most {BLOCK:,} of each variant")
-        moved = wanted_of(machine.mechanism)
-        check_wanted(want, (*moved, *self._loaded_names()))
+        moved = result_names(machine.mechanism)
+        check_result_names(want, (*moved, *self._loaded_names()))
         loaded = not set(want) <= set(moved)
         if loaded and (machine.frictions or machine.actuators):
             given = f"{machine.mechanism.name} has joint friction, or actuators"

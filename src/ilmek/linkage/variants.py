@@ -162,7 +162,7 @@ class Variants:
         group without a closed form.
         """
         samples = np.linspace(0.0, full_turn, turn) if values is None else np.atleast_1d(values).astype(float)
-        check_wanted(want, wanted_of(self.plan.mechanism))
+        check_result_names(want, result_names(self.plan.mechanism))
 
         def results(part: slice) -> Iterator[np.ndarray]:
             dimensions = {key: one[part] for key, one in self.dimensions.items()}
@@ -227,7 +227,7 @@ def in_blocks(results: Any, given: Mapping[str, np.ndarray], samples: int, block
     return [one.reshape(*shape, *one.shape[1:]) for one in joined]
 
 
-def wanted_of(mechanism: Mechanism) -> tuple[str, ...]:
+def result_names(mechanism: Mechanism) -> tuple[str, ...]:
     """The names of all results of its motion."""
     turning = (f"{body} {kind}" for body in mechanism.moving for kind in ROTATIONS)
     points = (f"{body}.{point}" for body in mechanism.moving for point in mechanism.body(body).points)
@@ -236,7 +236,7 @@ def wanted_of(mechanism: Mechanism) -> tuple[str, ...]:
     return (*turning, *moved, "transmission_angle_min", *angles)
 
 
-def check_wanted(want: Sequence[str], known: Sequence[str]) -> None:
+def check_result_names(want: Sequence[str], known: Sequence[str]) -> None:
     """Raise MechanismError for a name that is none of the known."""
     for name in want:
         if name not in known:
