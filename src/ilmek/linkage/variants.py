@@ -8,7 +8,7 @@ the shape (variants, 1): every formula of a motion broadcasts over them.
 ...     turn=73, want=["transmission_angle_min", "coupler.B x"]
 ... )
 >>> np.degrees(swept["transmission_angle_min"]).round(2), swept["coupler.B x"].shape
-(array([70.63, 67.23]), (2, 73))
+(array([70.7 , 66.49]), (2, 73))
 """
 
 from collections.abc import Iterator, Mapping, Sequence
