@@ -124,6 +124,14 @@ def value_record(cls: type[T]) -> type[T]:
     return made
 
 
+def with_fields(value: T, **changes: Any) -> T:
+    """A record with other fields, unchecked: they may be arrays in place of numbers."""
+    made = object.__new__(type(value))
+    for one in fields(value):  # type: ignore[arg-type]
+        object.__setattr__(made, one.name, changes.get(one.name, getattr(value, one.name)))
+    return made
+
+
 def brief(value: Any, names: Iterable[str] | None = None) -> str:
     """A record in one line: plain values as they are, arrays by type and shape, records and collections by size.
 

@@ -123,6 +123,54 @@ def test_front_of_zdt1_by_its_hypervolume(tmp_path: Path) -> None:
     assert volume <= exact + 1e-9
 
 
+def volume_below(costs: np.ndarray, corner: np.ndarray) -> float:
+    """Hypervolume between a front and a corner, by 2 * 10^5 brute samples of the box."""
+    samples = np.random.default_rng(0).uniform(0.0, corner, (200_000, len(corner)))
+    dominated = np.zeros(len(samples), dtype=bool)
+    for cost in costs:
+        dominated |= (samples >= cost).all(axis=1)
+    return float(dominated.mean() * np.prod(corner))
+
+
+def test_front_of_dtlz2_by_its_hypervolume(tmp_path: Path) -> None:
+    """Three goals: no design is inside the sphere, and the volume is near that outside of it, 1.1^3 - pi/6."""
+    variables = ranges(4, 0.0, 1.0)
+    recorder = recorded(tmp_path, "dtlz2", variables, ("f", "g", "h"))
+
+    def judge(points: FloatArray) -> tuple[np.ndarray, np.ndarray]:
+        return recorder(points).results, np.full((len(points), 1), np.nan)
+
+    evolve(variables, 3, judge, 3200, seed=1)
+    costs = recorder.file.designs().results
+    best = costs[front(costs)]
+    assert np.linalg.norm(costs, axis=1).min() >= 1 - 1e-12
+    exact = 1.1**3 - math.pi / 6
+    assert exact * 0.95 <= volume_below(best, np.full(3, 1.1)) <= exact * 1.003
+
+
+def test_front_of_mw1_by_its_hypervolume(tmp_path: Path) -> None:
+    """A front that a constraint cuts in pieces, against a dense sample of its line."""
+    variables = ranges(3, 0.0, 1.0)
+    recorder = recorded(tmp_path, "mw1", variables, ("f", "g"))
+
+    def judge(points: FloatArray) -> tuple[np.ndarray, np.ndarray]:
+        first = recorder.evaluations
+        rows = recorder(points)
+        return rows.results, recorder.file.margins(first, first + len(points))
+
+    evolve(variables, 2, judge, 3200, seed=1)
+    rows = recorder.file.designs()
+    costs = rows.results[rows.feasible]
+    best = costs[front(costs)]
+    f = np.linspace(0, 1, 2001)
+    line = np.column_stack([f, 1 - 0.85 * f])
+    wave = np.sin(2 * np.pi * math.sqrt(2) * (line[:, 1] - line[:, 0])) ** 8
+    exact = line[line.sum(axis=1) - 1 - 0.5 * wave <= 0]
+    corner = np.array([1.1, 1.1])
+    assert volume_below(best, corner) == pytest.approx(volume_below(exact, corner), rel=0.02)
+    assert ((best.sum(axis=1) - 1) <= 0.5 + 1e-9).all()
+
+
 def test_optimum_with_its_multiplier(tmp_path: Path) -> None:
     """Least x + y with x y >= 1: 2 at (1, 1); a limit relaxed by 1 % lowers it by 1 %: df/d(limit) = 1."""
     variables = ranges(2, 0.1, 4.0)
@@ -154,3 +202,29 @@ def test_optimum_of_whole_numbers_and_choices(tmp_path: Path) -> None:
     found = optimum(variables, judge, 400, seed=1)
     assert found.point is not None
     assert found.goal == pytest.approx(0.2**2 + 0.2**2)
+
+
+PUBLISHED = {
+    "truss": (((0.05, 1.0, False), (0.05, 1.0, False)), 263.8958434, 1e-6, 1200),
+    "spring": (((0.05, 0.2, False), (0.25, 1.3, False), (2.0, 15.0, False)), 0.0126652328, 1e-5, 4000),
+    "vessel": (((1, 30, True), (1, 30, True), (10.0, 100.0, False), (10.0, 200.0, False)), 6059.714335, 6e-3, 8000),
+}
+"""Problem -> ranges of its variables (whole or not), its published optimum, tolerance, number of designs."""
+
+
+@pytest.mark.parametrize("name", PUBLISHED)
+def test_published_optima_are_found(tmp_path: Path, name: str) -> None:
+    bounds, best, tolerance, count = PUBLISHED[name]
+    variables = tuple(
+        Variable(f"x{n}", "", low, high, (low + high) // 2 if whole else (low + high) / 2, whole=whole)
+        for n, (low, high, whole) in enumerate(bounds)
+    )
+    recorder = recorded(tmp_path, name, variables, ("f",))
+
+    def judge(points: FloatArray) -> tuple[np.ndarray, np.ndarray]:
+        first = recorder.evaluations
+        rows = recorder(points)
+        return rows.results[:, 0], recorder.file.margins(first, first + len(points))
+
+    found = optimum(variables, judge, count, seed=1)
+    assert best * (1 - 1e-6) <= found.goal <= best * (1 + tolerance)

@@ -58,6 +58,66 @@ def zdt1_of(x: list[float]) -> Numbers:
     return _of({"f": x[0], "g": g * (1 - math.sqrt(x[0] / g))})
 
 
+def dtlz2_of(x: list[float]) -> Numbers:
+    """DTLZ2 with three goals: the front is an eighth of the unit sphere [Deb, Thiele, Laumanns, Zitzler 2002]."""
+    radius = 1 + sum((v - 0.5) ** 2 for v in x[2:])
+    a, b = x[0] * math.pi / 2, x[1] * math.pi / 2
+    return _of(
+        {
+            "f": radius * math.cos(a) * math.cos(b),
+            "g": radius * math.cos(a) * math.sin(b),
+            "h": radius * math.sin(a),
+        }
+    )
+
+
+def mw1_of(x: list[float]) -> Numbers:
+    """MW1: a line of which a constraint leaves five pieces [Ma and Wang, IEEE Trans. Evol. Comput. 23 (2019) 972]."""
+    count = len(x)
+    g = 1.0
+    for number in range(1, count):
+        z = x[number] ** (count - 2 if count > 2 else 1)
+        g += 1 - math.exp(-10 * (z - 0.5 - number / (2 * count)) ** 2)
+    f, h = x[0], g * (1 - 0.85 * x[0] / g)
+    wave = math.sin(2 * math.pi * (math.sqrt(2) * h - math.sqrt(2) * f)) ** 8
+    return _of({"f": f, "g": h}, ("front", f + h - 1 - 0.5 * wave, 0.0))
+
+
+def truss_of(x: list[float]) -> Numbers:
+    """Three-bar truss of least volume: 263.8958434 at (0.78868, 0.40825) [Nowacki 1974; Ray and Saini 2001]."""
+    a, b, root = x[0], x[1], math.sqrt(2)
+    below = root * a * a + 2 * a * b
+    stresses = (2 * (root * a + b) / below, 2 * b / below, 2 / (a + root * b))
+    return _of({"f": (2 * root * a + b) * 100}, *((f"bar {n}", s, 2.0) for n, s in enumerate(stresses)))
+
+
+def spring_of(x: list[float]) -> Numbers:
+    """Spring of least weight: 0.0126652 at (0.05169, 0.35675, 11.287) [Belegundu 1982; Arora 1989]."""
+    d, mean, turns = x
+    shear = (4 * mean**2 - d * mean) / (12566 * (mean * d**3 - d**4)) + 1 / (5108 * d**2)
+    return _of(
+        {"f": (turns + 2) * mean * d**2},
+        ("deflection", -(mean**3) * turns / (71785 * d**4), -1.0),
+        ("shear", shear, 1.0),
+        ("surge", -140.45 * d / (mean**2 * turns), -1.0),
+        ("diameter", (mean + d) / 1.5, 1.0),
+    )
+
+
+def vessel_of(x: list[float]) -> Numbers:
+    """Pressure vessel of least cost, plates by sixteenths of an inch: 6059.714 [Sandgren 1990]."""
+    shell, head, radius, length = 0.0625 * x[0], 0.0625 * x[1], x[2], x[3]
+    cost = 0.6224 * shell * radius * length + 1.7781 * head * radius**2
+    cost += 3.1661 * shell**2 * length + 19.84 * shell**2 * radius
+    volume = math.pi * radius**2 * length + 4 / 3 * math.pi * radius**3
+    return _of(
+        {"f": cost},
+        ("shell", -shell, -0.0193 * radius),
+        ("head", -head, -0.00954 * radius),
+        ("volume", -volume, -1_296_000.0),
+    )
+
+
 def stack_of(x: list[float]) -> Numbers:
     """A chain of lengths: gap = a - b - c, which must not be negative."""
     return _of({"gap": x[0] - sum(x[1:])}, ("interference", -(x[0] - sum(x[1:])), 0.0))
@@ -86,3 +146,36 @@ def bad_of(x: list[float]) -> Numbers:
     if x[0] < 0.5 and os.environ.get("ILMEK_STUDY_DIES"):
         os._exit(9)
     return _of({"f": x[0]}, ("limit", x[0], 0.8))
+
+
+FOUR_BAR = """
+name = "four-bar"
+gravity = "9.81m/s^2"
+
+[values]
+a = "60mm"
+b = "200mm"
+weight = "0.4kg"
+
+[bodies]
+ground.points = { A0 = [0, 0], B0 = ["300mm", 0] }
+crank = { length = "a", mass = "0.1kg" }
+coupler = { length = "b", mass = "0.3kg" }
+rocker = { length = "230mm", mass = "weight" }
+
+[joints]
+A0.pin = ["ground", "crank"]
+A.pin = ["crank", "coupler"]
+B.pin = ["coupler", "rocker"]
+B0.pin = ["ground", "rocker"]
+
+[inputs]
+A0 = "crank"
+
+[motions]
+A0 = "150rpm"
+
+[branches]
+B = 1
+"""
+"""A mechanism file with values."""

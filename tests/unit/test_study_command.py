@@ -6,10 +6,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 from processes import ended, ilmek
+from study_targets import FOUR_BAR
 
 from ilmek.cli import main
 
 SWING = ("--vary", "swing=28deg..32deg")
+TOLERANCE = ("--vary", "swing=30deg+-0.2deg", "--method", "tolerance", "--record", "drive_torque_max")
 GOAL = ("--goal", "drive_torque_max")
 
 
@@ -31,6 +33,10 @@ def call(*words: str) -> Result:
         ((*SWING, "--resume"), "--out FILE.sqlite"),
         ((*SWING, "--set", "swing=30deg"), "varies and is set"),
         ((), "nothing varies"),
+        ((*SWING, *GOAL, "--yield", "99%"), "they are of --method tolerance"),
+        ((*TOLERANCE, "--yield", "120%"), "below 100%"),
+        ((*TOLERANCE, "--yield", "99%", "--cost", "swinge=2"), "did you mean 'swing'?"),
+        ((*TOLERANCE, "--correlate", "swing: beta"), 'write "NAME, NAME = 0.8"'),
     ],
 )
 def test_bad_words_are_one_error(words: tuple[str, ...], said: str) -> None:
@@ -99,3 +105,19 @@ def test_a_mechanism_varies_by_its_values() -> None:
     assert best["command"].endswith("examples/slider_crank_press.toml --set stroke=55mm")
     one = CliRunner().invoke(main, [*best["command"].split()[1:], "--json", "-"])
     assert json.loads(one.stdout)["results"]["drive_torque_rms"] == best["results"]["drive_torque_rms"]
+
+
+def test_tolerances_of_a_wanted_yield_are_found_and_proven(tmp_path: Path) -> None:
+    """The crank's tolerance costs twice and makes the torque spread: it alone is tightened."""
+    file = tmp_path / "four_bar.toml"
+    file.write_text(FOUR_BAR)
+    study = tmp_path / "study.toml"
+    study.write_text(
+        'target = "four_bar.toml"\nmethod = "tolerance"\nsamples = 16\nyield = "95%"\n'
+        'hold = ["drive_torque_max <= 0.3925 N*m"]\ncorrelate = ["a, b = 0.3"]\n'
+        '[vary]\na = "60mm+-0.5mm"\nb = "200mm+-1mm"\n[cost]\na = 2\n'
+    )
+    found = json.loads(CliRunner().invoke(main, ["study", str(study), "--json", "-"]).stdout)["results"]["allocation"]
+    assert found["factors"]["a"] < 1 < found["factors"]["b"]
+    assert found["expected"] == pytest.approx(0.95, abs=1e-6)
+    assert found["found"]["high"] >= 0.95

@@ -27,6 +27,9 @@ def study(
     sampling: str = "sobol",
     samples: int | None = None,
     seed: int = 0,
+    correlate: Sequence[str] = (),
+    yield_target: float = 0.0,
+    costs: Mapping[str, float] = MappingProxyType({}),
     file: str | Path | None = None,
     workers: int = 1,
     cluster: str | None = None,
@@ -40,6 +43,8 @@ def study(
     record    further results to keep                        fixed    settings that do not vary
     method    sweep, local, morris, sobol, tolerance, optimum
     sampling  sobol, latin, grid                             samples  number of designs; default: by the method
+    correlate  correlations of tolerances, "a, b = 0.8"
+    yield_target  find the tolerances of least cost for it [1]     costs  variable -> relative cost of its tolerance
     file      results file (SQLite); designs that it has are not computed again; default: none is kept
     workers   processes                                      cluster  address of a Dask scheduler
     The results are arrays: `values(name)`, `table()`, `frame()`, `rows.feasible`, `front`. Raises ParameterError for
@@ -62,6 +67,9 @@ def study(
         sampling=given.text("sampling", sampling),
         samples=None if samples is None else given.whole("samples", samples, least=1),
         seed=given.whole("seed", seed, least=0),
+        correlate=given.sequence("correlate", correlate, str),
+        yield_target=given.number("yield_target", yield_target),
+        costs=given.mapping("costs", costs, given.number),
     )
     kept = None if file is None else given.path("file", file)
     address = None if cluster is None else given.text("cluster", cluster)

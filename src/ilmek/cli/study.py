@@ -14,7 +14,7 @@ from ilmek.cli.terminal import note, say
 from ilmek.cli.verdict import exit_code, note_verdict
 from ilmek.errors import OutputError, ParameterError
 from ilmek.io.table_csv import csv_text
-from ilmek.jobs.study.order import METHODS, StudyOrder, study_file
+from ilmek.jobs.study.order import METHODS, StudyOrder, read_costs, read_yield, study_file
 from ilmek.jobs.study.report import study_report
 from ilmek.jobs.study.run import study
 from ilmek.studies.samples import SAMPLINGS
@@ -25,6 +25,8 @@ Examples:
   ilmek study beat-up --vary swing=20deg..40deg --vary speed=10..20rad/s --goal drive_torque_max
   ilmek study beat-up --vary swing=20deg..40deg --vary beta=30deg..70deg --method sobol --record drive_torque_max
   ilmek study beat-up --vary swing=30deg+-0.2deg --method tolerance --record drive_torque_max
+  ilmek study press.toml --vary "r=30mm+-0.1mm" --vary "l=140mm+-0.2mm" --method tolerance --yield 99% --cost r=2 \\
+      --hold "drive_torque_rms <= 8.2N*m"
   ilmek study crane.toml --vary l2=80mm..120mm --goal drive_torque_rms --hold "transmission_angle_min >= 40deg"
   ilmek study beat-up --vary swing=20deg..40deg --vary beta=30deg..70deg --method optimum \\
       --goal drive_torque_max --goal "most beater_stroke" --out front.sqlite --report front.html
@@ -52,6 +54,11 @@ follow: uniform, normal, triangular).
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed of all random numbers.")
 @click.option("--over", default="", metavar="FROM..TO", help="Range of a mechanism's driving input.")
 @click.option("--speed", default="", metavar="SPEED", help="Its speed.")
+@click.option("--correlate", multiple=True, metavar="'A, B = R'", help="Correlation of two tolerances.")
+@click.option(
+    "--yield", "yield_target", default="", metavar="SHARE", help="Find the tolerances of least cost for a yield."
+)
+@click.option("--cost", "costs", multiple=True, metavar="NAME=COST", help="Cost of a present tolerance; default 1.")
 @click.option("--workers", type=click.IntRange(1), default=1, show_default=True, help="Processes.")
 @text_option("--cluster", "ADDRESS", "Evaluate on a Dask cluster (extra cluster), like tcp://host:8786.")
 @text_option("--time-limit", "TIME", "Longest time of a design, like 30s; a longer one is a row with that reason.")
@@ -115,7 +122,8 @@ def _order(
         for name, value in words.items()
         if context.get_parameter_source(name) is not click.core.ParameterSource.DEFAULT
     }
-    usual = {"goals": data.get("goals", ()), "holds": data.get("hold", ()), "recorded": data.get("record", ())}
+    named = {"goals": "goals", "holds": "hold", "recorded": "record", "yield_target": "yield", "costs": "cost"}
+    usual = {name: data[key] for name, key in named.items() if key in data}
     stated = {**words, **usual, **{key: data[key] for key in words.keys() & data.keys()}, **given}
     return StudyOrder(
         data.get("target", target),
@@ -131,6 +139,9 @@ def _order(
         time_limit=0.0 if limit is None else parse_quantity(limit, "s"),
         over=stated["over"],
         speed=stated["speed"],
+        correlate=tuple(stated["correlate"]),
+        yield_target=read_yield(stated["yield_target"]) if stated["yield_target"] else 0.0,
+        costs=read_costs(stated["costs"]),
     )
 
 

@@ -40,7 +40,7 @@ def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j
     motion    with accelerations      inertias  body -> inertia [kg, m, kg m²]; a body that is not listed is massless
     about     reference point O [m]; default: the ground's origin
     """
-    force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
+    force, moment = np.zeros(motion.status.shape, complex), np.zeros(motion.status.shape)
     with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
         for body, inertia in inertias.items():
             centre = attached(motion, body, inertia.centre)
@@ -56,7 +56,7 @@ def on_frame(forces: Forces, about: complex = 0j) -> Shaking:
     forces  from `inverse`      about  reference point O [m]; default: the ground's origin
     """
     motion = forces.motion
-    force, moment = np.zeros(len(motion), complex), np.zeros(len(motion))
+    force, moment = np.zeros(motion.status.shape, complex), np.zeros(motion.status.shape)
     for name, joint in pose_block(motion, {}).joints.items():
         if GROUND in (joint.on, joint.by):
             sign = 1.0 if joint.on == GROUND else -1.0

@@ -264,7 +264,7 @@ def joint_rate(motion: Motion, name: str) -> FloatArray:
 
 def _empty_forces(motion: Motion, joint_frictions: Sequence[JointFriction], actuators: Sequence[str]) -> Forces:
     """Forces with arrays still to be filled."""
-    mechanism, samples = motion.plan.mechanism, len(motion)
+    mechanism, samples = motion.plan.mechanism, motion.status.shape
     joined = (*mechanism.joints, *mechanism.couplings)
     return Forces(
         motion,

@@ -10,6 +10,7 @@ the whole compares the force on the frame, summed over joints and drives, with l
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import MASSLESS, Forces, inverse, joint_rate
 from ilmek.dynamics.loads import Gravity, Load
 from ilmek.dynamics.own_machine import OwnMachine
+from ilmek.dynamics.pose_block import characteristic_length
 from ilmek.linkage.model import GROUND, Pin
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.status import Status
@@ -87,7 +89,7 @@ class InverseRun:
         if kind == "peak":
             return greatest(effort)
         value = rms(effort, self.time) if kind == "rms" else mean(effort, self.time)
-        return 0.0 if abs(value) <= ROUNDING * greatest(effort) else value
+        return _plain(np.where(np.abs(value) <= ROUNDING * greatest(effort), 0.0, value))
 
     @computed("N", "greatest force of each pin", shown=False)
     def pin_forces_max(self) -> dict[str, float]:
@@ -132,11 +134,12 @@ class InverseRun:
             return None
         if self.time is None:
             drive = self.forces.motion.drives.get(str(self.driver))
-            return None if drive is None else float(np.trapezoid(self.effort, np.asarray(drive.value)))
+            return None if drive is None else _plain(np.trapezoid(self.effort, np.asarray(drive.value)))
         power = self.effort * self.forces.rate(str(self.driver))
         # Samples may run against time: over a descending range, or at a negative speed.
-        work = float(np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time))
-        return 0.0 if abs(work) < NO_WORK * abs(float(np.trapezoid(np.abs(power), self.time))) else work
+        work = np.sign(self.time[-1] - self.time[0]) * np.trapezoid(power, self.time)
+        small = np.abs(work) < NO_WORK * np.abs(np.trapezoid(np.abs(power), self.time))
+        return _plain(np.where(small, 0.0, work))
 
     @computed("W", "greatest power of the drives", optional=True)
     def drive_power_max(self) -> float | None:
@@ -189,7 +192,7 @@ def friction_power(forces: Forces) -> FloatArray | None:
     """Power lost to the friction of joints [W], one value per sample; None without friction."""
     if not forces.frictions:
         return None
-    total = np.zeros(len(forces.motion))
+    total = np.zeros(forces.motion.status.shape)
     for name, effort in forces.frictions.items():
         total = total - effort * joint_rate(forces.motion, name)
     return total
@@ -213,7 +216,7 @@ def _misfit(
                     size, turn_size = size + np.abs(wrench.force), turn_size + np.abs(turning)
         for force_of_joint, _ in forces.acting.values():
             size = size + np.abs(force_of_joint)
-        reach = max(abs(point) for body in mechanism.bodies for point in body.points.values()) or 1.0
+        reach = characteristic_length(mechanism)
         sizes = np.array([greatest(size), greatest(turn_size) + reach * greatest(size)])
         gaps = np.array([greatest(frame.force - force), greatest(frame.moment - moment)])
     usable = np.isfinite(gaps) & np.isfinite(sizes) & (sizes > 0)
@@ -221,14 +224,13 @@ def _misfit(
 
 
 def greatest(values: np.ndarray) -> float:
-    """Greatest magnitude of the finite samples; NaN without any.
+    """Greatest magnitude of the finite samples; NaN without any. Of several variants, as all of these, one of each.
 
     >>> greatest(np.array([1.0, -3.0, np.nan]))
     3.0
     """
     size = np.abs(values)
-    usable = size[np.isfinite(size)]
-    return float(usable.max()) if usable.size else float("nan")
+    return _plain(np.fmax.reduce(np.where(np.isfinite(size), size, np.nan), axis=-1, initial=np.nan))
 
 
 def mean(values: FloatArray, time: FloatArray | None) -> float:
@@ -238,11 +240,18 @@ def mean(values: FloatArray, time: FloatArray | None) -> float:
     1.0
     """
     usable = np.isfinite(values)
-    if time is None or not usable.all() or len(values) < 2:
-        return float(np.mean(values[usable])) if usable.any() else float("nan")
-    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+    if time is not None and usable.all() and values.shape[-1] > 1:
+        return _plain(np.trapezoid(values, time) / (time[-1] - time[0]))
+    if values.ndim > 1:
+        return np.array([mean(row, time) for row in values])  # type: ignore[return-value]
+    return float(np.mean(values[usable])) if usable.any() else float("nan")
 
 
 def rms(values: FloatArray, time: FloatArray | None) -> float:
     """Root mean square over time; see `mean`."""
-    return float(np.sqrt(mean(values**2, time)))
+    return _plain(np.sqrt(mean(values**2, time)))
+
+
+def _plain(value: Any) -> float:
+    """A number of one mechanism as such; of several variants the array."""
+    return value if np.ndim(value) else float(value)

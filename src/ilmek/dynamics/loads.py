@@ -98,10 +98,16 @@ def sampled(law: Any, motion: Motion, body: str) -> Any:
     motion.plan.mechanism.body(body)
     values = law(motion) if callable(law) else law
     array = np.asarray(values)
-    if array.dtype.kind not in "iufc" or array.shape not in {(), (1,), (len(motion),)}:
+    if array.dtype.kind not in "iufc" or not _fits(array.shape, motion.status.shape):
         allowed = f"a number, or one for each of the {len(motion)} samples"
         raise MechanismError(f"the load on {body!r} is {shown_value(values)}", allowed=allowed)
     return values
+
+
+def _fits(shape: tuple[int, ...], samples: tuple[int, ...]) -> bool:
+    """Whether an array is one number, one a sample, or one a variant."""
+    own = (1,) * (len(samples) - len(shape)) + shape
+    return len(own) == len(samples) and all(n in (1, m) for n, m in zip(own, samples, strict=True))
 
 
 @record

@@ -101,13 +101,14 @@ class PoseBlock:
     joints: Mapping[str, JointPoses]
     length: float
     actuators: tuple[str, ...] = ()
-    point_motions: dict[tuple[str, complex], PointMotion] = field(default_factory=dict)
+    point_motions: dict[tuple[str, complex | bytes], PointMotion] = field(default_factory=dict)
 
     def point_motion(self, body: str, local: complex) -> PointMotion:
         """Motion of the point at `local` [m] in a body's frame; computed once."""
-        if (body, local) not in self.point_motions:
-            self.point_motions[body, local] = self.bodies[body].carry(local)
-        return self.point_motions[body, local]
+        key = body, _hashable(local)
+        if key not in self.point_motions:
+            self.point_motions[key] = self.bodies[body].carry(local)
+        return self.point_motions[key]
 
     @property
     def drivers(self) -> dict[str, JointPoses]:
@@ -126,6 +127,11 @@ class PoseBlock:
         if joint.line is None:
             return self.bodies[joint.on].omega - self.bodies[joint.by].omega
         return dot(joint.line, self.velocity(joint.on, joint.at) - self.velocity(joint.by, joint.at))
+
+
+def _hashable(local: Any) -> complex | bytes:
+    """A point as a key: of several variants its bytes."""
+    return local.tobytes() if isinstance(local, np.ndarray) else local
 
 
 def pose_block(motion: Motion, inertias: Mapping[str, Inertia], actuators: tuple[str, ...] = ()) -> PoseBlock:
@@ -153,7 +159,7 @@ def _poses(motion: Motion, inertias: Mapping[str, Inertia], actuators: tuple[str
         | {coupling.name: _coupling_poses(mechanism, coupling, bodies) for coupling in mechanism.couplings},
         characteristic_length(mechanism),
         actuators,
-        {(body, inertias[body].centre): centre for body, centre in centres.items()},
+        {(body, _hashable(inertias[body].centre)): centre for body, centre in centres.items()},
     )
 
 
@@ -246,7 +252,9 @@ def receiver(joint: Joint) -> str:
 
 def characteristic_length(mechanism: Mechanism) -> float:
     """Greatest distance of a joint from its body's origin [m]; 1 where all distances are 0."""
-    return max((abs(point) for body in mechanism.bodies for point in body.points.values()), default=1.0) or 1.0
+    return (
+        max((float(np.max(np.abs(p))) for body in mechanism.bodies for p in body.points.values()), default=1.0) or 1.0
+    )
 
 
 def part_of(motion: Motion, part: slice) -> Motion:

@@ -31,15 +31,17 @@ every name, every order.
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.own_machine import OwnMachine
 from ilmek.errors import MechanismError, did_you_mean
 from ilmek.io.data_text import DataText, parse_data, plain_data, read_data
 from ilmek.io.declared import EntryReader
+from ilmek.io.mechanism.expressions import printed_dimension
 from ilmek.io.mechanism.machine import FILE, machine_data, machine_of
 from ilmek.io.mechanism.values import named_values
 from ilmek.io.output import write_file
@@ -49,17 +51,21 @@ from ilmek.linkage.model import Mechanism
 from ilmek.linkage.structure import Plan, plan
 from ilmek.records import JsonObject, brief
 
+if TYPE_CHECKING:
+    from ilmek.dynamics.machine_variants import MachineVariants
+
 
 @dataclass(frozen=True, slots=True)
 class MechanismFile:
     """Contents of a file: the mechanism with its masses, loads, drive, members and task.
 
-    text  of a TOML file, with its comments; "" for JSON
+    text  of a TOML file, with its comments; "" for JSON      data  plain, as read; empty for a machine made in Python
     """
 
     machine: OwnMachine
     source: SourceText = field(default_factory=lambda: SourceText("mechanism", {(): 1}), compare=False, repr=False)
     text: str = field(default="", compare=False, repr=False)
+    data: Mapping[str, Any] = field(default_factory=dict, compare=False, repr=False)
 
     def __hash__(self) -> int:
         return hash((self.mechanism, tuple(self.inertias)))
@@ -76,6 +82,20 @@ class MechanismFile:
 
     def __repr__(self) -> str:
         return brief(self)
+
+    def vary(self, **values: Any) -> "MachineVariants":
+        """Variants of it: entries of the file's table `values` as arrays [SI], which broadcast.
+
+        Raises MechanismError for a name that the file does not have, and for a variant that cannot be read.
+        """
+        varied = import_module("ilmek.dynamics.machine_variants").varied_machines  # the compiler
+        units = {name: value_of(self.data, name)[1] for name in values}
+
+        def machine(row: Mapping[str, float]) -> OwnMachine:
+            return _read(DataText(with_values(self.data, stated(row, units)), {}, ""), "mechanism").machine
+
+        variants: MachineVariants = varied(values, units, machine)
+        return variants
 
     def plan(self) -> Plan:
         """The mechanism's plan. Raises MechanismError with the file, the line and the key if it cannot be solved."""
@@ -104,6 +124,24 @@ def with_values(data: Any, values: Mapping[str, object]) -> dict[str, Any]:
     return {**data, "values": {**known, **values}}
 
 
+def value_of(data: Any, name: str) -> tuple[float, str]:
+    """An entry of the table `values` [SI] and its SI unit. Raises MechanismError, naming the nearest."""
+    values = with_values(data, {name: data.get("values", {}).get(name)})["values"]
+    amount = named_values(values, SourceText("mechanism", {(): 1}), si=data.get("units") == "SI").known[name]
+    unit = printed_dimension(amount.dimension)
+    return amount.value, "" if unit == "a plain number" else unit
+
+
+def mechanism_of_values(data: Any, values: Mapping[str, object]) -> MechanismFile:
+    """The mechanism of plain data with other values [SI]. Raises MechanismError with the key."""
+    return mechanism_of_data(with_values(data, stated(values, {name: value_of(data, name)[1] for name in values})))
+
+
+def stated(values: Mapping[str, object], units: Mapping[str, str]) -> dict[str, str]:
+    """Values [SI] as texts with their units."""
+    return {name: f"{value!r} {units[name]}".strip() for name, value in values.items()}
+
+
 def parse_mechanism(text: str, *, name: str = "mechanism", toml: bool = True) -> MechanismFile:
     """The mechanism of a TOML or JSON text; messages call it `name`. Raises as `read_mechanism`."""
     return _read(parse_data(text, name=name, toml=toml, error=MechanismError), name)
@@ -119,14 +157,14 @@ def mechanism_of_data(data: Mapping[str, object]) -> MechanismFile:
 
 def _read(text: DataText, name: str) -> MechanismFile:
     source = SourceText(name, text.lines)
-    data = text.data
+    data = whole = text.data
     if isinstance(data, Mapping):
         values = named_values(data.get("values", {}), source, si=data.get("units") == "SI")
         data = {key: value for key, value in data.items() if key != "values"}
     else:
         values = named_values({}, source, si=False)
     checked = FILE.read(data, EntryReader(source, values.quantity))
-    return MechanismFile(machine_of(checked, source), source, text.text)
+    return MechanismFile(machine_of(checked, source), source, text.text, whole)
 
 
 def schema() -> JsonObject:

@@ -56,7 +56,8 @@ class BodyMotion:
     def carry(self, local: complex, further: complex = 0j) -> PointMotion:
         """Motion of the point `further` from `local` [m] in the body's frame."""
         arm = (local - self.at) + further  # in this order: both may be small, and `local` large
-        return self.anchor if arm == 0 else self.reach(self.direction * arm)
+        still = isinstance(arm, complex) and arm == 0  # an array has one arm for each variant
+        return self.anchor if still else self.reach(self.direction * arm)
 
     def reach(self, arm: ComplexField) -> PointMotion:
         """Motion of the body's point at `arm` [m] from the anchor, in world directions."""

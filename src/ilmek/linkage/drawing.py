@@ -61,12 +61,15 @@ def as_drawn(mechanism: Mechanism) -> Mechanism:
 def branches_as_drawn(mechanism: Mechanism) -> dict[str, int]:
     """Joint -> branch that the drawing shows, of the groups that can be solved; others are left out."""
     names = [joint.name for joint in mechanism.joints]
-    above, below = (solvable_steps(replace(mechanism, branches=dict.fromkeys(names, sign)))[0] for sign in (+1, -1))
-    bodies, size = bodies_in_pose(mechanism), _size(mechanism)
-    drawn = {step.bodies for step in _drawn_steps(mechanism, above)}
+    above, _ = solvable_steps(replace(mechanism, branches=dict.fromkeys(names, +1)))
+    drawn = {step.bodies for step in _drawn_steps(mechanism, above) if step.free}
     signs: dict[str, int] = {}
+    if not drawn:
+        return signs
+    below, _ = solvable_steps(replace(mechanism, branches=dict.fromkeys(names, -1)))
+    bodies, size = bodies_in_pose(mechanism), _size(mechanism)
     for first, second in zip(above, below, strict=True):
-        if first.free and first.bodies in drawn:
+        if first.bodies in drawn:
             gaps = [_distance(mechanism, step, bodies, size) for step in (first, second)]
             if max(gaps) > max(CLEARER * min(gaps), LEAST * size) and min(gaps) < np.inf:
                 signs[first.free] = +1 if gaps[0] < gaps[1] else -1

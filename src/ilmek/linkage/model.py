@@ -14,7 +14,9 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Protocol, TypeAlias, TypeVar
+from importlib import import_module
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from ilmek.arguments import Arguments
 from ilmek.arrays import RealField
@@ -24,6 +26,9 @@ from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.records import brief, shown_value
 from ilmek.report.shown import Shown
 from ilmek.units import deg
+
+if TYPE_CHECKING:
+    from ilmek.linkage.variants import Variants
 
 __all__ = [
     "GROUND",
@@ -238,11 +243,16 @@ class Mechanism(Shown):
         """A body's point in the body's frame [m]."""
         points = self.body(body).points
         if not isinstance(point, str) or point not in points:
-            known = ", ".join(points) or "none"
-            raise MechanismError(
-                f"body {body!r} of {self.name} has no point {shown_value(point)}", allowed=f"it has {known}"
-            )
+            given = f"body {body!r} of {self.name} has no point {shown_value(point)}"
+            raise MechanismError(given, allowed=f"it has {', '.join(points) or 'none'}")
         return points[point]
+
+    def vary(self, points: Mapping[str, Any] = MappingProxyType({}), **lengths: Any) -> "Variants":
+        """Variants of it: link -> lengths between its two joints [m]; points: "BODY.POINT" -> positions [m], complex.
+
+        The arrays broadcast. Raises MechanismError for unknown names and for lengths that are not above 0.
+        """
+        return import_module("ilmek.linkage.variants").varied(self, points, lengths)  # type: ignore[no-any-return]
 
     @property
     def moving(self) -> tuple[str, ...]:

@@ -1,9 +1,9 @@
 """The best design: a global search with the checks as constraints, then SLSQP with multipliers.
 
 The search is differential evolution with constraints (Lampinen 2002) over the variables in the unit cube, whole numbers
-and choices by rounding; it stops when its population agrees to `TOLERANCE`, or when the designs are spent. Where all
-variables are real numbers SLSQP goes on from its best, with differences of the checks that bind; its multipliers state
-what a limit costs. A result is taken only if it is better and every check of it holds.
+and choices by rounding; it stops when its population agrees to `TOLERANCE`, or when the designs are spent. Over the
+variables that are real numbers SLSQP goes on from its best, with differences of the checks that bind; its multipliers
+state what a limit costs. A result is taken only if it is better and every check of it holds.
 """
 
 from collections.abc import Callable
@@ -18,8 +18,8 @@ from ilmek.studies.variable import Variable
 TOLERANCE = 1e-6
 """Spread of the goal over the population, relative to its mean, at which the search stops."""
 
-MEMBERS = 8
-"""Members of the population for each variable, at least 16 in all."""
+MEMBERS, GENERATIONS = 8, 64
+"""Members of the population for each variable, at least 16 in all; more where that leaves so many generations."""
 
 POLISH = 30
 """Largest number of steps of SLSQP."""
@@ -59,7 +59,7 @@ def violation(margins: Float[np.ndarray, "n checks"], made: np.ndarray) -> Float
 def optimum(variables: tuple[Variable, ...], judge: Judge, count: int, seed: int) -> Optimum:
     """The design of least goal of which every check holds, from at most `count` designs and those of SLSQP."""
     cube = _Cube(variables, judge)
-    size = max(16, MEMBERS * len(variables))
+    size = max(16, MEMBERS * len(variables), count // GENERATIONS)
     generations = max(count // size - 1, 1)
     start = cube.unit(np.array([v.nominal for v in variables]))
     found = differential_evolution(
@@ -80,8 +80,9 @@ def optimum(variables: tuple[Variable, ...], judge: Judge, count: int, seed: int
     if best is None:
         return Optimum(None, np.nan, {}, stopped)
     multipliers: dict[int, float] = {}
-    if all(variable.continuous for variable in variables):
-        multipliers = _polish(cube, best)
+    real = np.array([variable.continuous for variable in variables])
+    if real.any():
+        multipliers = _polish(cube, best, real)
         stopped += ", then SLSQP"
         best = cube.best()
         assert best is not None
@@ -138,8 +139,8 @@ class _Cube:
         return float(self.judged(point[None])[0][0])
 
 
-def _polish(cube: _Cube, start: np.ndarray) -> dict[int, float]:
-    """SLSQP from a point of which every check holds; the multipliers of its checks.
+def _polish(cube: _Cube, start: np.ndarray, real: np.ndarray) -> dict[int, float]:
+    """SLSQP over the real variables from a point of which every check holds; the multipliers of its checks.
 
     Every point that it tries is remembered, so that the best that holds is never worse than the start.
     """
@@ -147,21 +148,27 @@ def _polish(cube: _Cube, start: np.ndarray) -> dict[int, float]:
     kept = np.flatnonzero(np.isfinite(margins[0]))
     scale = abs(float(goal[0])) or 1.0
 
+    def judged(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Goals and margins of points of the real variables, a row each."""
+        whole = np.tile(start, (len(x), 1))
+        whole[:, real] = x
+        return cube.judged(whole)[:2]
+
     def differences(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         step = np.where(x + STEP <= 1.0, STEP, -STEP)
-        goals, around, _ = cube.judged(np.vstack([x, x + np.diag(step)]))
+        goals, around = judged(np.vstack([x, x + np.diag(step)]))
         around = np.nan_to_num(around[:, kept], nan=-1.0, neginf=-1e6)
         return (goals[1:] - goals[0]) / step / scale, ((around[1:] - around[0]) / step[:, None]).T
 
     def limits(x: np.ndarray) -> np.ndarray:
-        return np.asarray(np.nan_to_num(cube.judged(x[None])[1][0, kept], nan=-1.0, neginf=-1e6))
+        return np.asarray(np.nan_to_num(judged(x[None])[1][0, kept], nan=-1.0, neginf=-1e6))
 
     found = minimize(
-        lambda x: float(np.nan_to_num(cube.judged(x[None])[0][0], nan=HOPELESS)) / scale,
-        start,
+        lambda x: float(np.nan_to_num(judged(x[None])[0][0], nan=HOPELESS)) / scale,
+        start[real],
         jac=lambda x: np.nan_to_num(differences(x)[0]),
         method="SLSQP",
-        bounds=[(0.0, 1.0)] * len(start),
+        bounds=[(0.0, 1.0)] * int(real.sum()),
         constraints={"type": "ineq", "fun": limits, "jac": lambda x: np.nan_to_num(differences(x)[1])},
         options={"maxiter": POLISH},
     )

@@ -1,23 +1,33 @@
 """Designs of a sweep: Sobol' sequence, Latin hypercube, grid; each from a seed."""
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
-from scipy.stats import qmc
+from scipy.stats import norm, qmc
 
 from ilmek.arrays import Float
-from ilmek.errors import ParameterError
+from ilmek.errors import ParameterError, did_you_mean
 from ilmek.studies.variable import Variable
 
 SAMPLINGS = ("sobol", "latin", "grid")
 """Sobol' sequence, scrambled; Latin hypercube; grid of equal steps."""
 
+TINY = 1e-15
+"""Least share of probability of a design."""
+
 MOST_DESIGNS = 10_000_000
 """Largest number of designs of a study."""
 
 
-def sampled(variables: tuple[Variable, ...], sampling: str, count: int, seed: int) -> Float[np.ndarray, "n variables"]:
-    """Values of the designs [SI], a row a design.
+def sampled(
+    variables: tuple[Variable, ...],
+    sampling: str,
+    count: int,
+    seed: int,
+    correlation: Float[np.ndarray, "v v"] | None = None,
+) -> Float[np.ndarray, "n variables"]:
+    """Values of the designs [SI], a row a design; correlated by a normal copula.
 
     grid: the largest number of equal steps of every variable whose grid has at most `count` designs, at least two;
     choices are all taken. Raises ParameterError for a number of designs out of bounds.
@@ -30,7 +40,34 @@ def sampled(variables: tuple[Variable, ...], sampling: str, count: int, seed: in
         unit = qmc.Sobol(len(variables), rng=seed).random_base2(math.ceil(math.log2(count)))[:count]
     else:
         unit = qmc.LatinHypercube(len(variables), rng=seed).random(count)
+    if correlation is not None:
+        inside = np.clip(unit, TINY, 1 - TINY)  # the ends of a normal distribution are infinite
+        unit = norm.cdf(norm.ppf(inside) @ np.linalg.cholesky(correlation).T)
     return np.column_stack([variable.at(unit[:, number]) for number, variable in enumerate(variables)])
+
+
+def correlation_of(
+    variables: tuple[Variable, ...], pairs: Mapping[tuple[str, str], float]
+) -> Float[np.ndarray, "v v"] | None:
+    """The matrix of correlations by pairs of names; None without any.
+
+    Raises ParameterError for a name that does not vary, and for numbers that contradict one another.
+    """
+    if not pairs:
+        return None
+    names = [variable.name for variable in variables]
+    matrix = np.eye(len(names))
+    for (first, second), value in pairs.items():
+        for name in (first, second):
+            if name not in names:
+                raise ParameterError(f"correlation of {name!r}, which does not vary", do=did_you_mean(name, names))
+        if first == second or not -1 < value < 1:
+            raise ParameterError(f"correlation of {first} and {second}: {value:g}", allowed="two names, -1 < r < 1")
+        row, column = names.index(first), names.index(second)
+        matrix[row, column] = matrix[column, row] = value
+    if np.linalg.eigvalsh(matrix)[0] <= 0:
+        raise ParameterError("the correlations contradict one another", allowed="a positive definite matrix")
+    return matrix
 
 
 def _grid(variables: tuple[Variable, ...], count: int) -> Float[np.ndarray, "n variables"]:

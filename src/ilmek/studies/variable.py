@@ -53,6 +53,16 @@ class Variable:
             return np.asarray(stats.norm.ppf(share, self.low + half, half / SIGMAS))
         return np.asarray(stats.triang.ppf(share, (self.nominal - self.low) / length, self.low, length))
 
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of the distribution [SI]; of choices of their numbers."""
+        length = self.high - self.low
+        if not self.continuous:
+            return float(np.sqrt(((length + 1) ** 2 - 1) / 12))
+        if self.spread == TRIANGULAR:
+            return float(stats.triang.std((self.nominal - self.low) / length, 0.0, length))
+        return length / (2 * SIGMAS) if self.spread == NORMAL else length / float(np.sqrt(12.0))
+
     def across(self, share: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
         """Values [SI] at shares of the range, whatever the distribution."""
         if self.continuous:

@@ -13,6 +13,7 @@ import math
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from ilmek.errors import UnitError, did_you_mean, shortened
@@ -71,6 +72,7 @@ def names_in(text: str) -> set[str]:
     return {token for kind, token in _tokens(text[: LONGEST_EXPRESSION + 1]) if kind == "name"}
 
 
+@lru_cache(maxsize=1024)
 def is_unit(name: str) -> bool:
     """Whether a name is the symbol of a unit."""
     try:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import field
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from ilmek.records import record
 from ilmek.studies.outcome import Hold, result_named
 from ilmek.studies.samples import SAMPLINGS
 from ilmek.studies.variable import NORMAL, TRIANGULAR, UNIFORM, Variable
-from ilmek.units import parse_quantity
+from ilmek.units import parse_quantity, read_number
 
 METHODS = ("sweep", "local", "morris", "sobol", "tolerance", "optimum")
 """Sweep; derivatives; elementary effects; variance-based indices; random parts; the best design, or a front."""
@@ -25,6 +26,7 @@ SAMPLES = {"sweep": 256, "local": 0, "morris": 256, "sobol": 1024, "tolerance": 
 _PLUS_MINUS = re.compile(r"\s*(?:\+-|\+/-|±)\s*")
 _CLASS = re.compile(r"(.+?)\s+([A-Za-z]{1,2}\d{1,2})$")
 _HOLD = re.compile(r"\s*([\w.\-]+)\s*(<=|>=)\s*(.+?)\s*$")
+_PAIR = re.compile(r"\s*([\w.\-]+)\s*,\s*([\w.\-]+)\s*=\s*(\S+)\s*")
 _SPREAD = re.compile(rf"(.+?)\s+({UNIFORM}|{NORMAL}|{TRIANGULAR})$")
 
 
@@ -35,6 +37,8 @@ class StudyOrder:
     target   machine, machine file or mechanism file       fixed   settings that do not vary
     vary     name -> range, values or tolerance            goals   results, `most` before one that is to be large
     holds    limits of results                             record  further results that the file has
+    correlate  pairs of variables, "a, b = 0.8"            yield_target  yield for which tolerances are found; 0: none
+    costs    variable -> cost of its present tolerance, relative to the others
     """
 
     target: str
@@ -50,6 +54,9 @@ class StudyOrder:
     time_limit: float = 0.0
     over: str = ""
     speed: str = ""
+    correlate: tuple[str, ...] = ()
+    yield_target: float = 0.0
+    costs: Mapping[str, float] = field(default_factory=dict)
 
 
 @record
@@ -129,6 +136,39 @@ def _tolerance(parameter: Parameter, text: str) -> float:
     return half
 
 
+def read_correlations(texts: Sequence[str]) -> dict[tuple[str, str], float]:
+    """Correlations by pairs of names, from texts like `a, b = 0.8`. Raises ParameterError."""
+    found = {}
+    for text in texts:
+        parts = _PAIR.fullmatch(text)
+        number = None if parts is None else read_number(parts.group(3))
+        if parts is None or number is None:
+            raise ParameterError(f"correlation {text!r} cannot be read", do='write "NAME, NAME = 0.8"')
+        found[parts.group(1), parts.group(2)] = number
+    return found
+
+
+def read_costs(texts: Mapping[str, object] | Sequence[str]) -> dict[str, float]:
+    """Costs by variable, from a table or from texts `NAME=COST`. Raises ParameterError."""
+    pairs = texts.items() if isinstance(texts, Mapping) else (text.partition("=")[::2] for text in texts)
+    found = {}
+    for name, cost in pairs:
+        number = read_number(str(cost))
+        if number is None:
+            raise ParameterError(f"--cost {name}={cost} is no number", do="write NAME=COST, like crank=2")
+        found[name.strip()] = number
+    return found
+
+
+def read_yield(text: str) -> float:
+    """A yield, `99%` or 0.99. Raises ParameterError for one that is not between 0 and 1."""
+    with restated(ParameterError, f"--yield {text}: ", of=IlmekError):
+        value = parse_quantity(text, "1")
+    if not 0 < value < 1:
+        raise ParameterError(f"--yield {text}", allowed="above 0 and below 100%")
+    return value
+
+
 def _choices(parameter: Parameter, name: str, text: str, nominal: Value) -> Variable:
     values = [parameter.read(one) for one in text.split(",")]
     for value in values:
@@ -162,6 +202,7 @@ def read_hold(text: str, units: Mapping[str, str]) -> Hold:
 KEYS = {
     "target": str, "set": dict, "vary": dict, "goals": list, "hold": list, "record": list, "method": str,
     "sampling": str, "samples": int, "seed": int, "over": str, "speed": str,
+    "correlate": list, "yield": str, "cost": dict,
 }  # fmt: skip
 """Keys of a study file, and the kinds of their values."""
 
@@ -200,6 +241,14 @@ def check_words(order: StudyOrder) -> None:
         raise ParameterError("nothing varies", do="give --vary NAME=FROM..TO")
     if order.method in ("local", "morris", "sobol", "tolerance") and not (order.goals or order.record or order.holds):
         raise ParameterError(f"--method {order.method} without a result", do="name one with --goal or --record")
+    if order.method != "tolerance" and (order.correlate or order.yield_target or order.costs):
+        raise ParameterError(
+            f"--correlate, --yield and --cost with --method {order.method}", allowed="they are of --method tolerance"
+        )
+    for name, cost in order.costs.items():
+        if name not in order.vary or not cost > 0:
+            near = did_you_mean(name, order.vary)
+            raise ParameterError(f"--cost {name}={cost:g}", allowed="a variable, and a cost above 0", do=near)
     if order.method == "optimum" and not order.goals:
         raise ParameterError("an optimum without a goal", do="give --goal RESULT")
 

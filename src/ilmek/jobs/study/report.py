@@ -8,8 +8,11 @@ from ilmek.arrays import FloatArray
 from ilmek.jobs.study.run import StudyResult
 from ilmek.records import JsonObject
 from ilmek.report import Axis, Check, Column, Figure, Mark, Plot, Report, Result, Series, Table, at_least
+from ilmek.studies.allocation import Allocation, scaled
 from ilmek.studies.fronts import knee
+from ilmek.studies.tolerance import Yield
 from ilmek.studies.variable import settings_of
+from ilmek.units import format_quantity
 
 CLASSES = 12
 """Classes of a variable in a curve of means."""
@@ -36,6 +39,13 @@ def study_report(found: StudyResult) -> Report:
         Result("front", [_design(found, n) for n in found.front], "", "designs that are best in some way", shown=False),
         Result("indices", [one.as_json() for one in found.sensitivities], "", "sensitivities", shown=False),
         Result("yield", found.yielded.as_json() if found.yielded else None, "", "share that holds", shown=False),
+        Result(
+            "allocation",
+            found.allocation.as_json() if found.allocation else None,
+            "",
+            "factors of the tolerances of least cost for a wanted yield",
+            shown=False,
+        ),
         Result("spreads", [one.as_json() for one in found.spreads], "", "spread of each result", shown=False),
         Result("reasons", [list(one) for one in found.reasons], "", "why designs were not made", shown=False),
     )
@@ -145,6 +155,8 @@ def _yield_tables(found: StudyResult) -> Iterator[Table]:
         heads = (Column("yield", "%"), Column("from", "%"), Column("to", "%"))
         rows = ((found.yielded.value, found.yielded.low, found.yielded.high),)
         yield Table("study-yield", "Share of the designs that hold, with its 95 % interval", heads, rows, brief=True)
+    if found.allocation is not None:
+        yield _allocation_table(found, found.allocation)
     for spread in found.spreads:
         name, unit = spread.result, found.units[spread.result]
         names = ("mean", "deviation", "0.135 %", "99.865 %", "worst case from", "to")
@@ -154,6 +166,22 @@ def _yield_tables(found: StudyResult) -> Iterator[Table]:
         shares = tuple(sorted(spread.contributions.items(), key=lambda one: -one[1]))
         parts = (Column("variable"), Column("share of the variance", "%"))
         yield Table(f"study-contributions-{name}", f"What makes {name} spread", parts, shares, brief=True)
+
+
+def _allocation_table(found: StudyResult, allocation: Allocation) -> Table:
+    """Tolerances of least cost for the wanted yield, the tightest first."""
+    heads = (Column("variable"), Column("tolerance now"), Column("at least cost"), Column("factor"), Column(""))
+    rows = []
+    for variable, new in zip(found.variables, scaled(found.variables, allocation.factors), strict=True):
+        factor = allocation.factors[variable.name]
+        now, then = (f"± {format_quantity((one.high - one.low) / 2, one.unit)}" for one in (variable, new))
+        rows.append((variable.name, now, then, factor, "tighten" if factor < 1 else "widen"))
+    yielded = allocation.found or Yield(np.nan, np.nan, np.nan)
+    title = (
+        f"Tolerances of least cost for a yield of {allocation.target:.4g}: found {yielded.value:.4g} "
+        f"({yielded.low:.4g} to {yielded.high:.4g}), cost {allocation.cost:.3g} of now"
+    )
+    return Table("study-allocation", title, heads, tuple(sorted(rows, key=lambda row: row[3])), brief=True)
 
 
 def _thinned(numbers: tuple[int, ...]) -> tuple[int, ...]:

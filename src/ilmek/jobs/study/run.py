@@ -3,6 +3,7 @@
 import tempfile
 from collections.abc import Mapping
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +12,28 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.errors import IlmekError, ParameterError
 from ilmek.jobs.mechanism.request import MotionRequest
-from ilmek.jobs.study.order import SAMPLES, Goal, StudyOrder, check_words, names_of, read_goal, read_hold, read_variable
-from ilmek.jobs.study.targets import MachineTarget, StudyTarget, read_target
+from ilmek.jobs.study.order import (
+    SAMPLES,
+    Goal,
+    StudyOrder,
+    check_words,
+    names_of,
+    read_correlations,
+    read_goal,
+    read_hold,
+    read_variable,
+)
+from ilmek.jobs.study.targets import PLAYS, MachineTarget, StudyTarget, read_target
 from ilmek.num.pareto import front
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.report.framed import Framed
+from ilmek.studies.allocation import Allocation, allocated, scaled
 from ilmek.studies.fronts import evolve
 from ilmek.studies.optimum import Optimum, optimum
 from ilmek.studies.outcome import Hold, Numbers, Question
 from ilmek.studies.recorder import DesignRecorder
-from ilmek.studies.samples import sampled
+from ilmek.studies.samples import correlation_of, sampled
 from ilmek.studies.sensitivity import SensitivityIndex, local, morris, sobol
 from ilmek.studies.store import StudyFile, StudyRows
 from ilmek.studies.tolerance import ResultSpread, Yield, corners, spread_of, yield_of
@@ -56,6 +68,7 @@ class StudyResult(Framed):
     sensitivities: tuple[SensitivityIndex, ...] = ()
     yielded: Yield | None = None
     spreads: tuple[ResultSpread, ...] = ()
+    allocation: Allocation | None = None
     optimum: Optimum | None = None
     file: Path | None = None
 
@@ -74,9 +87,9 @@ class StudyResult(Framed):
         return dict(zip((*heads, "failed", "worst"), numbers.T, strict=True))
 
     def command(self, number: int) -> str:
-        """The command line that makes a design."""
-        point = self.rows.points[number]
-        varied = {v.name: v.shown(value).replace(" ", "") for v, value in zip(self.variables, point, strict=True)}
+        """The command line that makes a design, its pins without play."""
+        pairs = zip(self.variables, self.rows.points[number], strict=True)
+        varied = {v.name: v.shown(x).replace(" ", "") for v, x in pairs if v.name.partition(".")[0] not in PLAYS}
         command = "design" if isinstance(self.target, MachineTarget) else "mechanism"
         sets = (f"--set {name}={value}" for name, value in {**self.order.fixed, **varied}.items())
         return " ".join(("ilmek", command, self.order.target, *sets))
@@ -111,14 +124,7 @@ def study(
     named = (*(goal.result for goal in goals), *(hold.result for hold in holds), *names_of(order.record, units))
     results = tuple(dict.fromkeys(named))
     samples = order.samples or SAMPLES[order.method]
-    plan = {
-        "target": dict(target.identity),
-        "variables": [[v.name, v.low, v.high, v.nominal, v.spread, list(v.choices)] for v in variables],
-        "results": list(results),
-        "goals": [goal.text for goal in goals],
-        "holds": [[hold.result, hold.relation, hold.limit] for hold in holds],
-        "method": [order.method, order.sampling, samples, order.seed],
-    }
+    plan = _plan(order, target, variables, results, goals, holds)
     with ExitStack() as stack:
         if file is None:
             folder = stack.enter_context(tempfile.TemporaryDirectory())
@@ -135,6 +141,28 @@ def study(
             order, target, variables, results, units, goals, holds, rows, margins, kept.checks,
             tuple(kept.reasons()), kept.digest(), best, file=file, **found,
         )  # fmt: skip
+
+
+def _plan(  # noqa: PLR0917 - all that distinguishes a study
+    order: StudyOrder,
+    target: StudyTarget,
+    variables: tuple[Variable, ...],
+    results: tuple[str, ...],
+    goals: tuple[Goal, ...],
+    holds: tuple[Hold, ...],
+) -> dict[str, Any]:
+    """What is studied, as plain data: the header of the results file."""
+    plan = {
+        "target": dict(target.identity),
+        "variables": [[v.name, v.low, v.high, v.nominal, v.spread, list(v.choices)] for v in variables],
+        "results": list(results),
+        "goals": [goal.text for goal in goals],
+        "holds": [[hold.result, hold.relation, hold.limit] for hold in holds],
+        "method": [order.method, order.sampling, order.samples or SAMPLES[order.method], order.seed],
+    }
+    if order.correlate or order.yield_target:
+        plan["tolerances"] = [list(order.correlate), order.yield_target, dict(order.costs)]
+    return plan
 
 
 def _first(target: StudyTarget, variables: tuple[Variable, ...]) -> Numbers:
@@ -187,11 +215,22 @@ def _sensitivity(
 def _tolerance(
     recorder: DesignRecorder, order: StudyOrder, samples: int, _goals: object, results: tuple[str, ...]
 ) -> dict[str, Any]:
-    variables = recorder.variables
-    drawn = recorder(sampled(variables, "latin" if order.sampling == "grid" else order.sampling, samples, order.seed))
+    variables, sampling = recorder.variables, "latin" if order.sampling == "grid" else order.sampling
+    correlation = correlation_of(variables, read_correlations(order.correlate))
+    drawn = recorder(sampled(variables, sampling, samples, order.seed, correlation))
+    margins = recorder.file.margins(0, samples)
     ends = recorder(corners(variables))
+    allocation = None
+    if order.yield_target:
+        made = drawn.made
+        allocation = allocated(
+            variables, drawn.points[made], margins[made], order.yield_target, order.costs, correlation
+        )
+        new = recorder(sampled(scaled(variables, allocation.factors), sampling, samples, order.seed, correlation))
+        allocation = replace(allocation, found=yield_of(new.feasible))
     return {
         "yielded": yield_of(drawn.feasible),
+        "allocation": allocation,
         "spreads": tuple(
             spread_of(name, variables, drawn.points, drawn.results[:, number], ends.results[:, number])
             for number, name in enumerate(results)

@@ -1,21 +1,28 @@
 """What a study evaluates: a machine of the catalogue by its parameters, or a mechanism file by its `values`."""
 
+import cmath
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from ilmek.errors import MechanismError, ParameterError, did_you_mean
 from ilmek.io.data_text import read_data
-from ilmek.io.mechanism.expressions import printed_dimension
-from ilmek.io.mechanism.values import named_values
-from ilmek.io.mechanism_file import mechanism_of_data, read_mechanism, with_values
-from ilmek.io.schema import SourceText
+from ilmek.io.mechanism_file import (
+    MechanismFile,
+    mechanism_of_data,
+    mechanism_of_values,
+    read_mechanism,
+    value_of,
+    with_values,
+)
 from ilmek.jobs.machine_file import read_machine_order
 from ilmek.jobs.mechanism.analysis import analysis
 from ilmek.jobs.mechanism.report import report as mechanism_report
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import run
+from ilmek.linkage.model import Pin
 from ilmek.machines.catalogue import find_machine
 from ilmek.params import Parameter, Setting, Value, reachable
 from ilmek.records import record
@@ -27,6 +34,13 @@ LONGEST_LIST = 24
 
 EXTREMES = {"_min": min, "_max": max}
 """Ends of names of results with an entry for each part: of the whole the least or greatest is meant."""
+
+
+PLAYS = {
+    "clearance": ("mm", "radial play of a pin in its hole"),
+    "side": ("deg", "side of the hole on which the pin lies, in the frame of its second body"),
+}
+"""Parameters of each pin: unit, meaning."""
 
 
 @record
@@ -63,7 +77,11 @@ class MachineTarget:
 
 @record
 class MechanismTarget:
-    """A mechanism file of which entries of `values` vary, over a motion of its driving input."""
+    """A mechanism file of which entries of `values` vary, over a motion of its driving input.
+
+    The clearance of a pin varies as `clearance.PIN`, the radial play of the journal in its hole [m], with the side on
+    which it lies, `side.PIN` [rad] in the frame of the pin's second body: links without mass of that length.
+    """
 
     data: Mapping[str, Any]
     digest: str
@@ -77,11 +95,16 @@ class MechanismTarget:
 
     def parameter(self, name: str) -> Parameter:
         """The entry of `values` of a name, in its unit. Raises ParameterError, naming the nearest."""
-        values = with_values(self.data, {name: self.data.get("values", {}).get(name)})["values"]
-        amount = named_values(values, SourceText("mechanism", {(): 1}), si=self.data.get("units") == "SI").known[name]
-        unit = printed_dimension(amount.dimension)
-        shown = {"m": "mm", "rad": "deg", "a plain number": ""}.get(unit, unit)
-        return Parameter(name, float, amount.value, "value of the mechanism file", shown)
+        kind, _, pin = name.partition(".")
+        if pin and kind in PLAYS:
+            joint = mechanism_of_data(self.data).mechanism.joint(pin)
+            if not isinstance(joint, Pin):
+                raise ParameterError(f"{name}: {pin} is a slide", allowed="clearance of a pin")
+            unit, doc = PLAYS[kind]
+            return Parameter(name, float, 0.0, doc, unit, at_least=0.0 if kind == "clearance" else None)
+        value, unit = value_of(self.data, name)
+        shown = {"m": "mm", "rad": "deg"}.get(unit, unit)
+        return Parameter(name, float, value, "value of the mechanism file", shown)
 
     def nominal(self, name: str) -> Value:
         """The value in the file [SI]."""
@@ -89,13 +112,24 @@ class MechanismTarget:
 
     def numbers(self, values: Mapping[str, Value]) -> Numbers:
         """The results and checks of the mechanism in motion. Raises any IlmekError."""
-        units = {name: self._unit(name) for name in values}
-        texts = {name: f"{value!r} {units[name]}".strip() for name, value in values.items()}
-        found = analysis(run(mechanism_of_data(with_values(self.data, texts)), self.request))
+        own = {name: value for name, value in values.items() if name.partition(".")[0] not in PLAYS}
+        file = with_play(mechanism_of_values(self.data, own), values)
+        found = analysis(run(file, self.request))
         return numbers_of(mechanism_report(found, drawn=False))
 
-    def _unit(self, name: str) -> str:
-        return {"mm": "m", "deg": "rad"}.get(unit := self.parameter(name).unit, unit)
+
+def with_play(file: MechanismFile, values: Mapping[str, Value]) -> MechanismFile:
+    """The file with each hole of the second body of a pin displaced by its clearance to its side."""
+    mechanism = file.mechanism
+    for name, clearance in values.items():
+        kind, _, pin = name.partition(".")
+        if kind == "clearance":
+            joint, side = mechanism.joint(pin), values.get(f"side.{pin}", 0.0)
+            body = mechanism.body(joint.bodies[1])
+            shift = complex(cmath.rect(float(clearance or 0), float(side or 0)))
+            moved = replace(body, points={**body.points, joint.name: body.points[joint.name] + shift})
+            mechanism = replace(mechanism, bodies=tuple(moved if one is body else one for one in mechanism.bodies))
+    return replace(file, machine=replace(file.machine, mechanism=mechanism))
 
 
 StudyTarget = MachineTarget | MechanismTarget
