@@ -207,11 +207,10 @@ def test_a_row_that_the_host_changes_while_it_is_woven_is_woven_as_it_was_checke
     loom = PlcLoom(small_programme(3, 12, 2, 2))
     loom.start()
     loom.until("KnotsDone", 2)
-    row = loom.host_row(0)
-    loom.disturb_row = lambda _: replace(row, columns=row.columns[::-1], number=-7)
-    loom.give(row)
+    loom.host_silent = True
+    loom.write({"RowData.Columns": loom.host_row(0).columns[::-1], "RowData.Number": -7})
     loom.until("KnotsDone", 12)
-    loom.disturb_row = lambda given: given
+    loom.host_silent = False
     loom.attend(5000)
     assert loom.woven()
 
@@ -315,6 +314,7 @@ def test_rows_are_not_taken_out_beyond_a_change_of_packages() -> None:
     assert loom.changes == [2]
     loom.command = int(PackCommand.STOP)
     loom.until("StateCurrent", int(PackState.STOPPED))
+    loom.host_silent = True  # its journal is not set back
     for rows, request in ((2, 3), (-1, 3), (30_000, 3), (1, 2)):
         loom.scan(RowsBack=rows, RowsBackRequest=True)
         loom.scan(RowsBackRequest=False)
