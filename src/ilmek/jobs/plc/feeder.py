@@ -75,8 +75,8 @@ class Feeder:
         Raises HostError.
         """
         self._heard(now, plc["PlcBeat"])
-        request = _whole(plc, "RowRequest")
-        self._follow(now, request, _whole(plc, "KnotsDone"))
+        request = whole(plc, "RowRequest")
+        self._follow(now, request, whole(plc, "KnotsDone"))
         wanted, writes = self._wanted(request), list[dict[str, PlcValue]]()
         refused = plc["Alarm"] == ALARMS[JournalFault.ROW_DAMAGED].number
         lost = plc["RowData.Number"] != request or (refused and not self._refused)
@@ -95,7 +95,7 @@ class Feeder:
 
         Raises LoomError in another state than Stopped, and for more rows than the take-up allows.
         """
-        request = _whole(plc, "RowRequest")
+        request = whole(plc, "RowRequest")
         if not 0 <= rows <= min(ROWS_BACK, request):
             raise LoomError(f"{rows} rows back in row {request + 1}", allowed=f"0 to {max(0, min(ROWS_BACK, request))}")
         if plc["StateCurrent"] != int(PackState.STOPPED):
@@ -169,7 +169,8 @@ class Feeder:
         ]
 
 
-def _whole(plc: PlcValues, name: str) -> int:
+def whole(plc: PlcValues, name: str) -> int:
+    """A value that is a whole number."""
     value = plc[name]
     assert isinstance(value, int)
     return value

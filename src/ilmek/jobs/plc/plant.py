@@ -10,6 +10,8 @@ early: the answer whether it is in the carpet waits for its end.
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+
 from ilmek.drivers.twin_port import TwinPort
 from ilmek.errors import LoomError
 from ilmek.io.plc.homing_logic import HOME_CODES
@@ -20,7 +22,7 @@ from ilmek.jobs.plc.feeder import PlcValue, PlcValues
 from ilmek.loom.control.alarms import ALARMS
 from ilmek.loom.control.interlocks import JOG_LIMITS, LoomAxis
 from ilmek.loom.control.packml import PackState
-from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Home, Jog, Order, Tie
+from ilmek.loom.control.ports import ChangePackages, Done, EndRow, Failed, Fault, Home, Jog, Order, Tie
 from ilmek.loom.operations import LoomProgramme, RowEnd, Stop
 from ilmek.loom.twin.state import Door, EmergencyStop, Repaired
 from ilmek.loom.twin.woven import Woven
@@ -31,6 +33,7 @@ ORDERS = ("TieStart", "TieColumn", "TieTube", "EndStart", "EndCode", "ChangeStar
 """What the loom reads in each cycle."""
 
 _AXES = {code: axis for axis, code in HOME_CODES.items()}
+_FAULTS = [ALARMS[fault].number for fault in Fault if fault is not Fault.MISSED_GRIP]
 _STANDS = (PackState.HELD, PackState.SUSPENDED, PackState.STOPPED, PackState.ABORTED)
 
 
@@ -52,6 +55,36 @@ class DriveAct:
 
 
 HONEST = DriveAct()
+
+HOSTILE = 0.12
+"""Share of the orders with which a hostile drive does something else."""
+
+
+def hostile_drives(seed: int | None) -> Callable[[int], DriveAct]:
+    """What drives do that are honest, or with a seed now and then silent, early, hasty, stuck, or report a fault.
+
+    What a drive reports of a knot in its time it has done: a lie about that no program can find.
+    """
+    if seed is None:
+        return lambda _: HONEST
+    random = np.random.default_rng(seed)
+
+    def act_of(_: int) -> DriveAct:
+        if random.random() >= HOSTILE:
+            return HONEST
+        tied = bool(random.integers(2))
+        choices = (
+            DriveAct(tied=tied, fault=int(random.choice(_FAULTS))),
+            DriveAct(tied=tied, fault=int(random.choice((-5, 102, 999)))),
+            DriveAct(tied=False, fault=ALARMS[Fault.MISSED_GRIP].number),
+            DriveAct(tied=tied, silent=True),
+            DriveAct(tied=tied, early=True),
+            DriveAct(tied=tied, hasty=True),
+            DriveAct(stuck=int(random.choice((5, 250)))),
+        )
+        return choices[random.integers(len(choices))]
+
+    return act_of
 
 
 class _Drive:
