@@ -52,6 +52,7 @@ def test_a_carpet_cut_off_at_random_instants_is_woven_as_its_chart_has_it(seed: 
             loom.host_starts()
     loom.weave()
     assert loom.equal_to_the_chart()
+    assert not loom.alarms
 
 
 ACTS = [
