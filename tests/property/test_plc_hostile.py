@@ -14,28 +14,13 @@ from plc_loom import HONEST, Act, PlcLoom
 from small_programme import small_programme
 
 from ilmek.io.plc.host_data import HostRow, checked
+from ilmek.jobs.plc.plant import hostile_drives
 from ilmek.loom.control.alarms import ALARMS, ControlFault, JournalFault
 from ilmek.loom.control.interlocks import LoomAxis
 from ilmek.loom.control.packml import PackCommand, PackMode, PackState
 from ilmek.loom.control.ports import Fault
 
-FAULTS = [ALARMS[fault].number for fault in Fault if fault is not Fault.MISSED_GRIP]
 UNEXPECTED, STUCK = ALARMS[ControlFault.UNEXPECTED].number, ALARMS[ControlFault.STUCK].number
-
-
-def hostile_act(random: np.random.Generator) -> Act:
-    """One act in eight is not honest."""
-    tied = bool(random.integers(2))
-    choices = [
-        Act(tied=tied, fault=int(random.choice(FAULTS))),
-        Act(tied=tied, fault=int(random.choice([-5, 102, 999]))),
-        Act(tied=False, fault=ALARMS[Fault.MISSED_GRIP].number),
-        Act(tied=tied, silent=True),
-        Act(tied=tied, early=True),
-        Act(tied=tied, hasty=True),
-        Act(stuck=int(random.choice([5, 250]))),
-    ]
-    return choices[random.integers(len(choices))] if random.random() < 0.12 else HONEST
 
 
 @pytest.mark.matrix(light=5)
@@ -44,8 +29,9 @@ def test_hostile_stations_and_power_cuts_lose_and_double_nothing(seed: int) -> N
     random = np.random.default_rng(seed)
     heads = int(random.integers(1, 4))
     loom = PlcLoom(small_programme(3, 12, heads, 3, seed=seed, weft_rows=2))
-    loom.next_act = lambda _: hostile_act(random)
-    loom.home_act = lambda: hostile_act(random)
+    act_of = hostile_drives(seed)
+    loom.next_act = act_of
+    loom.home_act = lambda: act_of(heads)
     for _ in range(int(random.integers(1, 12))):
         loom.attend(int(random.integers(1, 80)))
         if random.random() < 0.2:
@@ -207,11 +193,10 @@ def test_a_row_that_the_host_changes_while_it_is_woven_is_woven_as_it_was_checke
     loom = PlcLoom(small_programme(3, 12, 2, 2))
     loom.start()
     loom.until("KnotsDone", 2)
-    row = loom.host_row(0)
-    loom.disturb_row = lambda _: replace(row, columns=row.columns[::-1], number=-7)
-    loom.give(row)
+    loom.host_silent = True
+    loom.write({"RowData.Columns": loom.host_row(0).columns[::-1], "RowData.Number": -7})
     loom.until("KnotsDone", 12)
-    loom.disturb_row = lambda given: given
+    loom.host_silent = False
     loom.attend(5000)
     assert loom.woven()
 
@@ -315,6 +300,7 @@ def test_rows_are_not_taken_out_beyond_a_change_of_packages() -> None:
     assert loom.changes == [2]
     loom.command = int(PackCommand.STOP)
     loom.until("StateCurrent", int(PackState.STOPPED))
+    loom.host_silent = True  # its journal is not set back
     for rows, request in ((2, 3), (-1, 3), (30_000, 3), (1, 2)):
         loom.scan(RowsBack=rows, RowsBackRequest=True)
         loom.scan(RowsBackRequest=False)

@@ -6,15 +6,18 @@ and questions. The plant's row is the number of its take-ups.
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from typing import Any
 
+from fake_loom import MemoryStore
 from structured_text import Instance, Machine, PowerCut
 
 from ilmek.io.plc.homing_logic import HOME_CODES
-from ilmek.io.plc.host_data import HostRow, digest_words, host_row
+from ilmek.io.plc.host_data import HostRow, host_row
 from ilmek.io.plc.project import plc_project, size_of
-from ilmek.loom.control.alarms import ALARMS, JournalFault
+from ilmek.jobs.plc.feeder import ARRAYS, READ, Feeder, PlcValues
+from ilmek.jobs.plc.host_journal import HostJournal
+from ilmek.jobs.plc.plant import HONEST
+from ilmek.jobs.plc.plant import DriveAct as Act
 from ilmek.loom.control.interlocks import LoomAxis
 from ilmek.loom.control.packml import PackCommand, PackState
 from ilmek.loom.operations import LoomProgramme, RowEnd
@@ -45,26 +48,6 @@ COMMANDS = {
     PackState.ABORTED: PackCommand.CLEAR,
 }
 """What leads the loom on from where it stands."""
-
-
-@dataclass(frozen=True)
-class Act:
-    """What a station does with an order.
-
-    tied    the operation gets into the carpet         fault    reported instead of the end, 0: none
-    silent  it reports nothing                         early    it reports at once
-    hasty   it never reports that it has accepted      stuck    scans for which its report stays behind the order
-    """
-
-    tied: bool = True
-    fault: int = 0
-    silent: bool = False
-    early: bool = False
-    hasty: bool = False
-    stuck: int = 0
-
-
-HONEST = Act()
 
 
 class Station:
@@ -130,7 +113,6 @@ class PlcLoom:
         self.changes: list[int] = []
         self.sensors = {**SENSORS, "GrippersOpen": [True] * self.heads}
         self.scans = self.row = self.command = 0
-        self.given = self.requested = self.back_to = -1
         self.heads_clear: bool | None = None
         self.alarms: list[int] = []
         self.next_act: Callable[[int], Act] = lambda _: HONEST
@@ -138,6 +120,8 @@ class PlcLoom:
         self.disturb_row: Callable[[HostRow], HostRow] = lambda row: row
         self.disturb_recipe: Callable[[dict[str, Any]], dict[str, Any]] = lambda recipe: recipe
         self.host_silent = self.between = False
+        self.sizes = {name: len(self.read(f"RowData.{name}")) for name in ARRAYS}
+        self.feeder = self._host()
         self.homed: list[str] = []
         self.stations = [self._head(head) for head in range(self.heads)]
         self.stations.append(Station(self._end_scans, self._end_act, self._end))
@@ -160,58 +144,39 @@ class PlcLoom:
 
     def next_carpet(self, programme: LoomProgramme) -> None:
         """An operator takes the carpet out; the host has another programme, and begins its journal."""
-        self.programme, self.given, self.row = programme, -1, 0
+        self.programme, self.row = programme, 0
+        self.feeder = self._host()
         self.carpet.clear()
         self.ends.clear()
 
     def take_out(self, rows: int) -> None:
-        """An operator takes out the row in work and whole rows before it, and sets the host's journal back.
-
-        The journal stays there until the program requests that row.
-        """
+        """An operator takes out the row in work and whole rows before it, and sets the host's journal back."""
         self.row -= rows
-        self.given = self.back_to = min(self.given, self.row)
+        self.feeder.journal.give(self.row, awaited=True)
         self.carpet = {place: tubes for place, tubes in self.carpet.items() if place[0] < self.row}
         self.ends = [end for end in self.ends if end[0] < self.row]
 
     # -- the host ----------------------------------------------------------------------------------------------------
 
+    def _host(self) -> Feeder:
+        journal = HostJournal(self.programme, MemoryStore())
+        return Feeder(self.programme, journal, self.sizes, lambda number: self.disturb_row(self.host_row(number)))
+
     def host(self) -> None:
-        """Writes the carpet, and a row when the request changes or it was refused; the journal names the row before."""
-        if self.host_silent:
-            return
-        setup, number = self.programme.setup, self.read("RowRequest")
-        if number == self.back_to:
-            self.back_to = -1
-        if 0 <= number < setup.rows and self.back_to < 0:
-            self.given = max(self.given, number)
-        recipe = {"Programme": digest_words(self.programme.digest), "Rows": setup.rows, "Columns": setup.columns,
-                  "Tubes": setup.tubes, "Row": self.given}  # fmt: skip
-        self._write("Recipe", self.disturb_recipe(recipe))
-        asked_again = number != self.requested or self.read("Alarm") == ALARMS[JournalFault.ROW_DAMAGED].number
-        self.requested = number
-        if asked_again and 0 <= number < setup.rows:
-            self.give(self.host_row(number))
+        """The host's cycle, unless it is silent."""
+        if not self.host_silent:
+            recipe, *row = self.feeder.step(CYCLE * self.scans, {name: self.read(name) for name in READ})
+            own = {name.partition("Recipe.")[2] for name in recipe} - {""}
+            disturbed = self.disturb_recipe({name: recipe[f"Recipe.{name}"] for name in own})
+            for values in (recipe | {f"Recipe.{name}": value for name, value in disturbed.items()}, *row):
+                self.write(values)
 
     def host_row(self, number: int) -> HostRow:
         return host_row(self.programme.operations(number), self.programme.digest)
 
-    def give(self, row: HostRow) -> None:
-        given = self.disturb_row(row)
-        limits = [0] * (self.size.heads * self.size.phases)
-        for head, ends in enumerate(given.limits):
-            limits[head * self.size.phases : head * self.size.phases + len(ends)] = ends
-        missing = self.size.columns - len(given.columns)
-        values = {
-            "Columns": given.columns + [0] * missing, "Tubes": given.tubes + [0] * missing, "First": given.first,
-            "Limits": limits, "StopBefore": given.stop_before + [False] * (self.size.phases - given.phases),
-            "Phases": given.phases, "Check": given.check, "Number": given.number,
-        }  # fmt: skip
-        self._write("RowData", values)
-
-    def _write(self, structure: str, values: dict[str, Any]) -> None:
+    def write(self, values: PlcValues) -> None:
         for name, value in values.items():
-            self.machine.write(self.loom, f"{structure}.{name}", value)
+            self.machine.write(self.loom, name, value)
 
     # -- scans -------------------------------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ def small_programme(
     weft_rows: int = 4,
     tubes: int | None = None,
     package: float = 1000.0,
+    loom_times: OperationTimes = TIMES,
 ) -> CompiledProgramme:
     """A carpet of patches of random colours, with changes of the bobbins of weft.
 
@@ -37,9 +38,11 @@ def small_programme(
     coarse = random.integers(0, yarns, (rows // 2 + 1, columns // 3 + 1)).astype(np.uint8)
     knots = np.ascontiguousarray(np.kron(coarse, np.ones((2, 3), np.uint8))[:rows, :columns])
     wefts = (Bobbin("straight weft", weft_rows, 90.0), Bobbin("sinuous weft", 2 * weft_rows, 90.0))
-    times = Times(TIMES.knot, TIMES.colour_change, TIMES.travel, TIMES.row_ends[-1])
+    times = Times(loom_times.knot, loom_times.colour_change, loom_times.travel, loom_times.row_ends[-1])
     supply = YarnSupply(tubes or yarns, (package,) * yarns, (0.04,) * yarns)
-    programme = make_programme(knots, yarns, heads, times, bobbins=wefts, supply=supply, tube_change=TIMES.tube_change)
+    programme = make_programme(
+        knots, yarns, heads, times, bobbins=wefts, supply=supply, tube_change=loom_times.tube_change
+    )
     quality = Quality(250.0, 250.0)
     setup = LoomSetup(
         loom="0" * 64,
@@ -53,7 +56,7 @@ def small_programme(
         heads=heads,
         tubes=supply.tubes,
         spacing=2,
-        times=TIMES,
+        times=loom_times,
         loading=programme.tubes.loading,
         packages=programme.tubes.packages,
         knot_yarn=supply.knot_yarn,

@@ -55,6 +55,7 @@ main = LazyGroup(
         "inspect": ("ilmek.cli.inspect", "Show a loom programme: rows, colours, statistics."),
         "check": ("ilmek.cli.check", "Prove a loom programme: each knot once, no heads meet, yarn enough."),
         "plc": ("ilmek.cli.plc", "Write the loom's control as structured text and PLCopen XML, with its I/O."),
+        "plant": ("ilmek.cli.plant", "Be the loom of a PLC over OPC UA, with faults."),
         "convert": ("ilmek.cli.convert", "Turn a loom programme into text, one operation a line, and back."),
     },
 )

@@ -8,7 +8,7 @@ from ilmek.cli.call_outputs import call_outputs
 from ilmek.cli.options import force_option
 from ilmek.cli.terminal import note, show_pairs
 from ilmek.io.plc.targets import TARGETS
-from ilmek.jobs.plc import FILES, write_plc
+from ilmek.jobs.plc.program import FILES, write_plc
 
 EXAMPLES = """\b
 Examples:

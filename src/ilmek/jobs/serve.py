@@ -75,7 +75,7 @@ def checked_order(order: ServeOrder) -> ServeOrder:
         raise ParameterError(f"--port {order.port}", allowed="1 to 65535")
     if (order.certificate is None) != (order.key is None):
         raise ParameterError("one of --certificate and --key", do="give both, or neither")
-    if not _is_loopback(order.host) and order.certificate is None:
+    if not is_loopback(order.host) and order.certificate is None:
         raise ParameterError(
             f"--host {order.host} without a certificate",
             allowed="127.0.0.1; any other with --certificate and --key",
@@ -147,6 +147,17 @@ def nameplate(programme: LoomProgramme, title: str) -> "LoomNameplate":
 
 
 def _credentials(order: ServeOrder, plate: "LoomNameplate") -> "Credentials":
+    from ilmek.drivers.opcua.certificate import parse_credentials
+
+    if order.certificate is not None and order.key is not None:
+        key = read_bounded(order.key, "key")
+        with restated(LoomError, f"{order.certificate}: ", of=LoomError):
+            return parse_credentials(read_bounded(order.certificate, "certificate", secret=False), key, plate.uri)
+    return kept_credentials(plate.serial, plate.uri, f"ilmek loom {plate.serial}")
+
+
+def kept_credentials(name: str, uri: str, title: str) -> "Credentials":
+    """A certificate of this computer, made once and kept in the folder of settings under a name."""
     from ilmek.drivers.opcua.certificate import (
         OtherApplicationError,
         credentials_pem,
@@ -154,25 +165,22 @@ def _credentials(order: ServeOrder, plate: "LoomNameplate") -> "Credentials":
         parse_credentials,
     )
 
-    if order.certificate is not None and order.key is not None:
-        key = read_bounded(order.key, "key")
-        with restated(LoomError, f"{order.certificate}: ", of=LoomError):
-            return parse_credentials(read_bounded(order.certificate, "certificate", secret=False), key, plate.uri)
     folder = config_folder("opcua")
-    paths = folder / f"{plate.serial}-certificate.pem", folder / f"{plate.serial}-key.pem"
+    paths = folder / f"{name}-certificate.pem", folder / f"{name}-key.pem"
     if all(path.exists() for path in paths):
         try:
             kept, private = (read_bounded(path, "certificate") for path in paths)
-            return parse_credentials(kept, private, plate.uri)
+            return parse_credentials(kept, private, uri)
         except OtherApplicationError:
             pass  # of a loom whose serial number begins alike
-    credentials = make_credentials(plate.uri, f"ilmek loom {plate.serial}", ("127.0.0.1", "::1", "localhost"))
+    credentials = make_credentials(uri, title, ("127.0.0.1", "::1", "localhost"))
     for path, data in zip(paths, credentials_pem(credentials), strict=True):
         write_secret(path, data)
     return credentials
 
 
-def _is_loopback(host: str) -> bool:
+def is_loopback(host: str) -> bool:
+    """Whether an address is this computer's alone."""
     try:
         return ipaddress.ip_address(host).is_loopback
     except ValueError:

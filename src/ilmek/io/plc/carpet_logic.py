@@ -7,7 +7,7 @@ at the row of the host's journal.
 """
 
 from ilmek.io.plc.alarm_logic import raised
-from ilmek.io.plc.sequence_variables import DIGEST_WORDS, PlcSize
+from ilmek.io.plc.sequence_variables import DIGEST_WORDS, LAST_BEAT, PlcSize
 from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable, indented, loop
 from ilmek.loom.control.alarms import ControlFault, JournalFault
 from ilmek.loom.control.packml import PackMode, PackState
@@ -126,6 +126,23 @@ RowsBackSeen := RowsBackRequest;
 """
 
 
+def heartbeat() -> str:
+    """The program counts its scans, and while it weaves those since the host has counted on."""
+    return f"""\
+(* heartbeat *)
+PlcBeat := PlcBeat + 1;
+IF PlcBeat > {LAST_BEAT} THEN
+    PlcBeat := 0;
+END_IF;
+BeatScans := BeatScans + 1;
+IF HostBeat <> HostBeatSeen OR StateCurrent <> {int(PackState.EXECUTE)}
+    OR UnitModeCurrent = {int(PackMode.MANUAL)} THEN
+    BeatScans := 0;
+END_IF;
+HostBeatSeen := HostBeat;
+"""
+
+
 def recipe_check(size: PlcSize) -> str:
     """In state Resetting: the next carpet begins, or the one in work is compared with the host's journal."""
     compare = "Plausible := Plausible AND Recipe.Programme[Index] = Now.Carpet.Programme[Index];"
@@ -217,8 +234,9 @@ IF StateCurrent = {int(PackState.EXECUTE)} AND UnitModeCurrent <> {int(PackMode.
         HostScans := HostScans + 1;
     END_IF;
 END_IF;
-IF HostScans > {HOST_PATIENCE} THEN
+IF HostScans > {HOST_PATIENCE} OR BeatScans > {HOST_PATIENCE} THEN
     HostScans := 0;
+    BeatScans := 0;
     {raised(ControlFault.NO_HOST)}
 END_IF;
 """

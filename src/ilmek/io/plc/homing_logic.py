@@ -5,7 +5,7 @@ The numbers of these operations follow those of the operations after the knots; 
 
 from ilmek.io.plc.alarm_logic import raised
 from ilmek.io.plc.interlock_logic import SENSOR_NAMES, capitalised
-from ilmek.io.plc.units import cases, indented
+from ilmek.io.plc.units import cases, indented, loop
 from ilmek.loom.control.alarms import ControlFault
 from ilmek.loom.control.homing import HOMED
 from ilmek.loom.control.interlocks import LoomAxis
@@ -26,10 +26,11 @@ def home_guards() -> tuple[tuple[int, str], ...]:
     )
 
 
-def homed() -> str:
-    """A drive has homed its axis: true if the axis is at its switch."""
+def homed(heads: int) -> str:
+    """A drive has homed its axis: true if the axis is at its switch, by the inputs of the same scan."""
+    grippers = loop("Head", heads, "Plausible := Plausible AND GrippersOpen[Head];")
     switches = (
-        (HOME_CODES[axis], f"Plausible := {'Rules.AllOpen' if axis is LoomAxis.GRIPPERS else SENSOR_NAMES[switch]};")
+        (HOME_CODES[axis], grippers if axis is LoomAxis.GRIPPERS else f"Plausible := {SENSOR_NAMES[switch]};")
         for axis, switch in HOMED.items()
         if switch
     )

@@ -20,7 +20,7 @@ HOST = frozenset(
     ("CntrlCmd", "CmdChangeRequest", "UnitMode", "UnitModeChangeRequest", "StepKnot", "Acknowledge", "GiveUp",
      "RowsBack", "RowsBackRequest", "JogAxis", "Recipe", "RowData", "RowRequest", "StateCurrent", "UnitModeCurrent",
      "Refused", "Alarm", "KnotsDone", "CarpetDone", "TieAnswer", "EndAnswer", "AskTie", "AskEnd", "ChangeStart",
-     "ChangeDone")
+     "ChangeDone", "HostBeat", "PlcBeat")
 )  # fmt: skip
 """Variables that the host or the operator's panel reads and writes."""
 

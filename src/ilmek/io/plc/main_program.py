@@ -1,5 +1,8 @@
 """The program that a task runs: the loom's block, its signals at their addresses, the host's values as variables."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from ilmek.io.plc.io_list import HOST, IoRow
 from ilmek.io.plc.sequence_logic import BLOCK
 from ilmek.io.plc.units import PlcSection, PlcUnit, PlcVariable
@@ -11,10 +14,27 @@ MAIN = "Main"
 def element_name(element: str) -> str:
     """Name of a signal's variable: an element of an array without its brackets.
 
-    >>> element_name("TieDone[2]")
-    'TieDone2'
+    >>> element_name("TieDone[2]"), element_name("EndDone")
+    ('TieDone2', 'EndDoneSignal')
     """
-    return element.replace("[", "").replace("]", "")
+    return element.replace("[", "").replace("]", "") if "[" in element else f"{element}Signal"
+
+
+def signal_values(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Values of the block's variables as those of the program: one for each signal with an address.
+
+    >>> signal_values({"TieDone": [True, False], "EndDone": True, "EndAnswer": 2})
+    {'TieDone0': True, 'TieDone1': False, 'EndDoneSignal': True, 'EndAnswer': 2}
+    """
+    signals: dict[str, Any] = {}
+    for name, value in values.items():
+        if name in HOST:
+            signals[name] = value
+        elif isinstance(value, list):
+            signals |= {element_name(f"{name}[{index}]"): one for index, one in enumerate(value)}
+        else:
+            signals[element_name(name)] = value
+    return signals
 
 
 def main_program(block: PlcUnit, rows: list[IoRow]) -> PlcUnit:
@@ -28,7 +48,6 @@ def main_program(block: PlcUnit, rows: list[IoRow]) -> PlcUnit:
         for variable in variables:
             for element, kind in variable.elements if variable.name not in HOST else ():
                 name = element_name(element)
-                name = f"{name}Signal" if name == variable.name else name
                 located.append(PlcVariable(name, kind, variable.meaning, address=addresses[element]))
                 lines.append(f"{element} := {name};" if lines is before else f"{name} := {element};")
     given = [f"{variable.name} := {variable.name}" for variable in inputs]

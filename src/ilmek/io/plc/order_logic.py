@@ -107,7 +107,7 @@ ELSIF Status[Station] <> 0 AND Status[Station] <> {ACCEPTED} THEN
 ELSIF Done[Station] AND Accepted[Station] AND Elapsed[Station] >= Least THEN
     Order[Station] := FALSE;
     IF Station = {size.heads} AND EndCode >= {FIRST_HOME} THEN
-{indented(indented(homed()))}
+{indented(indented(homed(size.heads)))}
         IF NOT Plausible THEN
             Fault := {ALARMS[ControlFault.NOT_HOME].number};
         END_IF;

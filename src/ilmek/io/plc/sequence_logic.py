@@ -5,7 +5,17 @@ after the knots. An operation is `Busy` from the scan of its order until it is c
 """
 
 from ilmek.io.plc.alarm_logic import alarm_units, raised
-from ilmek.io.plc.carpet_logic import crc_unit, giving_up, next_row, recipe_check, row_check, rows_back, saving, waking
+from ilmek.io.plc.carpet_logic import (
+    crc_unit,
+    giving_up,
+    heartbeat,
+    next_row,
+    recipe_check,
+    row_check,
+    rows_back,
+    saving,
+    waking,
+)
 from ilmek.io.plc.homing_logic import home_guards, homing
 from ilmek.io.plc.interlock_logic import KNOT, SENSOR_NAMES, TENSION_KNOWN, capitalised
 from ilmek.io.plc.order_logic import questions, reports, watch_begins
@@ -43,6 +53,7 @@ def sequence_units(size: PlcSize) -> tuple[PlcUnit, ...]:
     )
     parts = (
         waking(size),
+        heartbeat(),
         reports(size),
         giving_up(size),
         rows_back(size),

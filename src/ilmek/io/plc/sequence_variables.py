@@ -14,6 +14,9 @@ from ilmek.records import value_record
 DIGEST_WORDS = 8
 """Words of 32 bits of a programme's digest."""
 
+LAST_BEAT = 32_000
+"""Number after which the counters of the heartbeat begin again at 0."""
+
 ACCEPTED = 1
 """Status of a drive that has accepted its order; 0: it is ready for one; above: the number of a fault's alarm."""
 
@@ -108,6 +111,7 @@ def block_inputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("RowsBackRequest", "BOOL", "rising edge in Stopped: they are woven again"),
         PlcVariable("JogAxis", "INT", f"axis to move in manual mode, 1 to {len(LoomAxis)}, 0: none"),
         *sensor_variables(size.heads),
+        PlcVariable("HostBeat", "INT", f"the host counts on, after {LAST_BEAT} from 0"),
         PlcVariable("Recipe", "LoomRecipe", "the carpet that is to be woven"),
         PlcVariable("RowData", "LoomRow", "the row that was requested"),
         PlcVariable("TieDone", per_head, "the knot is tied, until the order falls"),
@@ -151,6 +155,7 @@ def block_outputs(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("AskEnd", "BOOL", "is the operation after the knots in the carpet"),
         PlcVariable("KnotsDone", "DINT", "knots in the carpet, counted"),
         PlcVariable("CarpetDone", "BOOL", "the carpet is woven"),
+        PlcVariable("PlcBeat", "INT", f"the program counts its scans, after {LAST_BEAT} from 0"),
     )
 
 
@@ -185,7 +190,7 @@ def inner_variables(size: PlcSize) -> tuple[PlcVariable, ...]:
         PlcVariable("Seen", PlcArray(size.columns, "BOOL"), "the row has a knot on the warp pair"),
         *(PlcVariable(name, "INT") for name in
           ("Head", "Station", "Axis", "Index", "Pass", "Fault", "Least", "Most", "Waited", "Tube", "Before",
-           "PhaseEnd")),
+           "PhaseEnd", "HostBeatSeen", "BeatScans")),
         *(PlcVariable(name, "DINT") for name in ("Item", "Rest", "HostScans", "Sum")),
         PlcVariable("Crc", "DWORD"),
         *(PlcVariable(name, "BOOL") for name in

@@ -15,11 +15,23 @@ Writer = Callable[[PlcProject, list[IoRow]], bytes]
 
 @dataclass(frozen=True, slots=True)
 class PlcTarget:
-    """A controller: its style of addresses, and the name and writer of each file of the program."""
+    """A controller: its style of addresses, and the name and writer of each file of the program.
+
+    node     of a variable on the controller's own OPC UA server, an identifier with {} for its name; "": it has none
+    quote    around each part of that name
+    signals  the program has a variable for each signal, beside its address
+    """
 
     title: str
     style: AddressStyle
     writers: tuple[tuple[str, Writer], ...]
+    node: str = ""
+    quote: str = ""
+    signals: bool = True
+
+    def named(self, name: str) -> str:
+        """A variable's name on that server: of a structure with its member."""
+        return ".".join(f"{self.quote}{part}{self.quote}" for part in name.split("."))
 
     def files(self, project: PlcProject) -> dict[str, bytes]:
         """Contents of the program's files and of the list of inputs and outputs, by name."""
@@ -49,10 +61,16 @@ _IEC = (("loom.st", _text), ("loom.xml", _xml))
 
 TARGETS: Mapping[str, PlcTarget] = MappingProxyType(
     {
-        "codesys": PlcTarget("CODESYS 3", AddressStyle(by_bytes=False), _IEC),
-        "twincat": PlcTarget("TwinCAT 3", AddressStyle(by_bytes=True), _IEC),
-        "tia": PlcTarget("TIA Portal, S7-1200 and S7-1500", AddressStyle(by_bytes=True, bit=""), (("loom.scl", _scl),)),
+        "codesys": PlcTarget(
+            "CODESYS 3", AddressStyle(by_bytes=False), _IEC,
+            "ns=4;s=|var|CODESYS Control Win V3 x64.Application.Main.{}"
+        ),
+        "twincat": PlcTarget("TwinCAT 3", AddressStyle(by_bytes=True), _IEC, "ns=4;s=Main.{}"),
+        "tia": PlcTarget(
+            "TIA Portal, S7-1200 and S7-1500", AddressStyle(by_bytes=True, bit=""), (("loom.scl", _scl),),
+            'ns=3;s="LoomData".{}', '"', signals=False,
+        ),
         "openplc": PlcTarget("OpenPLC", AddressStyle(by_bytes=False), (("loom.st", _text),)),
     }
-)
+)  # fmt: skip
 """Targets by name."""

@@ -92,7 +92,7 @@ def read_run_order(
     for name in settings:
         if name not in RATES:
             raise ParameterError(f"--set {shortened(name)}", allowed=f"rates of faults: {', '.join(RATES)}")
-    seed = None if faults is None else _seed(faults)
+    seed = None if faults is None else read_seed("--faults", faults)
     if rows_back is not None and not 0 <= rows_back <= ROWS_BACK:
         raise ParameterError(f"--rows-back {rows_back}", allowed=f"0 to {ROWS_BACK}")
     rates, automatic = read_stops(stops, settings), operator == "auto"
@@ -116,7 +116,8 @@ def _speed(text: str) -> float | None:
     return found
 
 
-def _seed(text: str) -> int:
+def read_seed(option: str, text: str) -> int:
+    """A seed of an option. Raises ParameterError."""
     if not (text.isascii() and text.isdigit() and len(text) <= len(str(_SEEDS)) and int(text) < _SEEDS):
-        raise ParameterError(f"--faults {shortened(text)!r}", allowed="a seed: a whole number from 0 to 2^64 - 1")
+        raise ParameterError(f"{option} {shortened(text)!r}", allowed="a seed: a whole number from 0 to 2^64 - 1")
     return int(text)

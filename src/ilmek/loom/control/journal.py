@@ -51,6 +51,7 @@ class RecordKind(IntEnum):
     START    the journal was opened: number: how often before
     HOMED    an axis is at home: code: its number in the list of axes; row
     ROWS_BACK  an operator has taken out all from a row on: row; number: whole rows before the row in work
+    GIVEN    a row was given to a PLC: row; flag: 1: it was taken out, and the PLC has not requested it yet
     """
 
     KNOT = 1
@@ -63,6 +64,7 @@ class RecordKind(IntEnum):
     START = 8
     ROWS_BACK = 9
     HOMED = 10
+    GIVEN = 11
 
 
 class Origin(IntEnum):
