@@ -49,13 +49,13 @@ PAPERS = {
     "maintenance.by-life": "ömrü tezgâhınkinden kısadır",
     "maintenance.by-set": "aşınır; ömrü hesaplanmamıştır",
     "maintenance.belts-how": "Her kayışı ilk haftadan sonra, ardından her yağlamada ölçün; gerginliğinin {share} "
-    "değerinin altında gerin, dişi çatlamışsa değiştirin. Çizgi: yukarıdaki "
-    "bir kayışın parçası ya da üreticisince ayarlı.",
+    "değerinin altında gerin, dişi çatlamışsa değiştirin. Çizgi: "
+    "üreticisince ayarlı.",
     "maintenance.tension": "durgun gerginlik",
     "maintenance.set": "ayar",
     "maintenance.least": "altında gerin",
     # Grease
-    "grease.bearing-rule": "10 (14·10⁶ / (n √d) − 4 d) saat, en çok 3 yıl",
+    "grease.bearing-rule": "her {turning} dönüşte, en çok 3 yıl",
     "grease.travel-rule": "her {travel} yolda bir, en çok 3 yıl",
     "grease.sealed": "ömür boyu gresli: elle çevirin, pürüzlü olanı değiştirin",
     "grease.half-year": "her yarım yılda",
@@ -310,6 +310,10 @@ PAPERS = {
     "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres.",
     "manual.hexagon-key": "alyan anahtar {size}",
     "manual.spanner": "anahtar {size}",
+    "manual.hook-spanner": "⌀{size} için kancalı anahtar DIN 1810",
+    "manual.hammer-drill": "darbeli matkap {size}",
+    "manual.bar": "{size} mapanın halkasından çubuk",
+    "manual.by-hand": "elle",
     "manual.lock": "vida sabitleyici",
     "manual.grease": "gres",
     "manual.hoist": "vinç, sapan",
