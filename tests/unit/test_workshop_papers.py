@@ -261,10 +261,11 @@ def test_commissioning_says_where_the_cams_stand() -> None:
 def test_belts_are_tuned_by_their_mass_and_tension() -> None:
     report: Any = default_report("automated-loom")
     parts = {row["id"]: row for row in listed("parts")}
-    lengths = {row["parts"]: float(row["length of one [m]"]) for row in listed("purchase") if row["length of one [m]"]}
     belt = "automated-loom/heads-belt"
-    mass = float(parts[belt]["mass of one [kg]"]) / lengths[belt]
-    span = lengths[belt] - 2 * 8 * 5e-3 - report["heads"] * 88e-3  # less the clamps of 8 teeth, and the heads
+    (whole,) = (row for row in listed("purchase") if belt in row["parts"].split())
+    mass = float(whole["mass of all [kg]"]) / float(whole["length of one [m]"])
+    straight = float(parts[belt]["mass of one [kg]"]) / mass  # without the loops at the pulleys
+    span = straight - 2 * 8 * 5e-3 - report["heads"] * 88e-3  # less the clamps of 8 teeth, and the heads
     tension = check_value("tension of the heads' belt") / 2  # where no head steps
     wave = math.sqrt(tension / mass)
     assert float(str(rows_of("commissioning", 3)[0][1]).removesuffix(" Hz")) == pytest.approx(wave / 2 / span, rel=0.01)
@@ -846,7 +847,8 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
         (part["designation"] if part["process"] == "fastener" else part["title"]).split(", ")[0]
         for part in listed("parts")
     }
-    assert titles | shapeless == expected
+    turned = {"ISO 4026 - M3", "ISO 4026 - M4", "ISO 4026 - M6 x 0.75", "ISO 4026 - M8 x 1", "ISO 4035 - M20"}
+    assert (titles - turned) | shapeless == expected
     (stack,) = (table for table in tables if table.name.startswith("stack"))
     lying = [title for times, run in stack.rows for title in int(times) * str(run).split("; ")]
     kinds = {re.sub(r", [\d.]+ deg$", "", title) for title in lying}

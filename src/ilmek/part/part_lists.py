@@ -44,7 +44,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     """
     heads = columns(
         "number | id | title | drawing | assemblies | quantity | make or buy | size | material | process"
-        " | mass of one [kg] 6 | price of all | designation"
+        " | mass of one [kg] 6 | price of all | designation | fixing"
     )
     rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
@@ -54,7 +54,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         material = sold_as(part)
         into = " ".join(assemblies[part.id])
         made = position, part.id, part.title, drawing, into, number, source[1], line.description, material, part.process
-        rows.append((*made, part.mass, price_of(line, prices), source[0]))
+        rows.append((*made, part.mass, price_of(line, prices), source[0], part.fixing))
     return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 
 

@@ -259,6 +259,17 @@ PAPERS = {
     "risk.requires": "required PL",
     "risk.enough": "enough",
     # Lift
+    "foundation.title": "Foundation plan",
+    "foundation.lead": "Where the loom, its guards, creel and cabinet stand on the floor, from one datum",
+    "foundation.picture": "From above, the weaver below: anchors and levelling feet by number, dashed what is low",
+    "foundation.how": "Datum: the axis of the left front levelling foot. Mark all positions from it, check both "
+    "diagonals of the feet to 2 mm. Anchors: concrete C20/25 or better, holes {drill}, {depth} deep, "
+    "blown out; tighten to {torque} when the loom is level.",
+    "foundation.number": "number",
+    "foundation.part": "part",
+    "foundation.right": "to the right",
+    "foundation.behind": "behind",
+    "foundation.bolt": "anchor, foot",
     "lift.how": "The loom is moved without guards and creel, its heads and comb locked, on a lifting frame with four "
     "vertical slings in four eye bolts, screwed in to their collars: on the tops of the columns and on the front feet. "
     "Each bears half of the mass, as two slings may hang slack.",

@@ -259,6 +259,17 @@ PAPERS = {
     "risk.requires": "gereken PL",
     "risk.enough": "yeterli mi",
     # Lift
+    "foundation.title": "Temel planı",
+    "foundation.lead": "Tezgâh, korkuluk, cağlık ve pano zeminde nerede durur, tek bir ölçü başlangıcından",
+    "foundation.picture": "Üstten, dokuyucu altta: ankrajlar ve ayar ayakları numarasıyla, alçak olanlar kesik çizgili",
+    "foundation.how": "Ölçü başlangıcı: sol ön ayar ayağının ekseni. Bütün yerleri buradan işaretleyin, ayakların iki "
+    "köşegenini 2 mm içinde denetleyin. Ankrajlar: C20/25 veya üstü beton, delik {drill}, {depth} "
+    "derin, üflenmiş; tezgâh düzken {torque} ile sıkın.",
+    "foundation.number": "sıra",
+    "foundation.part": "parça",
+    "foundation.right": "sağa",
+    "foundation.behind": "arkaya",
+    "foundation.bolt": "ankraj, ayak",
     "lift.how": "Tezgâh, koruyucular ve cağlık olmadan, başlıkları ve tarağı kilitli olarak, dört düşey sapanlı bir "
     "kaldırma çerçevesiyle taşınır: yakasına kadar vidalanmış dört mapa, kolonların tepesinde ve ön ayakların üstünde. "
     "İki sapan gevşek kalabileceği için her biri kütlenin yarısını taşır.",

@@ -126,7 +126,7 @@ SHEETS = {
     "sheet.duty-track": "iz taşır",
     "sheet.about-datum": " ({datum} ekseninden)",
     "sheet.soft-threads": "Dişler ve uçları yumuşak: sertleştirilirken örtülür, en çok 350 HV",
-    "sheet.yarn-edges": "İpliğin değdiği kenarlar: R {radius}, uçlar tam yarıçapla yuvarlatılmış, Ra {rough} parlatılmış",
+    "sheet.yarn-edges": "İpliğin değdiği kenarlar: R {radius}, uçlar tam yarıçapla yuvarlatılmış, Ra {rough} parlak",
     "sheet.duty-guiding": "kızak taşır",
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "yüzeyde kayar",

@@ -58,8 +58,7 @@ def cam_circles(part: DrawnPart) -> dict[str, float]:
         "sheet.prime-circle": part.paths.get(PITCH),
     }.items():
         if curve is not None:
-            points = curve.points if isinstance(curve, Contour) else curve
-            circles[name] = float(np.abs(points).min())
+            circles[name] = float(np.nanmin(polar_radii(curve)).round(6))  # as in the table
     return circles
 
 
@@ -82,9 +81,8 @@ def mark_cam(view: DrawnView, part: DrawnPart) -> None:
     if hard:
         points_out = points * (1 + _BESIDE / view.scale / np.abs(points))
         view.line(LineKind.HARDENED, np.append(points_out, points_out[:1]), body=False)
-    words = Sentence(
-        "sheet.radii-called", about=about, tolerance=radius, increment=step, rough=f"{FLANK / um:g}", finish=finish
-    )
+    sizes = {"tolerance": radius, "increment": step, "rough": f"{FLANK / um:g}"}
+    words = Sentence("sheet.radii-called", about=about, finish=finish, **sizes)
     view.leader(words, foot * view.scale, 0.0, kind=None)
 
 
