@@ -270,6 +270,7 @@ PAPERS = {
     "foundation.right": "to the right",
     "foundation.behind": "behind",
     "foundation.bolt": "anchor, foot",
+    "foundation.free": "stands by itself",
     "lift.how": "The loom is moved without guards and creel, its heads and comb locked, on a lifting frame with four "
     "vertical slings in four eye bolts, screwed in to their collars: on the tops of the columns and on the front feet. "
     "Each bears half of the mass, as two slings may hang slack.",

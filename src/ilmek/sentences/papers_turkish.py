@@ -270,6 +270,7 @@ PAPERS = {
     "foundation.right": "sağa",
     "foundation.behind": "arkaya",
     "foundation.bolt": "ankraj, ayak",
+    "foundation.free": "kendi başına durur",
     "lift.how": "Tezgâh, koruyucular ve cağlık olmadan, başlıkları ve tarağı kilitli olarak, dört düşey sapanlı bir "
     "kaldırma çerçevesiyle taşınır: yakasına kadar vidalanmış dört mapa, kolonların tepesinde ve ön ayakların üstünde. "
     "İki sapan gevşek kalabileceği için her biri kütlenin yarısını taşır.",
