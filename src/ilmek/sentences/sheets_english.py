@@ -54,6 +54,7 @@ SHEETS = {
     "{tip} over the pitch line, class {quality}",
     "sheet.belt-teeth": "side on the belt: {teeth} teeth of the profile {belt}, pitch {pitch}, across the length",
     "sheet.window": "window {size} high ({least}…{most}), wire-cut, its corners R 0.2 at most",
+    "sheet.lever-slots": "slots {size} ({least}…{most}), wire-cut, their middles on the axis of the bore ±{off}",
     "sheet.eccentric": "ring {size} ({least}…{most}); the other end is concentric with the bore",
     "sheet.cutting-edge": "upper edge ground to {angle} on the side away from the face, sharp: no break of this edge",
     "sheet.notes": "Notes",

@@ -54,6 +54,7 @@ SHEETS = {
     "çizgisinin {tip} üstünde, sınıf {quality}",
     "sheet.belt-teeth": "kayış tarafı: {belt} profilinde {teeth} diş, adım {pitch}, boya dik",
     "sheet.window": "pencere yüksekliği {size} ({least}…{most}), tel erozyon, köşeler en çok R 0,2",
+    "sheet.lever-slots": "yarıklar {size} ({least}…{most}), tel erozyon, orta düzlemleri delik ekseninden {off} içinde",
     "sheet.eccentric": "bilezik {size} ({least}…{most}); öbür uç delikle eş merkezlidir",
     "sheet.cutting-edge": "üst kenar alından uzak yüzde {angle} taşlanır, keskin: bu kenar kırılmaz",
     "sheet.notes": "Notlar",
