@@ -320,8 +320,8 @@ PAPERS = {
     "manual.tools-how": "Keys, a torque wrench for the torques beside the screws, a level, a rule; slings and a hoist "
     "for what weighs over {mass} (ISO 11228-1), the frame in its eye bolts; thread lock of medium strength for screws "
     "of bodies that move, oil for all others (ISO 4762 and ISO 4017, 8.8); grease of NLGI 2 for bearings, guides and "
-    "springs. Grub screws of insert bearings come last, those beside the reducer first, the others once the shaft turns "
-    "freely by hand: both bearings hold the shaft, which grows with the frame, of steel as well.",
+    "springs. Grub screws of insert bearings come last, those beside the reducer first, the others once the shaft "
+    "turns freely by hand: both bearings hold the shaft, which grows with the frame, of steel as well.",
     "manual.hexagon-key": "hexagon key {size}",
     "manual.spanner": "spanner {size}",
     "manual.hook-spanner": "hook spanner DIN 1810 for ⌀{size}",

@@ -320,8 +320,8 @@ PAPERS = {
     "manual.tools-how": "Anahtarlar, vidaların yanındaki torklar için tork anahtarı, su terazisi, cetvel; {mass} "
     "üstündeki ağırlıklar için sapan ve vinç (ISO 11228-1), gövde mapalarından; hareketli parçaların vidalarına orta "
     "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres. "
-    "Geçme yatakların setskur vidaları en son, önce redüktör yanındakiler, ötekiler mil elle serbest dönünce sıkılır: iki "
-    "yatak da mili tutar, mil çelik gövdeyle birlikte uzar.",
+    "Geçme yatakların setskur vidaları en son, önce redüktör yanındakiler, ötekiler mil elle serbest dönünce sıkılır: "
+    "iki yatak da mili tutar, mil çelik gövdeyle birlikte uzar.",
     "manual.hexagon-key": "alyan anahtar {size}",
     "manual.spanner": "anahtar {size}",
     "manual.hook-spanner": "⌀{size} için kancalı anahtar DIN 1810",
