@@ -7,25 +7,28 @@ from ilmek.report.sheet import Issue
 
 
 def issue_of(words: str | None) -> Issue:
-    """Revision and date of drawings as given, the date of ISO 8601; without a comma the revision alone.
+    """Revision, date and owner of drawings as given, the date of ISO 8601; without a comma the revision alone.
 
     Raises ParameterError for no revision, or for what is no date.
 
     >>> issue_of("B, 2026-11-30").date
     '2026-11-30'
+    >>> issue_of("B,2026-11-30,Loom Works, Izmir").owner
+    'Loom Works, Izmir'
     """
     if words is None:
         return Issue()
-    revision, comma, day = (part.strip() for part in words.partition(","))
+    revision, *others = (part.strip() for part in words.split(",", 2))
+    day, owner = (*others, "", "")[:2]
     if not revision or _date(revision):
         raise ParameterError(f"--issue {words!r} has no revision", do="write it like B,2026-11-30")
-    if comma and not _date(day):
+    if others and not _date(day):
         raise ParameterError(
             f"--issue {words!r}: {day!r} is no date",
             allowed="a day of ISO 8601",
             do=f"write it like {revision},2026-11-30",
         )
-    return Issue(date=_date(day) or "—", revision=revision)
+    return Issue(owner or "—", _date(day) or "—", revision)
 
 
 def _date(text: str) -> str:

@@ -33,7 +33,10 @@ animation_option = click.option(
     help="Write the machine in motion; MP4 needs the extra video.",
 )
 issue_option = text_option(
-    "--issue", "REVISION,DATE", "Revision and date (ISO 8601) of issue on the drawings.", "issued"
+    "--issue",
+    "REVISION,DATE,OWNER",
+    "Revision, date (ISO 8601) and legal owner on the drawings; those left out stay a dash.",
+    "issued",
 )
 rates_option = file_option(
     "--rates",

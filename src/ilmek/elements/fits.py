@@ -99,6 +99,12 @@ class ToleranceZone:
         """The tolerance [m]."""
         return self.upper - self.lower
 
+    @property
+    def stated(self) -> dict[str, str]:
+        """The size with its class, and its limits, for a note [mm]."""
+        sizes = {"least": self.nominal + self.lower, "most": self.nominal + self.upper}
+        return {"size": f"{self.nominal / mm:.3f} {self.name}"} | {key: f"{own / mm:.3f}" for key, own in sizes.items()}
+
 
 @record
 class IsoFit:

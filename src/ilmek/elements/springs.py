@@ -15,14 +15,17 @@ import numpy as np
 from ilmek.arrays import FloatArray
 from ilmek.elements.catalogue import pick
 from ilmek.errors import ParameterError
-from ilmek.units import GPa, MPa, mm
+from ilmek.units import GPa, MPa, format_quantity, mm
 
 
 @dataclass(frozen=True, slots=True)
 class Wire:
-    """Spring wire: tensile strength A / d^power [Pa, d in mm], its allowed share in shear, G, E, density [kg/m³]."""
+    """Spring wire, its standard: tensile strength A / d^power [Pa, d in mm], its allowed share in shear, G, E,
+    density [kg/m³].
+    """
 
     name: str
+    standard: str
     strength: float
     power: float
     share: float
@@ -38,11 +41,11 @@ class Wire:
 WIRES: dict[str, Wire] = {
     wire.name: wire
     for wire in (
-        Wire("music wire", 2211 * MPa, 0.145, 0.45, 81.7 * GPa, 203.4 * GPa, 7850.0),
-        Wire("oil-tempered wire", 1855 * MPa, 0.187, 0.50, 77.2 * GPa, 196.5 * GPa, 7850.0),
-        Wire("chrome-vanadium wire", 2005 * MPa, 0.168, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
-        Wire("chrome-silicon wire", 1974 * MPa, 0.108, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
-        Wire("stainless wire", 1867 * MPa, 0.146, 0.35, 69.0 * GPa, 193.0 * GPa, 7900.0),
+        Wire("music wire", "EN 10270-1 SH", 2211 * MPa, 0.145, 0.45, 81.7 * GPa, 203.4 * GPa, 7850.0),
+        Wire("oil-tempered wire", "EN 10270-2 FD", 1855 * MPa, 0.187, 0.50, 77.2 * GPa, 196.5 * GPa, 7850.0),
+        Wire("chrome-vanadium wire", "EN 10270-2 FDCrV", 2005 * MPa, 0.168, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
+        Wire("chrome-silicon wire", "EN 10270-2 FDSiCr", 1974 * MPa, 0.108, 0.50, 77.2 * GPa, 203.4 * GPa, 7850.0),
+        Wire("stainless wire", "EN 10270-3 1.4310", 1867 * MPa, 0.146, 0.35, 69.0 * GPa, 193.0 * GPa, 7900.0),
     )
 }
 """By name [Shigley, tables 10-4 to 10-6; ASTM A228, A229, A232, A401, A313]; for wires of about 0.5 to 6 mm."""
@@ -72,6 +75,24 @@ class CompressionSpring:
     diameter: float
     coils: float
     free_length: float
+
+    @property
+    def designation(self) -> str:
+        """As ordered, with the symbols of EN 13906-1: D is the mean diameter of the coil, sizes are in mm.
+
+        >>> CompressionSpring("music wire", 0.001, 0.0075, 51.5, 0.14).designation
+        'spring EN 15800, d 1, D 7.5 mean, De 8.5, L0 140, nt 53.5 coils, closed and ground, R 0.47 N/mm, EN 10270-1 SH'
+        """
+        sizes = {
+            "d": self.wire_diameter,
+            "D": self.diameter,
+            "De": self.diameter + self.wire_diameter,
+            "L0": self.free_length,
+        }
+        d, mean, outer, long = (f"{name} {format_quantity(size / mm, '', 3)}" for name, size in sizes.items())
+        coils = f"nt {self.coils + 2:.3g} coils, closed and ground"
+        rate = format_quantity(self.rate, "N/mm", 3)
+        return f"spring EN 15800, {d}, {mean} mean, {outer}, {long}, {coils}, R {rate}, {WIRES[self.wire].standard}"
 
     @property
     def index(self) -> float:

@@ -12,8 +12,6 @@ from itertools import chain, groupby
 
 import numpy as np
 
-from ilmek.elements.locknuts import locknut_of
-from ilmek.elements.machine_screws import screw_of
 from ilmek.machines.manual_tools import moving_bodies, step_tools, tools_section
 from ilmek.part.assemblies import machine_of
 from ilmek.part.contacts import joined_by
@@ -26,6 +24,7 @@ from ilmek.part.poses import chains
 from ilmek.part.projection import PieceOutline, View, outlines
 from ilmek.part.stacks import StackPiece, StackRun
 from ilmek.part.straight_moves import Vector
+from ilmek.part.tightening import tightening_of
 from ilmek.part.tree import Tree
 from ilmek.part.welds import welds_of
 from ilmek.records import record
@@ -307,7 +306,11 @@ def _row(
 ) -> tuple[float | int | str, ...]:
     parts = {} if step.built else step.parts
     fasteners = {part: parts[part] for part in parts if part.process == FASTENER} | dict(step.screws)
-    fastened = [(_tightened(part, count), joins[part.id]) for part, count in fasteners.items()]
+    fastened = [
+        (_tightened(part, count), joins.get(part.id, (part.id,)))
+        for part, count in {**parts, **fasteners}.items()
+        if part.process == FASTENER or tightening_of(part)
+    ]
     fastened += [(seam, pair) for *pair, seam in step.welds]
     named = [f"{parts[part]} × {titles[part.id]}" for part in parts if part.process != FASTENER]
     tools = step_tools({**parts, **fasteners}, step.lifted, moving=not moving.isdisjoint(step.bodies))
@@ -340,9 +343,8 @@ def _in_turn(words: Sequence[str]) -> str:
 def _tightened(part: Part, number: int) -> str:
     """A screw with its torque, or a key."""
     assert part.purchase is not None
-    screw = screw_of(part.purchase.row) or locknut_of(part.purchase.row)
-    torque = "" if screw is None else f", {format_quantity(screw.torque, 'Nm', 3)}"
-    return f"{number} × {part.purchase.row}{torque}"
+    turned = tightening_of(part)
+    return f"{number} × {part.purchase.row}" if turned is None else turned.text(number)
 
 
 def _picture(seen: Sequence[PieceOutline], standing: set[str], coming: set[str], caption: str) -> Drawing:

@@ -367,11 +367,8 @@ def screw(name: str, title: str, row: MachineScrew, length: float) -> Part:
 def spring_part(name: str, title: str, row: CompressionSpring, length: float) -> Part:
     """A compression spring about z from z = 0, drawn at a length [m]; its mass is that of all coils."""
     wire, coil = row.wire_diameter, row.diameter
-    made = " x ".join(format_quantity(size / mm, "", 3) for size in (wire, coil, row.free_length))
-    size = f"{row.wire}, wire x coil x length in mm"
-    data = f"{size}, {row.coils + 2:.3g} coils, ends ground, {format_quantity(row.rate, 'N/mm', 3)}"
-    bought = Bought(made, row.mass * (row.coils + 2) / row.coils, data=data)
-    return bought_part(name, title, "spring", tube(coil + wire, wire, length), bought, size=size)
+    bought = Bought(row.designation, row.mass * (row.coils + 2) / row.coils)
+    return bought_part(name, title, "spring", tube(coil + wire, wire, length), bought)
 
 
 def guide_rail(name: str, title: str, row: LinearGuide, length: float) -> Part:

@@ -13,8 +13,8 @@ from ilmek.units import um
 def related(features: Sequence[ToleratedFeature]) -> list[ToleratedFeature]:
     """The features with their tolerances of position and run-out, from datums among them."""
     seats = [feature for feature in features if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING]
-    if any(feature.duty is FitDuty.ROLLING for feature in features):
-        seats = [feature for feature in features if feature.kind is FeatureKind.BORE]
+    if any(feature.duty in {FitDuty.ROLLING, FitDuty.TRACK} for feature in features):
+        seats = [feature for feature in features if feature.kind in {FeatureKind.BORE, FeatureKind.SQUARE_BORE}]
     datums: dict[str, str] = {}
     if seats:
         axis = seats[0], seats[-1] if seats[-1] is not seats[0] else seats[0]
@@ -50,12 +50,14 @@ def _in_line(one: ToleratedFeature, other: ToleratedFeature) -> bool:
 def _turning_true(one: ToleratedFeature, datums: Mapping[str, str]) -> ToleratedFeature:
     """A feature of a shaft with the run-out that it needs about its bearings."""
     letter, common = datums.get(one.name, ""), ("-".join(datums.values()),)
-    if one.kind is not FeatureKind.JOURNAL or (letter and len(datums) == 1) or not common[0]:
+    track = one.duty is FitDuty.TRACK
+    if not (one.kind is FeatureKind.JOURNAL or track) or (letter and len(datums) == 1) or not common[0]:
         return replace(one, datum=letter)
     total = one.duty is FitDuty.BEARING
     characteristic = Characteristic.TOTAL_RUN_OUT if total else Characteristic.RUN_OUT
     rolls = one.duty is FitDuty.ROLLING
     reason = "the bearings lie in line" if total else "it rolls true" if rolls else "what is on the shaft turns true"
+    reason = "its track stays under the roller" if track else reason
     value = tolerance_grade(5 if total or rolls else 7, one.nominal)
     run_out = GeometricTolerance(characteristic, value, common, reason=reason)
     return replace(one, datum=letter, geometric=(*one.geometric, run_out))

@@ -61,6 +61,7 @@ class Bought:
     drives  how many of them drive an axis of the control together; 0: it is no motor
     holes   for its screws      drilled  faces without holes have them where its seat is, by its maker, or slots
     housing  tolerance class of the bore in which its outer ring sits
+    piece_of  id of the bought part that it is a length of, drawn apart: it is ordered with that; "": by itself
     hardness  least one of the shaft on which its rollers run [HRC]; 0: they run on a ring of its own
     """
 
@@ -74,6 +75,7 @@ class Bought:
     drilled: bool = False
     housing: str = "H7"
     hardness: int = 0
+    piece_of: str = ""
 
 
 @record
@@ -118,6 +120,7 @@ class Part:
     notes     what else the workshop must know: fits, a keyway's standard
     cam       how a disc cam is cut; None: it is none
     machined  its seats are machined after it is cut, sawn or welded: bores, threads, faces of guides, journals
+    yarns     run on its edges, which are rounded and polished
     throat    of the weld that holds it, where strength sets it [m]; 0: by the wall
     joins     ids of the parts that a fastener holds together, or that a made part is welded to
     drawing   of a made part that is no flat plate, but drawn as one: a groove in a disc, a barrel laid flat
@@ -143,6 +146,7 @@ class Part:
     cam: CamMaking | None = None
     throat: float = 0.0
     machined: bool = False
+    yarns: bool = False
     joins: tuple[str, ...] = ()
     fixing: str = ""
     size: str = ""

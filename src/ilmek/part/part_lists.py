@@ -5,24 +5,23 @@ their least number = ceil(sum of lengths with cuts / length of a bar)           
 """
 
 import math
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 
-from ilmek.elements.locknuts import locknut_of
-from ilmek.elements.machine_screws import screw_of
 from ilmek.elements.prices import PriceRates, price_of
 from ilmek.part.assemblies import drawings_of_parts
 from ilmek.part.bill import line_of
 from ilmek.part.blanks import PLATE, blanks_of, sold_as
 from ilmek.part.contacts import joined_by
 from ilmek.part.part import Part
+from ilmek.part.tightening import tightening_of
 from ilmek.part.tree import Tree
 from ilmek.report import Table, columns
 from ilmek.sentences import Sentence
 from ilmek.units import mm
 
-BARS = (6.0, 12.0)
-"""Lengths in which bars and tubes are sold [m]: the shorter one, unless a piece is longer."""
+BARS, WHOLE = (1.0, 2.0, 3.0, 6.0, 12.0), 6.0
+"""Lengths in which bars and tubes are sold [m], and that of a whole one: less is cut from it by its dealer."""
 
 SAW = 3 * mm
 """Width of a saw cut [m]; assumed by this project."""
@@ -45,7 +44,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
     """
     heads = columns(
         "number | id | title | drawing | assemblies | quantity | make or buy | size | material | process"
-        " | mass of one [kg] 6 | price of all | designation"
+        " | mass of one [kg] 6 | price of all | designation | fixing"
     )
     rows, assemblies = [], drawings_of_parts(tree)
     for position, (part, number) in enumerate(tree.occurrences(), 1):
@@ -55,7 +54,7 @@ def parts_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
         material = sold_as(part)
         into = " ".join(assemblies[part.id])
         made = position, part.id, part.title, drawing, into, number, source[1], line.description, material, part.process
-        rows.append((*made, part.mass, price_of(line, prices), source[0]))
+        rows.append((*made, part.mass, price_of(line, prices), source[0], part.fixing))
     return Table("parts", Sentence("list.parts"), heads, tuple(rows))
 
 
@@ -76,25 +75,27 @@ def distinct_titles(tree: Tree) -> dict[str, str]:
 
 
 def purchase_list(tree: Tree, prices: Mapping[str, PriceRates]) -> Table:
-    """A row for each designation of bought parts, with all parts that are ordered by it."""
+    """A row for each designation of bought parts, with all parts that are ordered by it; pieces with their whole."""
     ordered: dict[tuple[str, str, float], list[tuple[Part, int]]] = defaultdict(list)
+    pieces: dict[str, list[tuple[Part, int]]] = defaultdict(list)
     for part, number in tree.occurrences():
-        if part.purchase is not None:
+        if part.purchase is not None and part.purchase.piece_of:
+            pieces[part.purchase.piece_of].append((part, number))
+        elif part.purchase is not None:
             ordered[part.process, part.designation, part.purchase.length].append((part, number))
     heads = columns("designation | kind | length of one [m] | quantity | mass of all [kg] 6 | price of all | parts")
-    rows = tuple(
-        (
-            row or kind,
-            kind,
-            length or math.nan,
-            sum(number for _, number in parts),
-            math.fsum(number * part.mass for part, number in parts),
-            math.fsum(price_of(line_of(part, number), prices) for part, number in parts),
-            " ".join(part.id for part, _ in parts),
+    rows = []
+    for (kind, row, length), parts in sorted(ordered.items()):
+        whole = [*parts, *(piece for part, _ in parts for piece in pieces[part.id])]
+        number = sum(count for _, count in parts)
+        more = math.fsum(
+            count * part.purchase.length for part, count in whole if part.purchase and part.purchase.piece_of
         )
-        for (kind, row, length), parts in sorted(ordered.items())
-    )
-    return Table("purchase", Sentence("list.purchase"), heads, rows)
+        mass = math.fsum(count * part.mass for part, count in whole)
+        price = math.fsum(price_of(line_of(part, count), prices) for part, count in whole)
+        ids = " ".join(part.id for part, _ in whole)
+        rows.append((row or kind, kind, length + more / number or math.nan, number, mass, price, ids))
+    return Table("purchase", Sentence("list.purchase"), heads, tuple(rows))
 
 
 def cut_list(tree: Tree) -> Table:
@@ -104,19 +105,36 @@ def cut_list(tree: Tree) -> Table:
         for blank in blanks_of(part):
             if blank.form != PLATE and part.material is not None:
                 stock[blank.name, sold_as(part)].append((blank.length, number, part.id))
-    heads = columns("section | material | pieces | lengths | length of all [m] 6 | length of a bar [m] | bars")
-    heads = (*heads, *columns("least number of bars | parts"))
+    heads = columns("section | material | pieces | lengths | length of all [m] 6 | saw cut [m] | length of a bar [m]")
+    heads = (*heads, *columns("bars | pieces of each bar | least number of bars | parts"))
     rows = []
     for (section, material), cuts in sorted(stock.items()):
         pieces = [length for length, number, _ in cuts for _ in range(number)]
-        bar = next((offered for offered in BARS if max(pieces) <= offered), max(pieces))
+        bar = _bar_for(pieces)
         named = "; ".join(f"{number} x {cut_length(length)} mm" for length, number, _ in cuts)
         least = math.ceil(math.fsum(piece + SAW for piece in pieces) / (bar + SAW) - 1e-9)
         ids = " ".join(name for _, _, name in cuts)
-        rows.append(
-            (section, material, len(pieces), named, math.fsum(pieces), bar, len(bars_for(pieces, bar)), least, ids)
-        )
+        bars = bars_for(pieces, bar)
+        nested = "; ".join(f"{count} x ({_counted(own)})" for own, count in Counter(bars).items())
+        lengths = math.fsum(pieces), SAW, bar, len(bars)
+        rows.append((section, material, len(pieces), named, *lengths, nested, least, ids))
     return Table("cut-list", Sentence("list.cut"), heads, tuple(rows))
+
+
+def _counted(pieces: Sequence[float]) -> str:
+    """The pieces of a bar, those of one length together."""
+    return " + ".join(f"{number} x {length}" for length, number in Counter(map(cut_length, pieces)).items())
+
+
+def _bar_for(pieces: Sequence[float]) -> float:
+    """Length of the bars for some pieces [m]: the least with room for all, else a whole one, or the longest piece.
+
+    >>> _bar_for((0.4, 0.5)), _bar_for((0.5, 0.5)), _bar_for((2.0,) * 9), _bar_for((7.0, 1.0))
+    (1.0, 2.0, 6.0, 12.0)
+    """
+    all_of_them = math.fsum(pieces) + (len(pieces) - 1) * SAW
+    least = min(all_of_them, max(*pieces, WHOLE))
+    return next((offered for offered in BARS if least <= offered + 1e-9), max(pieces))
 
 
 def bars_for(pieces: Sequence[float], bar: float) -> tuple[tuple[float, ...], ...]:
@@ -151,8 +169,8 @@ def fastener_list(tree: Tree) -> Table:
 
 def _fastener(part: Part, number: int, joined: Sequence[str]) -> tuple[str | int | float, ...]:
     assert part.purchase is not None
-    screw = screw_of(part.purchase.row) or locknut_of(part.purchase.row)
-    tightened = (math.nan, math.nan) if screw is None else (screw.torque, screw.tightened)
+    turned = tightening_of(part)
+    tightened = (math.nan, math.nan) if turned is None else (turned.torque, turned.preload)
     first, *others = (*joined, "")
     return part.purchase.row, part.id, number, first, " ".join(filter(None, others)), *tightened
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from ilmek.elements.materials import Hardening
 from ilmek.part.blanks import sold_as
+from ilmek.part.forms import form_of, members_of
 from ilmek.part.part import Part
 from ilmek.records import record
 from ilmek.units import mm, um
@@ -22,6 +23,12 @@ _SHARE, _DEPTHS = 1 / 8, (0.3 * mm, 1.5 * mm)
 
 _STEP = 0.1 * mm
 
+YARN_ROUGH = 0.4 * um
+"""Ra of edges on which yarns run [m]; assumed by this project, as makers of yarn guides polish them."""
+
+_ROUNDED, _LEFT, _FINE = 0.5 * mm, 0.3, 0.05 * mm
+"""Radius of such an edge, its most over the least side of the part, and its step [m]; assumed by this project."""
+
 
 @record
 class PartSpecification:
@@ -32,6 +39,7 @@ class PartSpecification:
     general    tolerances of dimensions without one: ISO 2768-mK, of weldments ISO 13920-AF
     roughness  Ra of all other surfaces [m]: ISO 21920; None: not machined, as cut or delivered
     outer_edge, inner_edge   ISO 13715: undercut below 0, burr or passing above 0 [m]
+    yarn_edge  least radius of the edges on which yarns run [m], polished to `YARN_ROUGH`; 0: none do
     """
 
     designation: str
@@ -41,6 +49,7 @@ class PartSpecification:
     roughness: float | None
     outer_edge: float = -0.3 * mm
     inner_edge: float = 0.3 * mm
+    yarn_edge: float = 0.0
 
 
 def specification(part: Part) -> PartSpecification:
@@ -60,7 +69,15 @@ def specification(part: Part) -> PartSpecification:
         _depth(part) if hardening is not None and hardening.kind else 0.0,
         WELDMENT if part.process == "welded frame" else "ISO 2768-mK",
         None if part.process in AS_DELIVERED else _MACHINED,
+        yarn_edge=_yarn_edge(part) if part.yarns else 0.0,
     )
+
+
+def _yarn_edge(part: Part) -> float:
+    """Least radius of the edges on which yarns run [m]: of thin parts less, so that a face is left."""
+    assert part.shape is not None
+    thin = min(min(form_of(member).size) for member, _ in members_of(part.shape))
+    return round(min(_ROUNDED, max(_LEFT * thin // _FINE, 1) * _FINE), 6)
 
 
 def _depth(part: Part) -> float:

@@ -49,6 +49,7 @@ class FitDuty(StrEnum):
     GUIDING = "seats a guide"
     SLIDING = "slides on a face"
     ROLLING = "rolls on a track"
+    TRACK = "has a track"
 
 
 class Characteristic(StrEnum):

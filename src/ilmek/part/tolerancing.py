@@ -14,16 +14,20 @@ which follows from the joint between them [`meetings`]; both parts read it from 
     end of a screw                     thread 6H; under a locknut 6g
     face under a bought guide          flat
     faces that slide on each other     flat
+    faces of a disc cam                run-out to its bore
 
 Sources: DIN 6885-1 (light fit), ISO 4379 (bushes), ISO 965-1 (threads); rolling bearings of the class Normal under
 normal loads: SKF, Rolling bearings, tables of fits, of roughness and of geometrical tolerances of seats, IT5 / 2 of a
 shaft and IT6 / 2 of a housing; freewheels: INA, HF. The other fits are usual choices, as are the surfaces.
 """
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
+
+import numpy as np
 
 from ilmek.elements.bearing_table import INSERT
 from ilmek.elements.bearings import find_bearing
@@ -37,7 +41,7 @@ from ilmek.part.datums import related
 from ilmek.part.features import FeatureOfSize, features_of_size
 from ilmek.part.meetings import GuideSeat, Meeting, SeatFeature, guide_seats, meetings, slide_seats
 from ilmek.part.placement import Placement, placement
-from ilmek.part.shapes import Turned
+from ilmek.part.shapes import Prism, Turned
 from ilmek.part.specification import AS_DELIVERED
 from ilmek.part.tolerances import Characteristic, FeatureKind, FitDuty, GeometricTolerance, ToleratedFeature
 from ilmek.part.tree import JointKind, Tree
@@ -101,6 +105,9 @@ def tolerances_of(tree: Tree) -> Mapping[str, tuple[ToleratedFeature, ...]]:
         machined = seat.part.machined or seat.part.process not in AS_DELIVERED
         if machined and seat.part.material is not None:  # what is not machined is shimmed
             features[seat.part.id].append(_face(seat))
+    for part, _ in tree.occurrences():
+        if part.cam is not None and isinstance(part.shape, Prism) and part.id in features:
+            features[part.id] += _cam_faces(part.id, part.shape)
     return {part: tuple(related(_named(own))) for part, own in features.items()}
 
 
@@ -228,6 +235,7 @@ _ROUGH = {
     FitDuty.GUIDING: 1.6 * um,
     FitDuty.SLIDING: 0.8 * um,
     FitDuty.ROLLING: 0.4 * um,
+    FitDuty.TRACK: 3.2 * um,
 }
 """Ra by duty [m]; a bore in which a journal runs is twice as rough."""
 
@@ -296,6 +304,27 @@ def _face(seat: GuideSeat) -> ToleratedFeature:
         mates=(seat.guide.id,),
         joint=seat.body,
     )
+
+
+def _cam_faces(name: str, shape: Prism) -> Iterator[ToleratedFeature]:
+    """Both faces of a disc cam, whose run-out would take its track from under the roller."""
+    outer = float(np.abs(shape.section.outline.points).max())
+    inner = max(float(np.abs(hole.points).max()) for hole in shape.section.holes)
+    middle = (inner + float(np.abs(shape.section.outline.points).min())) / 2
+    for end, about in ((0.0, math.pi), (shape.length, 0.0)):
+        yield ToleratedFeature(
+            part=name,
+            name="",
+            kind=FeatureKind.FACE,
+            position=placement(0.0, middle, end, about=(0.0, 1.0, 0.0), angle=about),
+            length=0.0,
+            nominal=round(2 * outer, 9),
+            tolerance="",
+            lower=0.0,
+            upper=0.0,
+            roughness=_ROUGH[FitDuty.TRACK],
+            duty=FitDuty.TRACK,
+        )
 
 
 _FLAT, _LEAST_FLAT = 30 * um / 1.0, 10 * um

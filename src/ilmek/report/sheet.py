@@ -29,6 +29,7 @@ class LineKind(StrEnum):
     CONTOUR = "contour"
     LEADER = "leader"
     DATUM = "datum"
+    HARDENED = "hardened"
 
 
 LINE_WIDTHS = {
@@ -46,6 +47,7 @@ LINE_WIDTHS = {
     LineKind.CONTOUR: 0.35,
     LineKind.LEADER: 0.18,
     LineKind.DATUM: 0.25,
+    LineKind.HARDENED: 0.5,
 }
 """Width of each kind of line [mm]; ISO 128-2, group 0.5, contours and leaders of assemblies 0.35; of the frame ISO
 5457.
@@ -55,8 +57,11 @@ LINE_DASHES: dict[LineKind, tuple[float, ...]] = {
     LineKind.HIDDEN: (3.0, 0.75),
     LineKind.CENTRE: (6.0, 0.75, 0.3, 0.75),
     LineKind.PATH: (6.0, 0.75, 0.3, 0.75, 0.3, 0.75),
+    LineKind.HARDENED: (6.0, 0.75, 0.3, 0.75),
 }
-"""Dash, gap, ... of each broken kind [mm]; ISO 128-2: 12 d and 3 d hidden, 24 d, 3 d, a dot, 3 d centre."""
+"""Dash, gap, ... of each broken kind [mm]; ISO 128-2: 12 d and 3 d hidden, 24 d, 3 d, a dot, 3 d centre; along what is
+hardened the same, wide: ISO 15787.
+"""
 
 
 @record

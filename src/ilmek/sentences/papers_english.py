@@ -50,12 +50,12 @@ PAPERS = {
     "maintenance.by-life": "its life is shorter than that of the loom",
     "maintenance.by-set": "it wears; no life is computed",
     "maintenance.belts-how": "Measure each belt after its first week, then at each greasing; tighten it below "
-    "{share} of its tension, replace it with a cracked tooth. A dash: a piece of a belt above, or set by the maker.",
+    "{share} of its tension, replace it with a cracked tooth. A dash: set by the maker.",
     "maintenance.tension": "tension at rest",
     "maintenance.set": "set to",
     "maintenance.least": "tighten below",
     # Grease
-    "grease.bearing-rule": "10 (14·10⁶ / (n √d) − 4 d) h, at most 3 years",
+    "grease.bearing-rule": "each {turning} of turning, at most 3 years",
     "grease.travel-rule": "each {travel} of travel, at most 3 years",
     "grease.sealed": "greased for life: turn it by hand, replace a rough one",
     "grease.half-year": "each half year",
@@ -259,6 +259,18 @@ PAPERS = {
     "risk.requires": "required PL",
     "risk.enough": "enough",
     # Lift
+    "foundation.title": "Foundation plan",
+    "foundation.lead": "Where the loom, its guards, creel and cabinet stand on the floor, from one datum",
+    "foundation.picture": "From above, the weaver below: anchors and levelling feet by number, dashed what is low",
+    "foundation.how": "Datum: the axis of the left front levelling foot. Mark all positions from it, check both "
+    "diagonals of the feet to 2 mm. Anchors: concrete C20/25 or better, holes {drill}, {depth} deep, "
+    "blown out; tighten to {torque} when the loom is level.",
+    "foundation.number": "number",
+    "foundation.part": "part",
+    "foundation.right": "to the right",
+    "foundation.behind": "behind",
+    "foundation.bolt": "anchor, foot",
+    "foundation.free": "stands by itself",
     "lift.how": "The loom is moved without guards and creel, its heads and comb locked, on a lifting frame with four "
     "vertical slings in four eye bolts, screwed in to their collars: on the tops of the columns and on the front feet. "
     "Each bears half of the mass, as two slings may hang slack.",
@@ -308,9 +320,14 @@ PAPERS = {
     "manual.tools-how": "Keys, a torque wrench for the torques beside the screws, a level, a rule; slings and a hoist "
     "for what weighs over {mass} (ISO 11228-1), the frame in its eye bolts; thread lock of medium strength for screws "
     "of bodies that move, oil for all others (ISO 4762 and ISO 4017, 8.8); grease of NLGI 2 for bearings, guides and "
-    "springs.",
+    "springs. Grub screws of insert bearings come last, those beside the reducer first, the others once the shaft "
+    "turns freely by hand: both bearings hold the shaft, which grows with the frame, of steel as well.",
     "manual.hexagon-key": "hexagon key {size}",
     "manual.spanner": "spanner {size}",
+    "manual.hook-spanner": "hook spanner DIN 1810 for ⌀{size}",
+    "manual.hammer-drill": "hammer drill {size}",
+    "manual.bar": "bar through the eye of {size}",
+    "manual.by-hand": "by hand",
     "manual.lock": "thread lock",
     "manual.grease": "grease",
     "manual.hoist": "hoist, slings",

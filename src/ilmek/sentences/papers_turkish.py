@@ -49,13 +49,13 @@ PAPERS = {
     "maintenance.by-life": "ömrü tezgâhınkinden kısadır",
     "maintenance.by-set": "aşınır; ömrü hesaplanmamıştır",
     "maintenance.belts-how": "Her kayışı ilk haftadan sonra, ardından her yağlamada ölçün; gerginliğinin {share} "
-    "değerinin altında gerin, dişi çatlamışsa değiştirin. Çizgi: yukarıdaki "
-    "bir kayışın parçası ya da üreticisince ayarlı.",
+    "değerinin altında gerin, dişi çatlamışsa değiştirin. Çizgi: "
+    "üreticisince ayarlı.",
     "maintenance.tension": "durgun gerginlik",
     "maintenance.set": "ayar",
     "maintenance.least": "altında gerin",
     # Grease
-    "grease.bearing-rule": "10 (14·10⁶ / (n √d) − 4 d) saat, en çok 3 yıl",
+    "grease.bearing-rule": "her {turning} dönüşte, en çok 3 yıl",
     "grease.travel-rule": "her {travel} yolda bir, en çok 3 yıl",
     "grease.sealed": "ömür boyu gresli: elle çevirin, pürüzlü olanı değiştirin",
     "grease.half-year": "her yarım yılda",
@@ -259,6 +259,18 @@ PAPERS = {
     "risk.requires": "gereken PL",
     "risk.enough": "yeterli mi",
     # Lift
+    "foundation.title": "Temel planı",
+    "foundation.lead": "Tezgâh, korkuluk, cağlık ve pano zeminde nerede durur, tek bir ölçü başlangıcından",
+    "foundation.picture": "Üstten, dokuyucu altta: ankrajlar ve ayar ayakları numarasıyla, alçak olanlar kesik çizgili",
+    "foundation.how": "Ölçü başlangıcı: sol ön ayar ayağının ekseni. Bütün yerleri buradan işaretleyin, ayakların iki "
+    "köşegenini 2 mm içinde denetleyin. Ankrajlar: C20/25 veya üstü beton, delik {drill}, {depth} "
+    "derin, üflenmiş; tezgâh düzken {torque} ile sıkın.",
+    "foundation.number": "sıra",
+    "foundation.part": "parça",
+    "foundation.right": "sağa",
+    "foundation.behind": "arkaya",
+    "foundation.bolt": "ankraj, ayak",
+    "foundation.free": "kendi başına durur",
     "lift.how": "Tezgâh, koruyucular ve cağlık olmadan, başlıkları ve tarağı kilitli olarak, dört düşey sapanlı bir "
     "kaldırma çerçevesiyle taşınır: yakasına kadar vidalanmış dört mapa, kolonların tepesinde ve ön ayakların üstünde. "
     "İki sapan gevşek kalabileceği için her biri kütlenin yarısını taşır.",
@@ -307,9 +319,15 @@ PAPERS = {
     "manual.for-screws": "vidalar",
     "manual.tools-how": "Anahtarlar, vidaların yanındaki torklar için tork anahtarı, su terazisi, cetvel; {mass} "
     "üstündeki ağırlıklar için sapan ve vinç (ISO 11228-1), gövde mapalarından; hareketli parçaların vidalarına orta "
-    "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres.",
+    "kuvvette vida sabitleyici, ötekilere yağ (ISO 4762 ve ISO 4017, 8.8); yatak, kızak ve yaylara NLGI 2 gres. "
+    "Geçme yatakların setskur vidaları en son, önce redüktör yanındakiler, ötekiler mil elle serbest dönünce sıkılır: "
+    "iki yatak da mili tutar, mil çelik gövdeyle birlikte uzar.",
     "manual.hexagon-key": "alyan anahtar {size}",
     "manual.spanner": "anahtar {size}",
+    "manual.hook-spanner": "⌀{size} için kancalı anahtar DIN 1810",
+    "manual.hammer-drill": "darbeli matkap {size}",
+    "manual.bar": "{size} mapanın halkasından çubuk",
+    "manual.by-hand": "elle",
     "manual.lock": "vida sabitleyici",
     "manual.grease": "gres",
     "manual.hoist": "vinç, sapan",

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 
+from ilmek.elements.anchor_bolts import ANCHOR
 from ilmek.elements.columns import STEEL
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.part.part import LASER_CUT, Bought, Part
@@ -12,9 +13,6 @@ from ilmek.part.shapes import Prism, rectangle, stepped
 from ilmek.part.tree import Occurrence
 from ilmek.plane.contours import circle
 from ilmek.units import mm
-
-ANCHOR, HOLE = 8 * mm, 9 * mm
-"""Thread of an anchor, and hole for it [m]: EN 1992-4; ISO 273, medium."""
 
 _WASHER, _NUT, _OUT = (16 * mm, 1.6 * mm), (13 * mm, 6.8 * mm), 3 * mm
 """Diameters and heights of washer and nut, and what of the thread stands out of the nut [m]: ISO 7089, ISO 4032."""
@@ -28,7 +26,7 @@ def anchored(
     size  sides and thickness [m]      holes  from its middle [m]
     """
     (wide, deep, thick), middles, places = size, tuple(holes), tuple(positions)
-    section = Profile(rectangle(wide, deep), tuple(circle(hole, HOLE / 2) for hole in middles))
+    section = Profile(rectangle(wide, deep), tuple(circle(hole, ANCHOR.hole / 2) for hole in middles))
     plate = Part(part_id(name), title, LASER_CUT, Prism(section, thick), STEEL)
     yield Occurrence(plate, places)
     feet = tuple(place.after(placement(hole.real, hole.imag)) for place in places for hole in middles)
@@ -37,7 +35,7 @@ def anchored(
 
 def anchors(name: str, title: str, thick: float, positions: tuple[Placement, ...]) -> Occurrence:
     """Anchors in holes of what is so thick on the floor [m]; their z upwards from it."""
-    shape = stepped((ANCHOR, thick), _WASHER, _NUT, (ANCHOR, _OUT))
-    row = Bought(f"wedge anchor M{ANCHOR / mm:.0f} x 75 EN 1992-4", 0.04)
+    shape = stepped((ANCHOR.thread, thick), _WASHER, _NUT, (ANCHOR.thread, _OUT))
+    row = Bought(ANCHOR.designation, ANCHOR.mass)
     anchor = Part(part_id(f"{name}-anchor"), f"anchor of the {title}", FASTENER, shape, purchase=row, envelope=True)
     return Occurrence(anchor, positions)

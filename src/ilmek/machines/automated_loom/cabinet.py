@@ -9,11 +9,12 @@ import math
 from collections.abc import Iterable, Iterator
 from itertools import product
 
+from ilmek.elements.anchor_bolts import ANCHOR
 from ilmek.elements.cabinet_devices import fuse_of, supply_for
 from ilmek.elements.columns import STEEL
 from ilmek.elements.field_devices import TERMINAL
 from ilmek.elements.motor_loads import MAINS, STEPPER_VOLTS, MotorLoad
-from ilmek.machines.automated_loom.anchors import HOLE, anchors
+from ilmek.machines.automated_loom.anchors import anchors
 from ilmek.machines.automated_loom.frame import part_id
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import UPRIGHT, Placement, placement
@@ -162,7 +163,7 @@ def _feet(size: CabinetSize) -> tuple[Placement, ...]:
 
 def _cabinet(size: CabinetSize, feet: tuple[Placement, ...]) -> Part:
     inside = rectangle(size.wide - 2 * WALL, size.high - 2 * WALL)
-    holes = tuple(Drilling(foot, ((HOLE, WALL),), through=True) for foot in feet)
+    holes = tuple(Drilling(foot, ((ANCHOR.hole, WALL),), through=True) for foot in feet)
     sides = Prism(Profile(rectangle(size.wide, size.high), (inside,)), _DEEP, holes)
     shape = Sum((Placed(sides), Placed(Prism(Profile(inside), WALL), (placement(z=_DEEP - WALL),))))
     named = "cabinet " + " x ".join(f"{own / mm:.0f}" for own in (size.wide, size.high, _DEEP)) + " mm, sheet steel"

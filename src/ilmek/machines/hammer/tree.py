@@ -100,7 +100,7 @@ def _comb(hammer: Hammer) -> tuple[Occurrence, ...]:
     leaves = across(LEAF_ID, "leaf of the comb", "laser-cut part", leaf, params.leaf, steel)
     comb = (
         Occurrence(replace(across(BAR_ID, "comb of the hammer", WELDED, bar, wide, steel), machined=True), middle),
-        Occurrence(leaves, _leaves(number, params.cloth.warp_pitch, params.leaf)),
+        Occurrence(replace(leaves, yarns=True), _leaves(number, params.cloth.warp_pitch, params.leaf)),
     )
     return (*comb, *(Occurrence(_ballast(params, section)) for section in ballast))
 

@@ -260,6 +260,7 @@ def _cam(design: SheddingDesign, index: int, group: int) -> Part:
     pitch = shaft.cam.pitch(-np.arange(POINTS) * (TURN / POINTS)) if shaft.cam.roller_radius > 0 else None
     return replace(
         made,
+        yarns=True,
         marks={"zero": np.array([bar / 2 + 0j, complex(outline[0])])},
         paths={} if pitch is None else {"pitch curve": pitch},
     )
@@ -272,7 +273,7 @@ def _disc(design: SheddingDesign, index: int, names: tuple[str, str], radius: fl
     bores = (_square(bar),) if _bored(shaft) else ()
     shape = Prism(Profile(circle(0j, radius), bores), thickness)
     made = _made(design, index, *names, shape, _CUT)
-    return replace(made, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
+    return replace(made, yarns=radius > shaft.base_radius, marks={"zero": np.array([bar / 2 + 0j, radius + 0j])})
 
 
 def reed(design: SheddingDesign, index: int) -> Reed | None:
@@ -291,7 +292,7 @@ def _reed(design: SheddingDesign, index: int) -> Iterator[Occurrence]:
     shaft, own = design.shafts[index], reed(design, index)
     if own is None:
         return
-    made = _made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT)
+    made = replace(_made(design, index, "reed-dent", "dent of the reed", dent(shaft), _CUT), yarns=True)
     x, pitch = warp_positions(design), design.params.cloth.warp_pitch
     yield Occurrence(made, _row(np.append(x - pitch / 2, x[-1] + pitch / 2), shaft.stack.guide_thickness))
     shape = Prism(Profile(_square(own.side)), own.length)

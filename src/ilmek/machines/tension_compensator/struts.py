@@ -23,7 +23,7 @@ from ilmek.plane.contours import circle, polygon
 from ilmek.records import record
 from ilmek.report import Check, at_least
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm
+from ilmek.units import mm
 
 ENGAGED = 1.5
 """Least length of a rod in its sleeve over its diameter, and most of its shank in the eye; assumed by this project."""
@@ -162,15 +162,12 @@ def _sleeve(strut: Strut) -> Turned:
 
 def _spring(at: BarSupports, strut: Strut) -> Part:
     """The spring: its room is that of the coil in the open shed, on the eye at its anchor, about z."""
-    sprung, wound = at.sprung, at.sprung.spring
+    wound = at.sprung.spring
     assert wound is not None
-    size = f"{wound.wire} {wound.wire_diameter / mm:g} mm, {format_quantity(sprung.rate, 'N/mm', 3)}"
-    shape = (wound.diameter / mm, wound.free_length / mm, wound.coils + 2)
-    data = f"{size}, mean coil {shape[0]:.3g} mm, free length {shape[1]:.3g} mm, {shape[2]:.3g} coils, ends ground"
     coil = tube(wound.diameter + wound.wire_diameter, wound.wire_diameter, strut.length)
     room = Sum((Placed(coil, (placement(z=strut.seat),)),))
-    bought = Bought(size, wound.mass, data=data)
-    return Part(part_id("spring"), _SPRING, "spring", room, purchase=bought, envelope=True, size=size)
+    bought = Bought(wound.designation, wound.mass)
+    return Part(part_id("spring"), _SPRING, "spring", room, purchase=bought, envelope=True)
 
 
 def strut_bodies(

@@ -156,7 +156,7 @@ def drive_parts(weaver: Weaver, drive: CarriageDrive) -> Iterator[Occurrence]:
     )
     yield Occurrence(axle, aside)
     about_pulley = _belt(
-        BELT_LOOP, "heads' belt about a pulley", Prism(Profile(loop()), drive.width), drive.width, LOOP, _ONE_PIECE
+        BELT_LOOP, "heads' belt about a pulley", Prism(Profile(loop()), drive.width), drive.width, LOOP, of=HEADS_BELT
     )
     yield Occurrence(about_pulley, (_upright(about, drive.low),))
 
@@ -249,13 +249,14 @@ def tension_check(drive: CarriageDrive, heads: int) -> Check:
     ).with_cure("set fewer heads, or a lower weaver.carriage_acceleration", HEADS_BELT, BELT_CLAMP)
 
 
-_ONE_PIECE = "included in that length, not cut"
-
-
-def _belt(name: str, title: str, shape: Shape, wide: float, long: float, data: str) -> Part:  # noqa: PLR0917
-    """Belt of a length [m]."""
+def _belt(  # noqa: PLR0917
+    name: str, title: str, shape: Shape, wide: float, long: float, data: str = "", of: str = ""
+) -> Part:
+    """Belt of a length [m], or a piece of another, which has that besides."""
     row = f"{BELT.belt.name}, {in_mm(wide)} wide"
-    bought = Bought(row, BELT.belt.mass * wide * long, length=long, data=data)
+    bought = Bought(
+        row, BELT.belt.mass * wide * long, length=long, data=data or "included in that length, not cut", piece_of=of
+    )
     return Part(name, title, "belt", shape=shape, purchase=bought)
 
 

@@ -156,16 +156,9 @@ KNIFE_CLOSURE = Closure(JointKind.TRANSMISSION, (ECCENTRIC_BODY, BLADE_BODY), ke
 def _eccentric(weaver: Weaver) -> Part:
     params = weaver.params
     shape = eccentric(params, _wall(weaver), eccentric_bore(params))
-    ring = Sentence("sheet.eccentric", **_limited(eccentric_diameter(params), "h7"))
+    ring = Sentence("sheet.eccentric", **tolerance_zone("h7", eccentric_diameter(params)).stated)
     notes = (Sentence("sheet.bonded"), ring)
     return Part(ECCENTRIC, "eccentric of the cutter", "turned part", shape, STEEL, notes=notes)
-
-
-def _limited(size: float, zone: str) -> dict[str, str]:
-    """A size with its class and limits [mm], for a note."""
-    own = tolerance_zone(zone, size)
-    least, most = size + own.lower, size + own.upper
-    return {"size": f"{size / mm:.3f} {zone}", "least": f"{least / mm:.3f}", "most": f"{most / mm:.3f}"}
 
 
 def _blade(weaver: Weaver) -> Part:
@@ -174,7 +167,7 @@ def _blade(weaver: Weaver) -> Part:
     wide, by = eccentric_diameter(weaver.params) + 2 * PLAY, eccentricity(weaver.params.yarn)
     slot = polygon(rectangle(wide + 2 * by, wide).points - 1j * by)
     corners = np.array([-half + 1j * low, half + 1j * low, half + 1j * high, -half + 1j * high]) - 1j * axis.imag
-    window = Sentence("sheet.window", **_limited(wide, "H8"))
+    window = Sentence("sheet.window", **tolerance_zone("H8", wide).stated)
     notes = (Sentence("sheet.cutting-edge", angle=format_quantity(EDGE_ANGLE, "deg")), window)
     shape = Prism(Profile(polygon(corners), (slot,)), BLADE)
     return Part(KNIFE, "knife", "machined link", shape, STEEL, notes=notes)

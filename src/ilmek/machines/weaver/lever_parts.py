@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ilmek.cams.loaded_plate_cam import STEEL, LoadedPlateCam
+from ilmek.elements.fits import tolerance_zone
 from ilmek.machines.weaver.design import Weaver
 from ilmek.machines.weaver.followers import lever_pin
 from ilmek.machines.weaver.head_shape import DRAWBAR
@@ -19,6 +20,7 @@ from ilmek.part.shapes import Placed, Prism, bar, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, strip
 from ilmek.report import Contour
+from ilmek.sentences import Sentence
 from ilmek.units import mm
 
 LEVER_STRESS = (STEEL.fatigue or 0.0) / 2
@@ -42,7 +44,9 @@ def lever_bodies(weaver: Weaver, parent: str) -> Iterator[RigidBody]:
         angle = float(lever.turned(float(cam.motion.s[0])))
         rest = at.after(placement(about=(0.0, 0.0, 1.0), angle=angle))
         shape = Prism(_section(lever), thick)
-        part = Part(lever_id(track), f"lever of the {track}", "machined link", shape, STEEL)
+        slots = tolerance_zone("H8", PIN + 2 * _SLIDING).stated
+        notes = (Sentence("sheet.lever-slots", off=f"{_SLIDING / mm:g}", **slots),)
+        part = Part(lever_id(track), f"lever of the {track}", "machined link", shape, STEEL, notes=notes)
         yield RigidBody(lever_id(track), (Occurrence(part),), parent, Joint(JointKind.PIN), (rest,))
 
 

@@ -193,7 +193,7 @@ class ToolBodies:
             Sum((Placed(Prism(self._comb(low), thick)), *self._feet(low))),
         )
         over = _upright(high, 0.0).after(placement(z=thick, about=(1.0, 0.0, 0.0), angle=math.pi))
-        return (Occurrence(part, (_upright(low), over)),)
+        return (Occurrence(replace(part, yarns=True), (_upright(low), over)),)
 
     def _feet(self, plate: HeadTool) -> Iterator[Placed]:
         """One at each side of a plate towards the other; under one that is narrow, for arms, one on its outer side."""
@@ -246,7 +246,7 @@ class ToolBodies:
         end = deep + SLEY_LUG[1]
         corners = [1j * half, foot + 1j * half, foot - 1j * inner, end - 1j * inner, end - 1j * outer, -1j * outer]
         shape = Prism(Profile(polygon(np.array(corners))), tool.size.imag)
-        part = _made(SLEY_BAR, "sley", "machined link", shape)
+        part = replace(_made(SLEY_BAR, "sley", "machined link", shape), yarns=True)
         return Occurrence(part, (_upright(tool),))
 
     @property

@@ -58,8 +58,7 @@ def cam_circles(part: DrawnPart) -> dict[str, float]:
         "sheet.prime-circle": part.paths.get(PITCH),
     }.items():
         if curve is not None:
-            points = curve.points if isinstance(curve, Contour) else curve
-            circles[name] = float(np.abs(points).min())
+            circles[name] = float(np.nanmin(polar_radii(curve)).round(6))  # as in the table
     return circles
 
 
@@ -77,7 +76,13 @@ def mark_cam(view: DrawnView, part: DrawnPart) -> None:
     radius, step = (millimetres(size) for size in (part.cam.tolerance, part.cam.increment))
     hard = part.stated is not None and part.stated.hardening is not None
     finish = Sentence("sheet.ground-hard" if hard else "sheet.ground")
-    words = Sentence("sheet.radii-called", tolerance=radius, increment=step, rough=f"{FLANK / um:g}", finish=finish)
+    datum = next((feature.datum for feature in part.features if feature.datum), "")
+    about = Sentence("sheet.about-datum", datum=datum) if datum else ""
+    if hard:
+        points_out = points * (1 + _BESIDE / view.scale / np.abs(points))
+        view.line(LineKind.HARDENED, np.append(points_out, points_out[:1]), body=False)
+    sizes = {"tolerance": radius, "increment": step, "rough": f"{FLANK / um:g}"}
+    words = Sentence("sheet.radii-called", about=about, finish=finish, **sizes)
     view.leader(words, foot * view.scale, 0.0, kind=None)
 
 
@@ -90,6 +95,9 @@ def _turning(view: DrawnView, radius: float, clockwise: bool) -> None:
     view.line(LineKind.DIMENSION, np.array([*arrowhead(tip, tip - before), tip]) / view.scale, body=False)
     view.leader(Sentence("sheet.turns"), complex(arc[20]) * view.scale, 0.0, kind=None)
 
+
+_BESIDE = 1.2
+"""From a hardened profile to the line that marks it [mm of the paper]."""
 
 _WITHIN, _CALLED = 0.7, math.radians(300)
 _ARC = math.radians(215), math.radians(260)

@@ -9,12 +9,13 @@ from functools import cache, lru_cache
 from typing import cast
 
 from ilmek.part.shapes import Prism, Shape, Turned, shape_box
+from ilmek.part.specification import YARN_ROUGH
 from ilmek.part.tolerances import FeatureKind, FitDuty
 from ilmek.plane.contours import bounds
 from ilmek.records import record
 from ilmek.report.sheet import DrawingSheet, Issue, SheetText
 from ilmek.sentences import Sentence
-from ilmek.units import mm
+from ilmek.units import mm, um
 from ilmek.viz.drawings.cam import cam_notes, is_cam, radius_tables
 from ilmek.viz.drawings.coaxial import coaxial, end_view
 from ilmek.viz.drawings.details import step_detail
@@ -244,6 +245,12 @@ def merged(pictures: Sequence[SheetPicture]) -> SheetPicture:
 def _notes(part: DrawnPart) -> SheetPicture | None:
     """What the workshop must know besides."""
     lines = [*part.notes, *(() if part.cam is None else cam_notes(part.cam))]
+    hard = part.stated is not None and part.stated.hardening is not None
+    if hard and any(own.kind in {FeatureKind.THREAD, FeatureKind.OUTER_THREAD} for own in part.features):
+        lines.append(Sentence("sheet.soft-threads"))
+    if part.stated is not None and part.stated.yarn_edge:
+        radius, rough = millimetres(part.stated.yarn_edge), f"{YARN_ROUGH / um:g}"
+        lines.append(Sentence("sheet.yarn-edges", radius=radius, rough=rough))
     ends = [own.nominal for own in part.features if own.kind is FeatureKind.JOURNAL and own.duty in _CHAMFERED]
     if ends:
         size = next(size for most, size in _CHAMFERS if min(ends) <= most)

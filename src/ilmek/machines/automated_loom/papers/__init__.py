@@ -8,6 +8,7 @@ from ilmek.machines.automated_loom.papers.braking import braking_checks
 from ilmek.machines.automated_loom.papers.chains import tolerance_paper
 from ilmek.machines.automated_loom.papers.commissioning import commissioning
 from ilmek.machines.automated_loom.papers.electrical import electrical
+from ilmek.machines.automated_loom.papers.foundation import foundation
 from ilmek.machines.automated_loom.papers.maintenance import maintenance
 from ilmek.machines.automated_loom.papers.risks import risks, safety_checks
 from ilmek.machines.making_checks import making_checks
@@ -26,6 +27,7 @@ def papers(loom: LoomDesign, report: Report) -> Papers:
         maintenance(loom, report),
         risks(loom, report),
         tolerance_paper(loom),
+        foundation(loom_tree(loom)),
     )
     tree = bolted(loom_tree(loom))
     checks = (*safety_checks(loom, report), *assembled, *braking_checks(loom), *making_checks(loom_tree(loom)))

@@ -133,7 +133,10 @@ def greasings(loom: LoomDesign, report: Report, year: YearOfWork) -> Iterator[Gr
             key, every = "grease.bearing-rule", min(bearing_greasing(*speeds[part.id]), GREASE_AGES)
         elif part.id in travels:
             key, every = "grease.travel-rule", min(TRAVEL / travels[part.id] * YEAR, GREASE_AGES)
-        yield Greasing(part, number, Sentence(key, travel=format_quantity(TRAVEL, "km")), every)
+        sizes = {"travel": format_quantity(TRAVEL, "km")}
+        if part.id in speeds:
+            sizes["turning"] = format_quantity(bearing_greasing(*speeds[part.id]), "h", 3)
+        yield Greasing(part, number, Sentence(key, **sizes), every)
 
 
 GREASED = {
@@ -263,7 +266,7 @@ def _belts(loom: LoomDesign) -> PaperSection:
     )
     spans, rows = {span.part: span for span in belts(loom)}, list[tuple[str | int | float, ...]]()
     for part, number in loom_tree(loom).occurrences():
-        if part.process in BELTS:
+        if part.process in BELTS and not (part.purchase and part.purchase.piece_of):
             span = spans.get(part.id)
             set_to = (math.nan, math.nan) if span is None else (span.tension, span.frequency)
             rows.append((part.title, designation(part), number, *set_to, math.sqrt(SLACK) * set_to[1]))
@@ -284,7 +287,8 @@ def _spares(loom: LoomDesign, wears: tuple[Wear, ...], year: YearOfWork) -> Tabl
 def worn_sets(tree: Tree, alike: int = 1) -> Iterator[tuple[str, str, int, str]]:
     """A set for one of some machines that are alike, of what wears and has no computed life."""
     for part, number in tree.occurrences():
-        if part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER):
+        whole = part.purchase is None or not part.purchase.piece_of
+        if whole and (part.process in WEARING or part.id in (KNIFE, WEFT_CUTTER)):
             yield part.title, designation(part), max(1, number // alike), Sentence("maintenance.by-set")
 
 
