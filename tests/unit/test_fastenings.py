@@ -1,17 +1,23 @@
 """What holds parts: neighbours that let them move in no direction, a stated weld; and what a loom holds by nothing."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from default_machines import default_design
 
 from ilmek.cams.loaded_plate_cam import STEEL
+from ilmek.io.mechanism_file import read_mechanism
+from ilmek.jobs.mechanism.making import made_mechanism
+from ilmek.jobs.mechanism.request import MotionRequest
+from ilmek.jobs.mechanism.run import run
 from ilmek.machines.automated_loom import MACHINE
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
-from ilmek.machines.tree_manual import fastening_check, weld_check
+from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, weld_check
 from ilmek.part.bolting import bolted
 from ilmek.part.fastenings import Means, fastenings
+from ilmek.part.insertion import insertions
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -22,6 +28,7 @@ from ilmek.part.welds import welds_of
 from ilmek.plane.contours import circle
 from ilmek.units import mm
 
+ROOT = Path(__file__).parents[2]
 PIN, WIDE = 6 * mm, 10 * mm
 
 
@@ -117,13 +124,32 @@ def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
     assert fastenings(Tree((RigidBody("test/body", (Occurrence(post), beside)),))).loose
 
 
-FASTENED = ("warp-tension", "shedding", "hand-loom", "weft", "hammer")
-"""Machines alone whose drives, rails and magnets all have what holds them."""
+CHOICES: dict[str, dict[str, str]] = {
+    "knotting-four-bar": {"sides": "2"},
+    "warp-tension": {"winding": "hand"},
+    "hammer": {"drive": "linkage"},
+    "knotting-dyad": {"needle_breadth": "3mm"},
+}
+"""Another choice of a machine alone, beside its defaults."""
+ALONE = [(name, {}) for name, machine in MACHINES.items() if machine.tree and name != "automated-loom"]
 
 
-@pytest.mark.parametrize("name", FASTENED)
-def test_a_machine_alone_has_a_fastening_for_each_part(name: str) -> None:
+@pytest.mark.parametrize(("name", "settings"), [*ALONE, *CHOICES.items()])
+def test_a_machine_alone_has_a_fastening_and_a_way_in_for_each_part(name: str, settings: dict[str, str]) -> None:
     machine = MACHINES[name]
     assert machine.tree is not None
-    check = fastening_check(bolted(machine.tree(default_design(name))))
-    assert check.ok, check.source
+    design = machine.designed(machine.params.read(settings)) if settings else default_design(name)
+    tree = machine.tree(design)
+    for check in (fastening_check(bolted(tree)), assembly_check(insertions(tree, UP))):
+        assert check.ok, (check.name, check.source)
+
+
+OWN = sorted((ROOT / "examples").glob("*.toml")) + sorted((ROOT / "tests/reference/own_mechanisms").glob("*.toml"))
+
+
+@pytest.mark.parametrize("file", [own for own in OWN if "[joints]" in own.read_text()], ids=lambda own: own.stem)
+def test_an_own_mechanism_has_a_fastening_and_a_way_in_for_each_part(file: Path) -> None:
+    """Pins over carriages, thin plates, spacers between bushes, shapes that a bore would cut, keys at any angle."""
+    tree = made_mechanism(run(read_mechanism(file), MotionRequest({}))).tree
+    for check in (fastening_check(bolted(tree)), assembly_check(insertions(tree, UP))):
+        assert check.ok, (check.name, check.source)

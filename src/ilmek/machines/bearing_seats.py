@@ -115,13 +115,13 @@ class BearingSeat:
         """Angle of a reducer on the bracket's other face, at which its screws keep off those of the seat and off
         the shaft's slot, 0 or `TURNED` [rad]; None: they do not.
         """
-        around, screw = catalogue.head_room(driven), self.screws.screw.diameter / 2
-        for angle in (0.0, TURNED):
-            spots = _spots(driven, angle)
-            gap = float(np.abs(spots[:, None] - self.corners()).min()) - screw
-            if min(gap, float(np.abs(spots.real).min()) - self.bore / 2) > around:
-                return angle
-        return None
+        return next((angle for angle in (0.0, TURNED) if self.is_clear(driven, angle)), None)
+
+    def is_clear(self, driven: Part, angle: float) -> bool:
+        """Whether the screws of a reducer keep off those of the seat and off the shaft's slot at an angle [rad]."""
+        spots, screw = _spots(driven, angle), self.screws.screw.diameter / 2
+        gap = float(np.abs(spots[:, None] - self.corners()).min()) - screw
+        return min(gap, float(np.abs(spots.real).min()) - self.bore / 2) > catalogue.head_room(driven)
 
     def half_width(self, driven: Part) -> float:
         """Half of the width of a plate for the seat and the screws of a reducer, turned to it, with their heads [m]."""

@@ -32,6 +32,9 @@ _NEVER = frozenset({"cam plate", "guard mesh", "fastener", "magnet"})
 _MOST = 200
 """Pieces of a part in a body from which they are a stack."""
 
+_LEAST = 6 * mm
+"""Width of a contact from which the smallest screws have room [m]."""
+
 _FLUSH = 20 * um
 """Distance within which faces lie on each other [m]."""
 
@@ -125,17 +128,20 @@ def face_contacts(group: Sequence[StandingPiece]) -> list[tuple[FaceSide, FaceSi
     numbers: dict[tuple[int, ...], list[int]] = defaultdict(list)
     for number, key in enumerate(np.column_stack([turned, level]).tolist()):
         numbers[tuple(key)].append(number)
-    pairs: dict[tuple[int, int], list[tuple[float, FaceSide, FaceSide]]] = defaultdict(list)
+    pairs: dict[tuple[int, int], list[tuple[tuple[bool, float], FaceSide, FaceSide]]] = defaultdict(list)
     for first, (*key, height) in enumerate(np.column_stack([-turned, -level]).tolist()):
         for other in (k for step in (-1, 0, 1) for k in numbers.get((*key, height + step), ())):
             one, two = sides[first], sides[other]
             if first < other and abs(levels[first] + levels[other]) < _FLUSH and _may(one.piece, two.piece):
                 shared = np.minimum(boxes[first, 1], boxes[other, 1]) - np.maximum(boxes[first, 0], boxes[other, 0])
-                if (shared > -_FLUSH).all() and np.sort(shared)[1] > 2 * mm:
-                    area = float(np.prod(np.sort(shared)[1:]))
-                    pairs[id(one.piece), id(two.piece)].append((area, one, two))
+                _, width, long = np.sort(shared).tolist()
+                if (shared > -_FLUSH).all() and width > 2 * mm:
+                    size = width > _LEAST, width * long
+                    pairs[id(one.piece), id(two.piece)].append((size, one, two))
     face_contacts = [
-        (one, two) for own in pairs.values() for _, one, two in sorted(own, key=lambda contact: -contact[0])[:2]
+        (one, two)
+        for own in pairs.values()
+        for _, one, two in sorted(own, key=lambda contact: contact[0], reverse=True)[:2]
     ]
     return sorted(face_contacts, key=lambda both: not any(patterns_of(side.part) for side in both))
 

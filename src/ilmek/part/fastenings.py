@@ -86,7 +86,7 @@ def _loose(group: StandingTouches, joined: Sequence[tuple[int, int]], free: Sequ
     standing = [own for own in groups if group.ground and any(group.lowest[number] < _ON_FLOOR for number in own)]
     held = {number for own in standing or groups[:1] for number in own}
     apart = [own for own in groups if own[0] not in held]
-    while captive := [own for own in apart if _touch(own, held, free) and group.captive(own, held)]:
+    while captive := [own for own in apart if group.captive(own, held)]:
         held.update(number for own in captive for number in own)
         apart = [own for own in apart if own not in captive]
     for own in apart:

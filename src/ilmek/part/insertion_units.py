@@ -230,7 +230,8 @@ def _of_body(
             part, along = own[0].part, own[0].position.rotation[:, 2]
             seat = own[0].position.rotation @ seat_axis(part, seats)
             axial = own[-1].part is not part or _ring(part) is not None
-            ends = _both(along) if axial else (*_both(seat), *axes, *_both(along))
+            across = _both(own[0].position.rotation[:, 0]) if part.process == FASTENER else ()
+            ends = _both(along) if axial else (*_both(seat), *axes, *_both(along), *across)
             ends = _both(along)[1:] if is_screw(part) else tuple(dict.fromkeys(ends))
             several = own if is_screw(part) and len(own) > 1 else ()
             inner = tuple(InsertedUnit(next(numbers), own[0].body, (piece,), ends, carriers) for piece in several)

@@ -70,9 +70,16 @@ def rounded_hull(corners: Complex[np.ndarray, " corners"], radius: float) -> Con
     outward = -1j * edges / np.abs(edges)
     before = np.roll(outward, 1)
     points = np.stack([around + radius * before, around + radius * outward], axis=1).ravel()
-    turns = np.angle(outward / before) % (2 * math.pi)
+    turns = np.angle(outward / before)
+    if (straight := np.abs(turns) < _STRAIGHT).any():
+        return rounded_hull(around[~straight], radius)
+    turns %= 2 * math.pi
     bulges = np.stack([np.tan(turns / 4), np.zeros(len(around))], axis=1).ravel()
     return Contour(points, bulges)
+
+
+_STRAIGHT = 1e-9
+"""Turn of an outline [rad] below which it has no corner: of collinear corners, by rounding."""
 
 
 def slotted(outline: Contour, end: complex, outwards: complex, half: float) -> Contour:

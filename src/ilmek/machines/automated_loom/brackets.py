@@ -26,6 +26,8 @@ import numpy as np
 from ilmek.arrays import ComplexArray
 from ilmek.elements.beam import uniform
 from ilmek.elements.columns import SECTIONS, STEEL, HollowSquare
+from ilmek.elements.field_devices import STRAIN
+from ilmek.elements.machine_screws import SOCKET_SCREWS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
@@ -320,8 +322,12 @@ def _radius(
 
 
 def _beam(loom: LoomDesign, pull: float) -> HollowSquare:
-    """The lightest section of the back rest's beam that keeps its checks, else the largest."""
-    offered = sorted((HollowSquare(*size) for size in SECTIONS), key=lambda one: one.area)
+    """The lightest section of the back rest's beam that keeps its checks and has threads for its sensor, else the
+    largest.
+    """
+    screws = [SOCKET_SCREWS[holes.thread].engaged(STEEL.name) for holes in STRAIN.holes]
+    sections = (HollowSquare(*size) for size in SECTIONS)
+    offered = sorted((one for one in sections if one.wall > max(screws) - um), key=lambda one: one.area)
     return next((one for one in offered if all(check.ok for check in _beam_checks(loom, one, pull))), offered[-1])
 
 

@@ -52,6 +52,9 @@ by this project."""
 HUB = 1.7 * mm
 """Height under the second link of its hub, in which the tail of its finger moves [m]; assumed by this project."""
 
+BONDED = "bonded with epoxy resin"
+"""How parts of a few grams are held that have no room for screws."""
+
 EDGE = 3 * mm
 """Of the plate about a sleeve [m]; assumed by this project."""
 
@@ -150,7 +153,7 @@ def elbow_hub(levels: DriveLevels, hole: float, around: float, belted: bool) -> 
     arc = outer * np.exp(1j * np.linspace(open_, turn - open_, 33))
     bore = inner * np.exp(1j * np.linspace(3, 1, 17) * turn / 4)
     hub = Prism(Profile(polygon(np.concatenate([arc, bore]))), HUB)
-    made = _made(ELBOW_HUB, "hub of an elbow", hub)
+    made = _made(ELBOW_HUB, "hub of an elbow", hub, BONDED)
     yield Occurrence(made.part, (placement(z=levels.elbow - ROOM - HUB),))
     if belted:
         ring = _made(ELBOW_PULLEY, "pulley of an elbow", _pulley(around))
@@ -244,5 +247,5 @@ def _pulley(bore: float) -> Shape:
     return Prism(Profile(PROFILE.pulley_outline(TEETH), (circle(0j, bore / 2),)), BELT)
 
 
-def _made(name: str, title: str, shape: Shape) -> Occurrence:
-    return Occurrence(Part(name, title, "turned part", shape, STEEL))
+def _made(name: str, title: str, shape: Shape, fixing: str = "") -> Occurrence:
+    return Occurrence(Part(name, title, "turned part", shape, STEEL, fixing=fixing))

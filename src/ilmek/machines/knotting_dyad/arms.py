@@ -20,8 +20,8 @@ from ilmek.machines.knotting_dyad.arm_drives import (
     sleeve,
 )
 from ilmek.machines.knotting_dyad.head import Head
-from ilmek.machines.knotting_dyad.jaw_parts import drive_of, moving_parts, on_link
-from ilmek.machines.knotting_dyad.jaws import jaws_of
+from ilmek.machines.knotting_dyad.jaw_parts import drive_of, for_blade, moving_parts, on_link
+from ilmek.machines.knotting_dyad.jaws import Jaws, jaws_of
 from ilmek.machines.knotting_dyad.params import KnottingDyadParams
 from ilmek.machines.link_tree import Levels, LinkageParts, LinkSize, link_inertias, linkage_parts
 from ilmek.part.flat_link import stepped_link
@@ -78,7 +78,7 @@ def inertias(params: KnottingDyadParams, head: Head, hole: float) -> dict[str, I
 def arm_parts(params: KnottingDyadParams, head: Head, hole: float) -> LinkageParts:
     """Plates and pins of an arm; hole: diameter of the holes [m]."""
     levels = levels_of(params, hole)
-    formed = {"link 2": _second_link(head, levels.sizes["link 2"])}
+    formed = {"link 2": _second_link(head, jaws_of(params, head, hole), levels.sizes["link 2"])}
     return linkage_parts(NAME, arm_mechanism(head), levels, formed, shafts={"O"}, of=OF)
 
 
@@ -89,10 +89,10 @@ def levels_of(params: KnottingDyadParams, hole: float) -> Levels:
     return Levels(LEVELS, {body: size for level in LEVELS for body in level})
 
 
-def _second_link(head: Head, size: LinkSize) -> Part:
+def _second_link(head: Head, jaws: Jaws, size: LinkSize) -> Part:
     """The second link, from its elbow to the clamp of the needle."""
     clamp = complex(head.arm.second - head.section.needle_length)
-    outline = stepped_link(0j, clamp, size.width)
+    outline = for_blade(stepped_link(0j, clamp, size.width), head, jaws)
     return Part(
         f"{NAME}/link-2",
         f"link 2 {OF}",

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ilmek.machines.knotting_dyad.arm_drives import HUB, NAME
+from ilmek.machines.knotting_dyad.arm_drives import BONDED, HUB, NAME
 from ilmek.machines.knotting_dyad.head import Head
 from ilmek.machines.knotting_dyad.jaws import (
     CHEEK,
@@ -37,7 +37,7 @@ from ilmek.part.placement import Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, bar, rectangle, stepped, tube
 from ilmek.part.tree import Occurrence
-from ilmek.plane.contours import circle, polygon
+from ilmek.plane.contours import circle, polygon, slotted
 from ilmek.report import Contour
 from ilmek.units import deg, mm
 
@@ -62,11 +62,24 @@ ALONG = placement(about=(0.0, 1.0, 0.0), angle=-90 * deg)
 """A section in z and y of a gripper, or a rod along it: its length goes to -x, back from the tip."""
 
 
-def _blade(params: KnottingDyadParams, head: Head) -> Part:
-    """The blade of a needle, with the fixed jaw at its end: from its clamp along x."""
+def clamped(head: Head, jaws: Jaws) -> float:
+    """Depth of the slot in which a blade is bonded [m]: half way to that of the centre's rod; 0: on its face."""
+    room = head.arm.second - head.section.needle_length - jaws.arm - LUG / 2
+    return max(room - head.section.needle, 0.0) / 2
+
+
+def for_blade(outline: Contour, head: Head, jaws: Jaws) -> Contour:
+    """The outline of what ends at a blade's clamp, with the slot for the blade."""
+    held, half = clamped(head, jaws), head.section.needle / 2
+    begin = head.arm.second - head.section.needle_length - held
+    return slotted(outline, complex(begin), 1.0 + 0j, half) if held else outline
+
+
+def _blade(params: KnottingDyadParams, head: Head, jaws: Jaws) -> Part:
+    """The blade of a needle, with the fixed jaw at its end: along x from its clamp, in whose slot it is bonded."""
     broad, length = params.needle_breadth, head.section.needle_length
-    shape = Prism(_wedge(head, 0.0, length - PLAY), broad)
-    return _made("needle", "blade of a needle", "laser-cut part", shape)
+    shape = Prism(_wedge(head, -clamped(head, jaws), length - PLAY), broad)
+    return _made("needle", "blade of a needle", "laser-cut part", shape, BONDED)
 
 
 def _wedge(head: Head, begin: float, end: float) -> Profile:
@@ -79,15 +92,14 @@ def _wedge(head: Head, begin: float, end: float) -> Profile:
 @lru_cache(maxsize=8)
 def on_link(params: KnottingDyadParams, head: Head, jaws: Jaws) -> tuple[Occurrence, ...]:
     """Blade, and the lugs with the pin of the finger, in a gripper's axes: arms and centre gripper share the parts."""
-    blade = Occurrence(
-        _blade(params, head), (placement(head.arm.second - head.section.needle_length, z=-params.needle_breadth / 2),)
-    )
+    clamp = head.arm.second - head.section.needle_length
+    blade = Occurrence(_blade(params, head, jaws), (placement(clamp, z=-params.needle_breadth / 2),))
     side, near = jaws.rod / 2 + IN_BORE / 4, LUG / 2
     corners = np.array(
         [-near - 1j * TAIL, near - 1j * TAIL, near + 1j * (PIN / 2 + WALL / 2), -near + 1j * (PIN / 2 + WALL / 2)]
     )
     lug = Prism(Profile(polygon(corners), (circle(0j, PIN / 2),)), CHEEK)
-    lug_part = _made("lug", "lug of a finger's pin", "machined link", lug)
+    lug_part = _made("lug", "lug of a finger's pin", "machined link", lug, BONDED)
     pin = _made("finger-pin", "pin of a finger", "pin or bush", bar(PIN, 2 * (side + CHEEK)))
     at = placement(jaws.arm, z=jaws.deep)
     return (
@@ -158,12 +170,13 @@ def _drive_parts(jaws: Jaws) -> tuple[Part, ...]:
     inner, stem = jaws.around - 2 * CUP, bore + 2 * CUP
     end = Placed(tube(jaws.around, (jaws.around - bore) / 2, COLLAR))
     about = Placed(tube(jaws.around, CUP, jaws.cup - COLLAR), (placement(z=COLLAR),))
-    neck = _made("neck", "neck of a solenoid", "turned part", Sum((end, about)))
+    neck = _made("neck", "neck of a solenoid", "turned part", Sum((end, about)), BONDED)
     within = Placed(tube(inner, (inner - bore) / 2, COLLAR))
     beyond = Placed(tube(stem, CUP, jaws.neck - jaws.cup), (placement(z=COLLAR),))
     cap = _made("neck-cap", "cap of a neck", "turned part", Sum((within, beyond)))
     bought = Bought(row.designation, row.mass, power=row.power, drives=1)
-    solenoid = bought_part(SOLENOID, "solenoid of a finger", "solenoid", bar(row.diameter, row.length), bought)
+    room = bar(row.diameter, row.length)
+    solenoid = bought_part(SOLENOID, "solenoid of a finger", "solenoid", room, bought, fixing=BONDED)
     if spring is None:
         return neck, cap, solenoid
     wound = spring_part(f"{NAME}/finger-spring", "spring of a finger", spring, jaws.on_rod - jaws.stroke)
@@ -193,21 +206,23 @@ def moving_parts(params: KnottingDyadParams, head: Head, jaws: Jaws) -> tuple[Oc
 
 
 def centre_parts(params: KnottingDyadParams, head: Head, jaws: Jaws, ends: tuple[float, float]) -> Iterator[Occurrence]:
-    """Bar, foot and solenoid of the centre gripper in its axes; ends: x of its nose's end and of the rear [m]."""
+    """Bar with its foot and solenoid of the centre gripper, in its axes; ends: x of the nose's end and the rear [m]."""
     clamp, (nose, rear) = head.arm.second - head.section.needle_length, ends
     width, thick, back = params.link_width, params.link_thickness, bar_end(jaws, rear)
     slot = _rectangle(jaws.arm - LUG / 2, jaws.arm + LUG / 2, jaws.rod + IN_BORE)
-    front = Prism(Profile(_rectangle(nose, clamp, width), (slot,)), thick)
+    front = Prism(Profile(for_blade(_rectangle(nose, clamp, width), head, jaws), (slot,)), thick)
     section = Profile(rectangle(2 * jaws.bar, width), (circle(complex(-jaws.over), jaws.rod / 2),))
+    foot = Prism(Profile(_rectangle(rear, back + FOOT_WIDTH, FOOT_WIDTH)), FOOT)
     members = (
         Placed(front, (placement(z=-thick / 2),)),
         Placed(Prism(section, nose - back), (placement(nose).after(ALONG),)),
+        Placed(foot, (placement(z=jaws.bar),)),
     )
-    foot = Prism(Profile(_rectangle(rear, back + FOOT_WIDTH, FOOT_WIDTH)), FOOT)
     material = replace(params.strength.of_links, density=params.density)
-    for name, title, shape, z in (("centre-bar", "bar", Sum(members), 0.0), ("centre-foot", "foot", foot, jaws.bar)):
-        part = Part(f"{NAME}/{name}", f"{title} of the centre gripper", "machined link", shape, material)
-        yield Occurrence(part, (placement(z=z),))
+    yield Occurrence(
+        Part(f"{NAME}/centre-bar", "bar of the centre gripper", "machined link", Sum(members), material),
+        (placement(),),
+    )
     yield from drive_of(jaws, placement(back, z=-jaws.over).after(ALONG))
 
 
@@ -221,5 +236,5 @@ def _rectangle(begin: float, end: float, width: float) -> Contour:
     return polygon(np.array([begin - half, end - half, end + half, begin + half]))
 
 
-def _made(name: str, title: str, process: str, shape: Shape) -> Part:
-    return Part(f"{NAME}/{name}", title, process, shape, STEEL)
+def _made(name: str, title: str, process: str, shape: Shape, fixing: str = "") -> Part:
+    return Part(f"{NAME}/{name}", title, process, shape, STEEL, fixing=fixing)

@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from ilmek.dynamics.inertia import Inertia, bar, bar_mass, combined
 from ilmek.elements.gears import EqualGears
-from ilmek.elements.materials import Material
+from ilmek.elements.materials import MATERIALS, Material
 from ilmek.linkage.model import GROUND
 from ilmek.machines.knotting_four_bar.model import mechanism
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
@@ -21,8 +21,12 @@ from ilmek.part.profile import drilled
 from ilmek.part.shapes import Prism, disc
 from ilmek.plane.contours import circle
 from ilmek.report import Hole
+from ilmek.units import mm
 
 MACHINE_NAME = "knotting-four-bar"
+
+FRAME = 8 * mm
+"""Least thickness of the plates that stand, in which the drive has its threads [m]; assumed by this project."""
 
 SHAFT = f"{MACHINE_NAME}/shaft"
 """Id of the shaft of a crank, which is fixed in it."""
@@ -79,7 +83,8 @@ def material_of(params: KnottingFourBarParams) -> Material:
 def made_parts(params: KnottingFourBarParams, hole: float, ground_angle: float = 0.0) -> LinkageParts:
     """Plates and pins; hole: diameter of the holes [m]      ground_angle: direction of the ground link [rad]."""
     size = LinkSize(params.width, params.thickness, hole, material_of(params))
-    levels = Levels(LEVELS, {body: size for level in LEVELS for body in level})
+    frame = replace(size, thickness=max(size.thickness, FRAME), material=MATERIALS["structural steel"])
+    levels = Levels(LEVELS, {body: frame if body == GROUND else size for level in LEVELS for body in level})
     formed = {"coupler": _coupler(params, size)}
     return linkage_parts(MACHINE_NAME, mechanism(params, ground_angle), levels, formed, ("O1",))
 

@@ -16,9 +16,9 @@ from ilmek.linkage.mirror import other
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.linkage.solve import solve
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar
-from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, gear_part, made_parts, material_of, shaft_part
+from ilmek.machines.knotting_four_bar.links import MACHINE_NAME, gear_part, made_parts, shaft_part
 from ilmek.machines.knotting_four_bar.sides import KnottingSides
-from ilmek.machines.link_tree import GAP, Levels, LinkageParts, linkage_parts, linkage_tree, pin_part
+from ilmek.machines.link_tree import GAP, Levels, LinkageParts, LinkSize, linkage_parts, linkage_tree, pin_part
 from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import placement
@@ -52,7 +52,7 @@ def tree(design: KnottingFourBar) -> Tree:
     if sides is not None:
         gap, pillars = GAP * params.thickness, _pillars(sides, pivots["O1"])
         low = -sides.gears.width - 2 * gap
-        begin = low - params.thickness
+        begin = low - _stands(design).thickness
         nodes = np.concatenate([carried, pillars, [pivots["O1"], pivots[other("O1")]]])
         base = _plate(design, "base", "base plate", nodes, [pivots["O1"], pivots[other("O1")]])
         post = pin_part(f"{MACHINE_NAME}/pillar", "pillar of the base plate", PILLAR, -low)
@@ -81,10 +81,14 @@ def _pillars(sides: KnottingSides, pivot: complex) -> ComplexArray:
 
 def _plate(design: KnottingFourBar, name: str, title: str, nodes: ComplexArray, bores: Sequence[complex]) -> Part:
     """A plate that stands: about some nodes, with bores for pins and shafts [m]."""
-    params = design.params
-    outline = rounded_hull(nodes, max(params.width, PILLAR) / 2)
-    shape = Prism(drilled(outline, [Hole(point, design.hole / 2) for point in bores]), params.thickness)
-    return Part(f"{MACHINE_NAME}/{name}", title, "machined link", shape, material_of(params))
+    size = _stands(design)
+    outline = rounded_hull(nodes, max(size.width, PILLAR) / 2)
+    shape = Prism(drilled(outline, [Hole(point, design.hole / 2) for point in bores]), size.thickness)
+    return Part(f"{MACHINE_NAME}/{name}", title, "machined link", shape, size.material)
+
+
+def _stands(design: KnottingFourBar) -> LinkSize:
+    return made_parts(design.params, design.hole, design.ground_angle).levels.sizes[GROUND]
 
 
 def parts_of(design: KnottingFourBar, mechanism: Mechanism) -> LinkageParts:

@@ -14,6 +14,7 @@ import numpy as np
 from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.elements.linear_guides import LinearGuide
+from ilmek.elements.machine_screws import SOCKET_SCREWS
 from ilmek.elements.parallel_keys import KeyedEnd, keyed_end
 from ilmek.errors import MechanismError
 from ilmek.linkage.model import GROUND
@@ -31,6 +32,7 @@ from ilmek.machines.own_linkage.sizes import (
     guide_for,
     journal_stress,
     link_members,
+    riser_size,
     shank_stress,
     thicker,
     usual_diameter,
@@ -94,13 +96,22 @@ class Construction:
         return keyed_end(size, torque, PIN_STEEL.strength) if size > KEYED + 1e-9 else None
 
     def thickness(self, body: str) -> float:
-        """Thickness of a body's plate [m]: of one that is driven at least its key's length."""
+        """Thickness of a body's plate [m]: at least its key's length, and what the heads of its carriages need."""
         if body == GROUND:
             return base_thickness(self.studs.values())
         if self.machine.shapes.get(body):
             return max(layer.high for layer in self.layers_of(body))
         driven = (self.key(axis) for axis in self.axes if axis.driven == body)
-        return max(self.members[body].thickness, *(key.length for key in driven if key is not None), 0.0)
+        needed = [key.length for key in driven if key is not None]
+        for line in self.lines:
+            if line.body == body:
+                screw = SOCKET_SCREWS[self.guides[line.name].block_screw]
+                needed.append(screw.head + screw.diameter)
+        return max(self.members[body].thickness, *needed, 0.0)
+
+    def riser(self, line: SlideLine) -> tuple[float, float]:
+        """Length and least height of the plate between a carriage and its link [m]."""
+        return riser_size(line, self.guides[line.name], self.studs.values())
 
     def layers_of(self, body: str) -> tuple[Layer, ...]:
         """The plates of a moving body: its shapes, or one about its eyes."""
@@ -159,15 +170,12 @@ class Construction:
 
 @lru_cache(maxsize=256)
 def _layers(built: Construction, body: str) -> tuple[Layer, ...]:
-    shapes = built.machine.shapes.get(body)
+    shapes, member, eyes = built.machine.shapes.get(body), built.members[body], []
+    for axis in (axis for axis in built.axes if body in axis.points):
+        stud, keyed = built.studs[axis.name], built.key(axis) is not None
+        eyes.append(Eye(axis.points[body], stud.eye(body, keyed=keyed), stud.hole(body, keyed=keyed) + BRIDGE))
     if shapes:
-        return shape_layers(shapes)
-    member = built.members[body]
-    eyes = [
-        Eye(axis.points[body], built.studs[axis.name].eye(body, keyed=built.key(axis) is not None))
-        for axis in built.axes
-        if body in axis.points
-    ]
+        return shape_layers(shapes, eyes)
     eyes += (Eye(at, member.width / 2) for at in _free_points(built, body).values())
     eyes += _slide_eyes(built, body, member.width / 2)
     return (link_layer(eyes, member.width, built.thickness(body)),)
@@ -195,11 +203,6 @@ def tool_holes(built: Construction, body: str) -> dict[str, float]:
     return kept
 
 
-def carriage(line: SlideLine, guide: LinearGuide) -> Outline:
-    """Room of a carriage in the sliding body's frame."""
-    return Outline(tuple(line.at + line.forward * rectangle(guide.block_length, guide.block).points), 0.0)
-
-
 def rail_ends(line: SlideLine, guide: LinearGuide) -> tuple[complex, complex]:
     """Ends of a rail on its line, in the guide's frame [m]: whole millimetres apart."""
     middle = line.on + line.along * (sum(line.travel) / 2)
@@ -219,7 +222,7 @@ def _slide_eyes(built: Construction, body: str, radius: float) -> Iterator[Eye]:
     for line in built.lines:
         guide = built.guides[line.name]
         if line.body == body:
-            x, y = (max(side / 2 - radius, 0.0) for side in (guide.block_length, guide.block))
+            x, y = (max(side / 2 - radius, 0.0) for side in (built.riser(line)[0], guide.block))
             inner = dict.fromkeys(complex(*corner) for corner in ((x, y), (-x, y), (-x, -y), (x, -y)))
             yield from (Eye(line.at + line.forward * corner, radius) for corner in inner)
         if line.guide == body:
@@ -243,6 +246,7 @@ def _bottoms(built: Construction) -> Mapping[str, float]:
             lower, upper = sorted((line.body, line.guide), key=layers.__getitem__)
             if upper in bodies:
                 level = max(level, bottoms[lower] + built.thickness(lower) + built.guides[line.name].height)
+                level += built.riser(line)[1]
         bottoms |= dict.fromkeys(bodies, level)
         level += max((built.height(body) for body in bodies), default=0.0) + gap
     return bottoms
@@ -260,7 +264,8 @@ def rooms(built: Construction) -> tuple[Room, ...]:
             taken.append(Room(axis.name, body, tuple(axis.points), (disc,), kind, _sides(built, axis)))
     for line in built.lines:
         guide, joins = built.guides[line.name], (line.guide, line.body)
-        for body, outline in ((line.guide, _rail(line, guide)), (line.body, carriage(line, guide))):
+        block = line.at + line.forward * rectangle(built.riser(line)[0], guide.block).points
+        for body, outline in ((line.guide, _rail(line, guide)), (line.body, Outline(block, 0.0))):
             taken.append(Room(line.name, body, joins, (outline,), RoomKind.SLIDE))
     return tuple(taken)
 

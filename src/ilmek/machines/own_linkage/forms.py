@@ -44,10 +44,11 @@ class Layer:
 
 @record
 class Eye:
-    """A point of a link with the radius of the eye about it [m]."""
+    """A point of a link with the radius of the eye about it, and what its bore needs at least [m]."""
 
     at: complex
     radius: float
+    least: float = 0.0
 
 
 def link_layer(eyes: Sequence[Eye], width: float, thickness: float) -> Layer:
@@ -95,8 +96,10 @@ def _dumbbell(length: float, half: float, radii: tuple[float, float], cuts: Sequ
     return Contour(points, np.array([0.0, other, 0.0, first]))
 
 
-def shape_layers(shapes: Sequence[FlatShape]) -> tuple[Layer, ...]:
+def shape_layers(shapes: Sequence[FlatShape], eyes: Sequence[Eye] = ()) -> tuple[Layer, ...]:
     """The plates of a body that is given by shapes, each on top of those that it covers.
+
+    A shape whose edge cuts the bore of an eye in it is wider all round, by what the eye needs.
 
     >>> disc = FlatShape((0j,), 0.06, 0.02, "steel")
     >>> [round(one.low, 3) for one in shape_layers([disc, FlatShape((0.03 + 0j,), 0.02, 0.03, "steel")])]
@@ -104,10 +107,13 @@ def shape_layers(shapes: Sequence[FlatShape]) -> tuple[Layer, ...]:
     """
     layers: list[Layer] = []
     for shape in shapes:
-        outline = Outline(shape.points, shape.radius)
+        given = Outline(shape.points, shape.radius)
+        edges = [float(to_outline(np.array([eye.at]), given)[0]) for eye in eyes]
+        wider = (eye.radius + edge for eye, edge in zip(eyes, edges, strict=True) if -eye.least < edge < _SAME)
+        outline = Outline(shape.points, max(wider, default=0.0) + shape.radius)
         low = max((layer.high for layer in layers if _covers(outline, layer)), default=0.0)
         corners = np.array(shape.points)
-        contour = rounded_hull(corners, shape.radius) if shape.radius > 0 else polygon(corners)
+        contour = rounded_hull(corners, outline.radius) if outline.radius > 0 else polygon(corners)
         layers.append(Layer(contour, (outline,), low, shape.thickness, shape.bore))
     return tuple(layers)
 

@@ -109,10 +109,10 @@ class PartStock:
         """The carriage of a guide."""
         return self.part("carriage", (row.name,), lambda name: catalogue.guide_block(name, "carriage", row))
 
-    def riser(self, row: LinearGuide, height: float) -> Part:
+    def riser(self, row: LinearGuide, length: float, height: float) -> Part:
         """A plate between a carriage and its link."""
-        shape = Prism(Profile(rectangle(row.block_length, row.block)), height)
-        return self.made("riser", "machined link", shape, row.name, height)
+        shape = Prism(Profile(rectangle(length, row.block)), height)
+        return self.made("riser", "machined link", shape, row.name, length, height)
 
     def pin(self, stud: StudSize, shank: float, collar: float, journal: float) -> Part:
         """A pin by the lengths of its shank, its collar and its journal up to the ring's groove."""

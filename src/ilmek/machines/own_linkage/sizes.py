@@ -59,6 +59,9 @@ BUSHED = 10 * mm
 BESIDE = 0.5 * mm
 """Between the head of a carriage's screw and the bore of a pin, at least [m]; assumed by this project."""
 
+SCREWED = 8.0
+"""Length of such a plate for its own screws on both sides of the bore, over their diameter; assumed by this project."""
+
 SAFE_LOAD = 2.0
 """Static load rating of a carriage over its load; makers ask for 1.5 to 3."""
 
@@ -102,9 +105,13 @@ class StudSize:
         return hub_for(self.journal).reach if keyed else self.shank / 2
 
     def eye(self, body: str, *, keyed: bool) -> float:
-        """Radius of a body's eye: a wall about the bore for the bush, the shank, or the keyed shaft."""
-        bore = self.bore(keyed=keyed) if body == self.axis.driven else max(self.outer, self.shank) / 2
-        return bore + max(2 * EYE_SHARE * bore, LEAST_EYE)
+        """Radius of a body's eye: a wall about its hole."""
+        hole = self.hole(body, keyed=keyed)
+        return hole + max(2 * EYE_SHARE * hole, LEAST_EYE)
+
+    def hole(self, body: str, *, keyed: bool) -> float:
+        """Greatest distance of the edge of a body's bore from its axis: for the bush, the shank, or the keyed shaft."""
+        return self.bore(keyed=keyed) if body == self.axis.driven else max(self.outer, self.shank) / 2
 
 
 def bush_wall(diameter: float) -> float:
@@ -203,14 +210,25 @@ def thicker(stud: StudSize, *, journal: bool) -> StudSize:
 
 def guide_for(line: SlideLine, member: FlatMember, loads: JointLoads, studs: Iterable[StudSize]) -> LinearGuide:
     """The guide of a slide: the smallest that bears twice its force, with a carriage as wide as half the link, and its
-    screws' heads beside the bore of a pin over it; where none has these, without.
+    screws' heads beside the bore of a pin over it; where none has these, the smallest with a plate between.
     """
     force, _ = loads.slides.get(line.name, (0.0, 0.0))
     strong = [row for row in LINEAR_GUIDES if row.static >= SAFE_LOAD * force and row.block >= member.width / 2]
+    over = tuple(studs)
+    beside = (row for row in strong if not riser_size(line, row, over)[1])
+    return next(beside, (strong or LINEAR_GUIDES[-1:])[0])
+
+
+def riser_size(line: SlideLine, row: LinearGuide, studs: Iterable[StudSize]) -> tuple[float, float]:
+    """Length along the line and least height of the plate between a carriage and its link [m]: as long as the carriage,
+    and none; where the bore of a pin leaves the carriage's screws no room in the link, with room for its own beside it.
+    """
     over = (stud for stud in studs if abs(stud.axis.points.get(line.body, math.inf) - line.at) < um)
     bore = max((max(stud.outer, stud.shank) + 2 * BESIDE for stud in over), default=0.0)
-    beside = (row for row in strong if abs(complex(*row.holes)) > bore + SOCKET_SCREWS[row.block_screw].sink)
-    return next(beside if bore else iter(strong), (strong or LINEAR_GUIDES[-1:])[0])
+    screw = SOCKET_SCREWS[row.block_screw]
+    if abs(complex(*row.holes)) > bore + screw.sink:
+        return row.block_length, 0.0
+    return max(row.block_length, bore + SCREWED * screw.diameter), screw.head + screw.diameter
 
 
 @record

@@ -179,7 +179,7 @@ def _slide(built: Construction, stock: PartStock, line: SlideLine) -> Iterator[P
     other = built.bottoms[line.body] if above else built.top(line.body)
     if abs(other - end) > _FLUSH:
         at = placement(line.at.real, line.at.imag, min(end, other), about=_Z, angle=cmath.phase(line.forward))
-        yield PlacedPart(line.body, stock.riser(row, abs(other - end)), at)
+        yield PlacedPart(line.body, stock.riser(row, built.riser(line)[0], abs(other - end)), at)
 
 
 def _laid(middle: complex, along: complex, z: float, length: float, *, above: bool) -> Placement:

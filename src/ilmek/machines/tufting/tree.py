@@ -55,17 +55,18 @@ def needle_drives(
     motors: tuple[Part, ...] = (),
     needle: tuple[Occurrence, ...] = (),
     feet: tuple[complex, ...] = (),
+    welded: tuple[str, ...] = (),
     shaft: tuple[float, float] | None = None,
 ) -> Tree:
     """The mechanisms at a distance from each other [m], the first with its lowest plane at z = 0.
 
     motors  in line with the main shaft      needle  in place of the needle bar of each, in its frame
-    feet    points that the bearing plates reach [m]
+    feet    points that the bearing plates reach [m]      welded  ids of what they are welded to
     shaft   ends of the main shaft along z [m]; default: a diameter beyond the mechanisms
     """
     params, sizes = design.params, needle_sizes(design)
     (low, high), bearings = mechanism_depth(params, sizes), _bearings(design)
-    plate, away = bearing_plate(design, feet), _driven_shaft_at(design)
+    plate, away = replace(bearing_plate(design, feet), joins=welded), _driven_shaft_at(design)
     thick, leaning = catalogue.length_of(plate), cmath.phase(away)
     stations = range(params.bars)
     heights = [low + side + station * pitch for station in stations for side in (-thick, high - low)]

@@ -2,8 +2,7 @@
 
 The end plates stand on the floor, the beams between them. Bearing plates of the needle drives stand before the head's
 beam, those of the loopers on the lower one; each push rod has its guide on a bearing plate. The bed plate has a slot
-for the needles of each drive, with a bridge between two needles; posts on the lower beam carry it. Nothing is welded or
-screwed here yet.
+for the needles of each drive, with a bridge between two needles; posts on the lower beam carry it.
 """
 
 from collections.abc import Iterator
@@ -49,6 +48,9 @@ shaft [m]; assumed by this project."""
 GUIDE, GUIDE_BELOW = 60 * mm, 90 * mm
 """Length of a push rod's guide, and its lower end under the main shaft; assumed by this project."""
 
+BEAMS = f"{NAME}/beam"
+"""Id of the beams, to which the bearing plates are welded."""
+
 JOURNAL, POST = 30 * mm, 8 * mm
 """Diameter of the journals of rollers, thickness of a post; assumed by this project."""
 
@@ -71,7 +73,7 @@ def frame_parts(laid: TuftingLayout) -> Iterator[Occurrence]:
     """The parts of the frame beside the bearing plates of the needle drives."""
     first, last = laid.ends
     hollow = Profile(rectangle(BEAM, BEAM), (rectangle(BEAM - 2 * BEAM_WALL, BEAM - 2 * BEAM_WALL),))
-    beam = Part(f"{NAME}/beam", "beam", "steel tube", Prism(hollow, last - first), STEEL)
+    beam = Part(BEAMS, "beam", "steel tube", Prism(hollow, last - first), STEEL)
     below = _post_at(laid)
     corners = (laid.behind - BEAM / 2, -BEAM / 2), (below, laid.low - BEAM / 2)
     yield Occurrence(beam, tuple(placement(*corner, first) for corner in corners))
@@ -142,7 +144,7 @@ def _looper_brackets(laid: TuftingLayout) -> Iterator[Occurrence]:
     shape = Prism(Profile(rounded_hull(np.array([*shafts, *ends]), radius), holes), row.width)
     seats = {name: Seat(placement(at.real, at.imag), row.outer) for name, at in zip("QP", shafts, strict=True)}
     name, title = f"{NAME}/looper-plate", "bearing plate of the loopers"
-    plate = Part(name, title, "laser-cut part", shape, STEEL, seats=seats, machined=True)
+    plate = Part(name, title, "laser-cut part", shape, STEEL, seats=seats, machined=True, joins=(BEAMS,))
     parts = laid.machine.looper_forces.parts
     low, high = (height - parts.level for height in parts.linkage.levels.across(list(BODIES)))
     drives = range(laid.machine.params.drives)

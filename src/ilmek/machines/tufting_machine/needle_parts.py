@@ -84,7 +84,8 @@ def _needle(params: TuftingMachineParams) -> Part:
     corners = np.array([-half, half, half - 1j * (long - taper), -1j * long, -half - 1j * (long - taper)])
     thick = params.looper.needle
     blade = Placed(Prism(Profile(polygon(corners)), thick), (placement(z=-thick / 2),))
-    return Part(NEEDLE, "tufting needle", "machined link", Sum((blade,)), STEEL, envelope=True)
+    held = "its shank in the needle bar, with a set screw"
+    return Part(NEEDLE, "tufting needle", "machined link", Sum((blade,)), STEEL, envelope=True, fixing=held)
 
 
 def needle_heights(params: TuftingMachineParams, number: int) -> tuple[Placement, ...]:

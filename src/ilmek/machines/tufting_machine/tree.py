@@ -21,10 +21,18 @@ from ilmek.machines.tufting.strength import needle_sizes
 from ilmek.machines.tufting.tree import POSES, keyed, needle_drives
 from ilmek.machines.tufting_machine.design import TuftingMachine
 from ilmek.machines.tufting_machine.feed import SPIKED_ROLLER, YARN_ROLLER
-from ilmek.machines.tufting_machine.frame import END_PLATE, JOURNAL, feet, frame_parts, roller_axes, scroll_height
+from ilmek.machines.tufting_machine.frame import (
+    BEAMS,
+    END_PLATE,
+    JOURNAL,
+    feet,
+    frame_parts,
+    roller_axes,
+    scroll_height,
+)
 from ilmek.machines.tufting_machine.layout import CLEAR, TuftingLayout, layout
 from ilmek.machines.tufting_machine.looper_parts import CRANK, NAME, ROCKER
-from ilmek.machines.tufting_machine.needle_parts import NEEDLE_BAR, needle_heights, needle_parts
+from ilmek.machines.tufting_machine.needle_parts import DOWN, NEEDLE_BAR, needle_heights, needle_parts
 from ilmek.machines.tufting_machine.params import SCROLLS
 from ilmek.machines.tufting_machine.scrolls import scroll_bodies
 from ilmek.machines.tufting_machine.shafts import FLYWHEEL_ID, LOOPER_CRANKS, MAIN_SHAFT, MOTOR_ID, STEEL
@@ -33,7 +41,7 @@ from ilmek.part.flat_link import eyed_link
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile
-from ilmek.part.shapes import Placed, Prism, Sum, bar, disc, tube
+from ilmek.part.shapes import Drilling, Placed, Prism, Sum, bar, disc, tube
 from ilmek.part.tree import Closure, Joint, JointKind, Occurrence, RigidBody, Tree, in_line
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
@@ -72,7 +80,9 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
     made, (first, last) = needle_parts(params), laid.ends
     rod = Occurrence(_headed_rod(machine), (placement(z=laid.needle_sides[0]),))
     end = last + END_PLATE + CLEAR + STATION + params.shafts.flywheel
-    drives = needle_drives(machine.needle, laid.pitch, needle=(rod,), feet=feet(laid), shaft=(first - END_PLATE, end))
+    drives = needle_drives(
+        machine.needle, laid.pitch, needle=(rod,), feet=feet(laid), welded=(BEAMS,), shaft=(first - END_PLATE, end)
+    )
     wheel, pulley = _flywheel(machine), _pulley("pulley", machine.shafts.diameter)
     beyond = last + END_PLATE + CLEAR
     on_end = placement(z=beyond + STATION)
@@ -98,7 +108,9 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
         own = tuple(place for place in heights if low <= place.origin[2] < low + length)
         under = tuple(placement(y=-params.needle_bar.height, z=float(place.origin[2]) - low) for place in own)
         inset = (length - catalogue_length(made.bar)) / 2
-        parts = (Occurrence(made.bar, (placement(z=inset),)), Occurrence(made.needle, under))
+        rods = [laid.needle_level + drive * laid.pitch - laid.left - low - inset for drive in range(params.drives)]
+        bored = _bored_bar(machine, tuple(round(z, 9) for z in rods if 0 < z < length))
+        parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under))
         at = placement(y=-_rod_length(machine), z=laid.left)
         name = NEEDLE_BAR if made.pieces == 1 else f"{NEEDLE_BAR} {piece + 1}"
         bodies.append(RigidBody(name, parts, names[piece], positions=(at,)))
@@ -120,16 +132,29 @@ def _rod_length(machine: TuftingMachine) -> float:
 
 @lru_cache(maxsize=8)
 def _headed_rod(machine: TuftingMachine) -> Part:
-    """A push rod with its eye on the pin E: a round bar whose middle is that of the links' plane."""
+    """A push rod with its eye on the pin E: a round bar in the middle of the links' plane, to half of the bar."""
     needle, plain = machine.needle, needle_parts(machine.params).rod
     parts = drive_parts(needle.params, needle_sizes(needle))
     pin, thick = dict(needle_sizes(needle).pins)["E"], parts.levels.sizes["needle"].thickness
     radius = pin + 4 * mm
     head = Prism(Profile(circle(0j, radius), (circle(0j, pin / 2),)), thick)
-    diameter, length = machine.params.needle_bar.rod, _rod_length(machine) - radius
+    given = machine.params.needle_bar
+    diameter, length = given.rod, _rod_length(machine) - radius + given.height / 2
     down = placement(y=-radius, z=thick / 2, about=(1.0, 0.0, 0.0), angle=math.pi / 2)
     shape = Sum((Placed(head), Placed(bar(diameter, length), (down,))))
     return replace(plain, shape=shape)
+
+
+@lru_cache(maxsize=8)
+def _bored_bar(machine: TuftingMachine, rods: tuple[float, ...]) -> Part:
+    """A piece of the needle bar with the bores in which push rods are pressed, at their distances from its end [m]."""
+    given, plain = machine.params.needle_bar, needle_parts(machine.params).bar
+    assert isinstance(plain.shape, Sum)
+    (lies,) = plain.shape.members
+    mouths = (placement(y=given.height / 2, z=z).after(DOWN) for z in rods)
+    holes = tuple(Drilling(mouth, ((given.rod, given.height / 2),)) for mouth in mouths)
+    assert isinstance(lies.shape, Prism)
+    return replace(plain, shape=Sum((replace(lies, shape=replace(lies.shape, drilled=holes)),)))
 
 
 def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:

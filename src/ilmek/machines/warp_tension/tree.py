@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.elements.materials import MATERIALS, Material
+from ilmek.elements.reducers import REDUCER_FLANGES
 from ilmek.machines.bearing_seats import TURNED
 from ilmek.machines.shaft_stand import CarriedShaft, shaft_stand, stand_heights
 from ilmek.machines.warp_tension.attachment import on_cylinder
@@ -193,21 +194,25 @@ def winding_reducer(design: WarpTensionDesign) -> Part:
 def _drives(design: WarpTensionDesign) -> dict[str, tuple[Part, ...]]:
     """Reducer and motor, one of each for each of the three cylinders [thesis 3.1]; or reducer, shaft, wheel, handle.
 
-    The reducers are alike but for the bores of their hollow shafts.
+    The reducers are alike but for the bores of their hollow shafts, of a class whose screws keep off the seats'.
     """
-    ends = {cylinder.name: cylinder.driven_end for cylinder in cylinders(design)}
+    own = cylinders(design)
+    ends = {cylinder.name: cylinder.driven_end for cylinder in own}
     longest = {end.diameter: end for end in sorted(ends.values(), key=lambda end: end.length)}
     thickest = ends[UPPER].diameter
-    geared = {
-        bore: catalogue.reducer(
-            part_id("reducer" if bore == thickest else f"reducer-{bore / mm:g}"),
-            "reducer of a cylinder",
-            design.reducer,
-            design.motor,
-            end,
-        )
-        for bore, end in longest.items()
-    }
+
+    def reducers(least: float) -> dict[float, Part]:
+        names = {bore: "reducer" if bore == thickest else f"reducer-{bore / mm:g}" for bore in longest}
+        drive = "reducer of a cylinder", design.reducer, design.motor
+        return {
+            bore: catalogue.reducer(part_id(names[bore]), *drive, end, least=least) for bore, end in longest.items()
+        }
+
+    classes = map(reducers, (0.0, *(row.face for row in REDUCER_FLANGES)))
+    clear = (
+        parts for parts in classes if all(one.seat.is_clear(parts[one.driven_end.diameter], TURNED) for one in own)
+    )
+    geared = next(clear, None) or reducers(0.0)
     if design.params.by_hand:
         last: tuple[Part, ...] = _crank(design.params, catalogue.face_of(geared[thickest]))
     else:
