@@ -19,7 +19,7 @@ from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import BEYOND, CARRIED, ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.joints import seams, with_throats
-from ilmek.machines.automated_loom.on_rail import guide_parts
+from ilmek.machines.automated_loom.on_rail import guide_parts, trough
 from ilmek.machines.automated_loom.rail_supports import (
     RailSupport,
     rail_brackets,
@@ -162,6 +162,7 @@ def _rail(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None) -> Ri
     long = task.width + 2 * BEYOND
     rail = member("rail", "rail of the heads", section, long)
     along = placement(-long / 2, z=section.side / 2).after(ALONG_WIDTH)
-    parts = (Occurrence(rail, (along,)), *guide_parts(loom), *rail_brackets(loom, frame))
+    welded = Occurrence(rail, (along,)), trough(loom, section.side)
+    parts = (*welded, *guide_parts(loom), *rail_brackets(loom, frame))
     joint = Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR)
     return RigidBody(RAIL, parts, joint=joint, positions=(placement(0.0, middle.imag, middle.real),))
