@@ -36,7 +36,6 @@ from ilmek.machines.automated_loom.frame import (
     EAR,
     END_PLATE,
     RAIL_POST,
-    ROOM,
     LoomFrame,
     end_plate,
     member,
@@ -301,7 +300,7 @@ def _plate_outline(side: float) -> ComplexArray:
 def retreat_rooms(side: float) -> tuple[float, float]:
     """Room of the plate at the end of a rail of a side along its axis, up and down from the middle of that [m]."""
     along = (_plate_outline(side) / _UP_AND_FRONT).real
-    return ROOM - float(along.min()), ROOM + float(along.max())
+    return BEYOND - float(along.min()), BEYOND + float(along.max())
 
 
 @lru_cache(maxsize=1)
