@@ -24,6 +24,7 @@ from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.rail_supports import rail_supports
 from ilmek.machines.automated_loom.steady_posts import steady_checks
 from ilmek.machines.shedding.steady import ASIDE, steady_of
+from ilmek.part.bolting import bolted
 
 PRELOADS = {"M12": 47e3, "M16": 88e3, "M20": 137e3, "M24": 198e3}
 """kN of 8.8 screws, as design tables for EN 1993-1-8 round them [N]."""
@@ -154,6 +155,36 @@ def test_a_wide_rail_has_supports_between_its_ends() -> None:
     assert names["heads' rail"]["automated-loom/rail-bracket"] == 1
     assert names["automated-loom/retreat"]["automated-loom/retreat-axis"] == 3
     assert names["automated-loom/frame"]["automated-loom/post"] == 1
+
+
+@pytest.mark.parametrize("width", [1.2, 2.4])
+def test_the_rail_is_screwed_to_a_carriage_of_each_of_its_axes(width: float) -> None:
+    """By the meshes: each axis touches one carriage; its screws go through that into the rail's plate, beside the axis,
+    and no head is in the rail or its arms, which are closed.
+    """
+    whole = bolted(loom_tree(loom(width)))
+
+    def pieces(name: str) -> list[np.ndarray]:
+        stands = [
+            body.positions[0].after(lies).points(own.part.shape.mesh(1e-4).points)
+            for body in whole.bodies
+            for own in body.occurrences
+            for lies in own.positions
+            if own.part.id == f"automated-loom/{name}"
+        ]
+        return [np.stack([points.min(0), points.max(0)]) for points in stands]
+
+    axes, carriages = pieces("retreat-axis"), pieces("retreat-carriage")
+    screws = [own for name in ("rail-plate", "rail-bracket-plate") for own in pieces(f"retreat-carriage-{name}-screw")]
+    assert len(axes) == len(carriages) == (2 if width < 2 else 3)
+    assert len(screws) == 4 * len(carriages)
+    for axis in axes:
+        (carriage,) = (own for own in carriages if abs(own - axis[::-1])[:, 0].min() < 1e-6)
+        own = [screw for screw in screws if abs(screw[:, 0].mean() - carriage[:, 0].mean()) < 24e-3]
+        assert len(own) == 4
+        for screw in own:  # from the side of the axis through the carriage into the plate
+            away = np.sort(abs(screw[:, 0] - axis[:, 0].mean()))
+            assert 20e-3 < away[0] < 44e-3 < away[1] < 54e-3 + 1e-6
 
 
 def test_rollers_of_a_steady_touch_the_rims_and_its_post_the_block() -> None:

@@ -16,7 +16,7 @@ from ilmek.machines.automated_loom.estimate import estimated_time
 from ilmek.machines.automated_loom.frame_modes import frame_modes, sway_checks
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.automated_loom.on_rail import share_of
-from ilmek.machines.automated_loom.own_parts import RAIL
+from ilmek.machines.automated_loom.own_parts import RAIL, mass_of_rail
 from ilmek.machines.automated_loom.params import AutomatedLoomParams
 from ilmek.machines.automated_loom.parts import parts_of_loom
 from ilmek.machines.automated_loom.rail_supports import rail_supports
@@ -112,8 +112,7 @@ def test_a_motor_of_the_retreat_bears_its_end_of_the_rail_wherever_the_heads_sta
     moved = [body for body in loom_tree(loom).bodies if body.id in {RAIL, "automated-loom/chains"}]
     row_of, conduits = energy_chain(loom), 0.02 * loom.weaver.params.tubes * loom.heads
     number, rail = loom.heads, sum(body.moments.zeroth for body in moved) + conduits * row_of.length(share_of(loom))
-    section, task = listed.frame.guide
-    assert task.rail_mass(section) * task.width == pytest.approx(rail, rel=1e-9)
+    assert mass_of_rail(loom, listed.frame) == pytest.approx(rail, rel=1e-9)
     place = (np.arange(number) + np.random.default_rng(5).random((4000, number))) / number
     most = float((1 - place).sum(axis=1).max()) * head_mass(loom.weaver) + rail / 2
     torque = most * (peak_acceleration(row.track("heads"), row.period) - 9.81 * RETREAT.imag) * PULLEY

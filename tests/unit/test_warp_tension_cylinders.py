@@ -193,6 +193,25 @@ def test_warps_that_slip_on_the_spacer_pull_more_behind_it() -> None:
     assert tension_beyond(WarpTensionParams(spacer_wrap=math.pi / 2)) == pytest.approx(15 * math.exp(0.1 * math.pi))
 
 
+@pytest.mark.parametrize("settings", [{}, {"spacer_wrap": "120deg"}, {"width": "2.4m"}], ids=str)
+def test_the_key_of_each_cylinder_bears_the_torque_that_its_warps_exert(settings: dict[str, str]) -> None:
+    """The spacer's: the difference of its strands while they slip over it, Euler-Eytelwein; pressure by DIN 6892, C."""
+    design = MACHINE.design(WarpTensionParams.read(settings))
+    made, params = cylinders(design), design.params
+    slack = design.loads.worst * made[2].shell.outer_radius
+    assert made[2].torque == pytest.approx(slack * math.expm1(params.cloth.yarns.friction * params.spacer_wrap))
+    for own in made:
+        end, row = own.driven_end, own.driven_end.keyway
+        bearing = {1: 1.0, 2: 1.5}[end.number]  # of two keys, by the standard
+        height = row.height - row.in_shaft
+        assert end.pressure == pytest.approx(own.torque / (bearing * end.diameter / 2 * end.length * height))
+        assert end.pressure <= end.allowed
+    checked = {check.name for check in MACHINE.report(design).checks if check.name.startswith("key of the")}
+    assert checked == {f"key of the {own.name} cylinder" for own in made}
+    by_hand = MACHINE.design(WarpTensionParams.read(settings | {"winding": "hand"}))
+    assert cylinders(by_hand)[2].torque == 0  # the warps turn it
+
+
 def test_a_step_of_the_motor_is_fine_enough() -> None:
     found = tension_of(usual())
     assert found.step == pytest.approx(found.over.rate * 70 * mm * turn / 200 / 200)

@@ -40,6 +40,11 @@ class RetainingRing:
         """Outer diameter in its groove [m]."""
         return self.groove + 2 * self.width
 
+    @property
+    def steps(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Its groove, and the end of the shaft behind it: diameters and lengths [m]."""
+        return (self.groove, self.slot), (self.shaft, self.end)
+
 
 _ROWS = """
 3 0.4 1.9 0.8 2.8 0.5 0.3

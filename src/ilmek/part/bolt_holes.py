@@ -70,10 +70,21 @@ class DrilledPart:
 
 
 def _is_same(one: Drilling, other: Drilling) -> bool:
-    """Whether two holes are one: mouths, axes and steps."""
-    axes = (np.append(own.position.origin, own.position.rotation[:, 2]) for own in (one, other))
-    first, second = (np.append(axis, np.ravel(own.steps)) for axis, own in zip(axes, (one, other), strict=True))
-    return len(first) == len(second) and bool(np.abs(first - second).max() < um)
+    """Whether two holes are one: mouths, axes and steps; a plain one through a part also from behind."""
+    first, second = (np.append(_axis(own), np.ravel(own.steps)) for own in (one, other))
+    if len(first) != len(second):
+        return False
+    same = bool(np.abs(first - second).max() < um)
+    if same or not (one.through and other.through and len(one.steps) == 1):
+        return same
+    second[:3] += second[3:6] * other.steps[0][1]
+    second[3:6] *= -1
+    return bool(np.abs(first - second).max() < um)
+
+
+def _axis(hole: Drilling) -> Float[np.ndarray, " 6"]:
+    """Mouth and direction of a hole."""
+    return np.append(hole.position.origin, hole.position.rotation[:, 2])
 
 
 def _member(shape: Sum, number: int, holes: list[Drilling] | None) -> Placed:

@@ -64,6 +64,15 @@ END_PLATE = 10 * mm
 """Thickness of the plate that is welded before the end of a hollow section and has the threads there [m]; assumed."""
 
 
+CARRIAGE = (60 * mm, 70 * mm, 24 * mm)
+"""Length along its axis, width over that, height [m] of a carriage of the rail's retreat: makers' usual sizes."""
+
+BEYOND = 1 * mm
+"""Of the rail beyond what lies along it, at both ends [m]."""
+
+CARRIED = BEYOND + END_PLATE + CARRIAGE[2]
+"""From what lies along the rail to the axis at its end [m]."""
+
 EAR = 20 * mm
 """Of an end plate beyond its section on both sides, where screws are reached beside it [m]; assumed by this project."""
 

@@ -30,7 +30,7 @@ from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Corner, Placed, Prism, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody
-from ilmek.units import mm
+from ilmek.units import mm, turn
 
 TROUGH, CHAIN = part_id("chain-trough"), part_id("energy-chain")
 """Ids of parts."""
@@ -53,6 +53,10 @@ BEHIND = 17 * mm
 
 ARM_DEPTH = 5 * mm
 """Of the arm of a head to its chain [m]; assumed by this project."""
+
+
+ACROSS = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
+"""A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
 
 
 def guide_parts(loom: LoomDesign) -> Iterator[Occurrence]:
@@ -116,6 +120,14 @@ def trough_part(loom: LoomDesign, side: float) -> Part:
     outside = np.array([complex(FLANGE, tall), 1j * tall, 0j, complex(wide), complex(wide, rear)])
     section = Prism(Profile(folded_section(outside, WALL, WALL)), long)
     return Part(TROUGH, "trough of the energy chains", "laser-cut part", section, STEEL)
+
+
+def trough(loom: LoomDesign, side: float) -> Occurrence:
+    """The trough on a rail of a side [m], in its axes: it is welded to the rail before anything is screwed to that."""
+    low, high = trough_corners(loom, side)
+    middle = rail_middle(loom)
+    corner = placement(float(low[0]), float(low[1]) - middle.imag, float(high[2]) - middle.real)
+    return Occurrence(trough_part(loom, side), (corner.after(ACROSS),))
 
 
 def chain_room(loom: LoomDesign, side: float) -> float:

@@ -17,10 +17,15 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cabinet import ControlNeeds
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.frame import BEYOND, CARRIED, ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.joints import seams, with_throats
-from ilmek.machines.automated_loom.on_rail import guide_parts
-from ilmek.machines.automated_loom.rail_supports import RailSupport, rail_brackets, rail_supports
+from ilmek.machines.automated_loom.on_rail import guide_parts, trough
+from ilmek.machines.automated_loom.rail_supports import (
+    RailSupport,
+    rail_brackets,
+    rail_supports,
+    retreat_rooms,
+)
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
 from ilmek.machines.weaver import head_mass
@@ -65,10 +70,10 @@ def _caps(loom: LoomDesign) -> Iterator[Occurrence]:
 
 
 def mass_of_rail(loom: LoomDesign, frame: LoomFrame) -> float:
-    """Mass of the rail with what lies along it and its arms, which retreats with the heads [kg]."""
-    arms = RigidBody(RAIL, tuple(rail_brackets(loom, frame))).moments.zeroth
+    """Mass of the rail with what lies along it and what is fixed to it, which retreats with the heads [kg]."""
+    fixed = RigidBody(RAIL, tuple(rail_brackets(loom, frame))).moments.zeroth
     section, task = frame.guide
-    return task.rail_mass(section) * task.width + arms
+    return task.rail_mass(section) * task.width + 2 * BEYOND * section.line_mass + fixed
 
 
 def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
@@ -78,7 +83,9 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     with its cargo and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
     """
     row, held = loom.row_cyclogram, rail_supports(loom, frame)
-    heads, room = row.track(HEADS), RAIL_ROOM / 2  # the axes carry the rail beyond both ends of its run
+    heads, room, by_cranks = row.track(HEADS), RAIL_ROOM / 2, bool(loom.beat.crank_rockers)
+    up, down = retreat_rooms(frame.guide[0].side)  # of the rail's plates before the motors at one end
+    up, low = (max(up, room), heads.stroke + room) if by_cranks else (room, heads.stroke + down)
     mass = ((loom.heads + 1) * head_mass(loom.weaver) + mass_of_rail(loom, frame)) / 2
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
@@ -89,15 +96,14 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     brake = catalogue.holding_brake(
         RETREAT_BRAKE, "brake of the rail's retreat", motor, -mass * GRAVITY * RETREAT.imag * PULLEY
     )
-    wider = catalogue.face_of(motor) - RAIL_AXIS
-    low = heads.stroke + room
-    if not loom.beat.crank_rockers:
+    aside = max((catalogue.face_of(motor) - RAIL_AXIS) / 2 - CARRIED, 0.0)  # a large one keeps off the rail's run
+    if not by_cranks:
         low = _before_posts(loom, frame, held[0], (motor, brake), low)
     axis = bought_part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
         "linear axis",
-        box(RAIL_AXIS, RAIL_AXIS, low + room),
+        box(RAIL_AXIS, RAIL_AXIS, low + up),
         Bought(
             "belt drive",
             length=heads.stroke,
@@ -105,17 +111,16 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         ),
         size="belt drive, one at each support of the rail",
     )
-    slope, upper = -cmath.phase(RETREAT), placement(z=-room)
+    slope, upper = -cmath.phase(RETREAT), placement(z=-up)
     stations = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
         for own in held
         for x in own.stations
     ]
     # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
-    flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
-    outwards = (placement(wider / 2), placement(-wider / 2))
-    ends = zip(stations[: len(held[0].stations)], outwards, strict=True)
-    title, at_ends = "adapter of the rail's retreat", tuple(end.after(aside).after(flange) for end, aside in ends)
+    flange = upper if by_cranks else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
+    ends = zip(stations[: len(held[0].stations)], (placement(aside), placement(-aside)), strict=True)
+    title, at_ends = "adapter of the rail's retreat", tuple(end.after(out).after(flange) for end, out in ends)
     adapters, flanges = catalogue.adapted(RETREAT_ADAPTER, title, motor, RAIL_AXIS, at_ends)
     parts = (
         Occurrence(axis, tuple(station.after(upper) for station in stations)),
@@ -133,7 +138,7 @@ def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, drive: 
     aside, beat = -face / 2 * RETREAT.imag, supports(loom, frame).post.side / 2
     front = aside + (adapter - rear_end) * RETREAT.real
     posts = [(post_depth(loom, frame) - held.axis.real, beat)]
-    if face - RAIL_AXIS > held.reach - ROOM:
+    if max((face - RAIL_AXIS) / 2, face - RAIL_AXIS - CARRIED) > held.reach - ROOM:
         posts.append((held.depth - held.axis.real, held.post.side / 2))
     for depth, half in sorted(posts):
         begin = low * RETREAT.real
@@ -154,8 +159,10 @@ def frame_tree(loom: LoomDesign, frame: LoomFrame, needs: ControlNeeds, retreat:
 def _rail(loom: LoomDesign, frame: LoomFrame, retreat: SceneMotion | None) -> RigidBody:
     """The rail with the guide and the belt of the heads."""
     (section, task), middle = frame.guide, rail_middle(loom)
-    rail = member("rail", "rail of the heads", section, task.width)
-    along = placement(-task.width / 2, z=section.side / 2).after(ALONG_WIDTH)
-    parts = (Occurrence(rail, (along,)), *guide_parts(loom), *rail_brackets(loom, frame))
+    long = task.width + 2 * BEYOND
+    rail = member("rail", "rail of the heads", section, long)
+    along = placement(-long / 2, z=section.side / 2).after(ALONG_WIDTH)
+    welded = Occurrence(rail, (along,)), trough(loom, section.side)
+    parts = (*welded, *guide_parts(loom), *rail_brackets(loom, frame))
     joint = Joint(JointKind.SLIDE, motion=retreat, motor=RETREAT_MOTOR)
     return RigidBody(RAIL, parts, joint=joint, positions=(placement(0.0, middle.imag, middle.real),))

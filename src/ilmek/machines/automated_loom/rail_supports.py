@@ -4,6 +4,9 @@ At an end the axis lies beside the rail, on an arm of a post that stands on a fr
 pass behind the rail: there an arm of the rail reaches to an axis before it [`frame.rail_ahead`], beside which its post
 stands on a beam across.
 
+The carriages of the axes belong to the rail: each is screwed, from behind its flange beside the axis, to a plate that
+is welded to the end of the rail, or to its arm.
+
 A support bears half of the rail's spans beside it and all heads that find room on these, R, and what accelerates them
 to the front, F. Its post is free at its end, R at the lever e beside it:
 
@@ -12,19 +15,24 @@ to the front, F. Its post is free at its end, R at the lever e beside it:
 and an arm of the length l has sigma = R l c / I and sinks by R l³ / (3 E I).
 """
 
+import cmath
 import math
 from collections.abc import Callable, Iterator
 from functools import lru_cache
 
 import numpy as np
 
+from ilmek.arrays import ComplexArray
 from ilmek.elements.columns import STEEL, HollowSquare, ascending
-from ilmek.elements.materials import GRAVITY
+from ilmek.elements.materials import GRAVITY, MATERIALS
 from ilmek.machines.arrangement.side_view import RETREAT
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import (
+    BEYOND,
+    CARRIAGE,
+    CARRIED,
     EAR,
     END_PLATE,
     RAIL_POST,
@@ -38,18 +46,29 @@ from ilmek.machines.automated_loom.frame import (
 from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
 from ilmek.machines.automated_loom.supports import base_section, floor_top, post_depth, rail_middle
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
-from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
+from ilmek.part.part import LASER_CUT, Bought, HolePattern, Part, bought_part
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
+from ilmek.part.profile import Profile
+from ilmek.part.shapes import Prism, box, rectangle
 from ilmek.part.tree import Occurrence
+from ilmek.plane.contours import polygon
+from ilmek.plane.curves import hull
 from ilmek.records import record
 from ilmek.report import Check, at_most
 from ilmek.timing.track import peak_acceleration
-from ilmek.units import mm
+from ilmek.units import in_mm, mm, turn
 
 SAFETY = 2.0
 """Of posts and arms against yielding; assumed by this project."""
 
 SWAY = 1 / 1000
 """Allowed deflection of a post or an arm over its length; assumed by this project."""
+
+_HOLES = HolePattern(40 * mm, 54 * mm, "M6")
+"""Holes of a carriage of the retreat, along and across its axis: makers' usual sizes."""
+
+_FILLED = 0.5
+"""Share of a carriage's room that is aluminium; assumed by this project."""
 
 _FOR_WELDS = 30 * mm
 """Least distance of two beams beside each other, for the welds at their ends [m]; assumed by this project."""
@@ -112,7 +131,8 @@ def rail_supports(loom: LoomDesign, frame: LoomFrame) -> tuple[RailSupport, ...]
 
 def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
     rail, task = frame.guide
-    axis, near, bottom = rail_middle(loom), task.width / 2 + RAIL_AXIS, floor_top(loom, frame)
+    axis, bottom = rail_middle(loom), floor_top(loom, frame)
+    near = task.width / 2 + CARRIED + RAIL_AXIS
     beside = frame.beside(brackets_of(loom).face)[0]
     load = rail_support_load(task, rail, spans=1)
     # To the front, away from the motors on the upper ends of the axes; to the back where a post of the beat is there.
@@ -125,7 +145,7 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             name="rail-post",
             arm_name="rail-arm",
             height=axis.imag - bottom,
-            lever=beside - near + RAIL_AXIS / 2,
+            lever=beside - task.width / 2,
             reach=beside - post.side / 2 - near,
             load=load + push * -RETREAT.imag,
             push=push * RETREAT.real,
@@ -153,7 +173,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             name="post",
             arm_name="rail-bracket",
             height=end.imag - floor_top(loom, frame),
-            lever=RAIL_AXIS / 2 + post.side / 2,
+            lever=(post.side + arm.side) / 2 + RAIL_AXIS + CARRIED - BEYOND,
             reach=ahead - rail.side / 2,
             load=load + push * -RETREAT.imag,
             push=push * RETREAT.real,
@@ -161,7 +181,7 @@ def _between(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             arm=arm,
             depth=end.real,
             axis=axis,
-            stations=tuple((k / spans - 0.5) * wide + RAIL_AXIS for k in range(1, spans)),
+            stations=tuple((k / spans - 0.5) * wide + RAIL_AXIS + CARRIED for k in range(1, spans)),
         )
 
     return _lightest(chosen, RAIL_POST, lambda strong: next(strong, None))
@@ -233,7 +253,7 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
         ends, title = own.name == "rail-post", "post of the rail's axes"
         long = own.height + (own.arm.side / 2 if ends else 0.0)  # all round the end of its arm
         post = member(own.name, title if ends else f"{title} between its ends", own.post, long)
-        aside = own.lever if not ends else frame.beside(brackets_of(loom).face)[0]
+        aside = frame.beside(brackets_of(loom).face)[0] if ends else (RAIL_AXIS + own.post.side) / 2
         places = (-aside, aside) if ends else [x + aside for x in own.stations]
         yield Occurrence(post, tuple(placement(x, bottom, own.depth).after(UPRIGHT) for x in places))
         if ends:
@@ -242,16 +262,62 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
             arm = member(own.arm_name, "arm of the rail's axes", own.arm, long)
             yield Occurrence(arm, tuple(placement(x).after(at) for x in (first + END_PLATE, -first - own.reach)))
             plate = end_plate("rail-arm-plate", "plate of an arm for its axis", own.arm, EAR)
-            along = at.rotation.T @ np.array([0.0, RETREAT.imag, RETREAT.real])
-            turned = at.after(placement(about=(0.0, 0.0, 1.0), angle=math.atan2(along[1], along[0])))
-            yield Occurrence(plate, tuple(placement(x).after(turned) for x in (first, -first - END_PLATE)))
+            lies = placement(0.0, own.axis.imag, own.axis.real).after(_ALONG_RETREAT)
+            yield Occurrence(plate, tuple(placement(x).after(lies) for x in (first, -first - END_PLATE)))
 
 
 def rail_brackets(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
-    """The arms of the rail between its ends, in its own axes."""
+    """The arms of the rail between its ends, its plates, and the carriages of its axes on these, in its own axes."""
+    side, drop = frame.guide[0].side, frame.guide[1].drop
     for own in rail_supports(loom, frame):
-        if own.name != "rail-post":
-            side, drop = frame.guide[0].side, frame.guide[1].drop
-            reach = (own.axis - rail_middle(loom)).real + RAIL_AXIS / 2 - side
-            arm = member(own.arm_name, "arm of the rail", own.arm, reach)
-            yield Occurrence(arm, tuple(placement(x - RAIL_AXIS, -drop, side) for x in own.stations))
+        axis, ends = own.axis - rail_middle(loom), own.name == "rail-post"
+        if not ends:
+            arm = member(own.arm_name, "arm of the rail", own.arm, axis.real + RAIL_AXIS / 2 - side)
+            aside = (RAIL_AXIS + own.post.side) / 2 - own.lever
+            yield Occurrence(arm, tuple(placement(x + aside, -drop, side) for x in own.stations))
+        name = "rail-plate" if ends else "rail-bracket-plate"
+        section = Prism(Profile(polygon(_plate_outline(side if ends else 0.0))), END_PLATE)
+        plate = Part(part_id(name), "plate of the rail for a carriage", LASER_CUT, section, STEEL)
+        carriages, plates = list[Placement](), list[Placement]()
+        for x in own.stations:
+            out = -1 if x < 0 and ends else 1
+            onto, behind = placement(about=(1.0, 0.0, 0.0), angle=(1 + out) * turn / 4), CARRIAGE[2] + END_PLATE
+            carriages.append(placement(x - out * RAIL_AXIS / 2, axis.imag, axis.real).after(_ALONG_RETREAT).after(onto))
+            begin = x - out * (RAIL_AXIS / 2 + behind) - (END_PLATE if out < 0 else 0.0)
+            plates.append(placement(begin, axis.imag, axis.real).after(ALONG_WIDTH))
+        yield Occurrence(_carriage(), tuple(carriages))
+        yield Occurrence(plate, tuple(plates))
+
+
+def _plate_outline(side: float) -> ComplexArray:
+    """Corners of a plate of the rail about the axis of the retreat, up and to the front: about its carriage, and the
+    end of a rail of a side [m], if any.
+    """
+    carriage = rectangle(*CARRIAGE[:2]).points * _UP_AND_FRONT
+    return hull(np.concatenate([carriage, rectangle(side, side).points + 0.5j * side] if side else [carriage]))
+
+
+def retreat_rooms(side: float) -> tuple[float, float]:
+    """Room of the plate at the end of a rail of a side along its axis, up and down from the middle of that [m]."""
+    along = (_plate_outline(side) / _UP_AND_FRONT).real
+    return BEYOND - float(along.min()), BEYOND + float(along.max())
+
+
+@lru_cache(maxsize=1)
+def _carriage() -> Part:
+    """The carriage of an axis along x, on it at z = 0."""
+    bought = Bought(
+        f"carriage of an axis {in_mm(RAIL_AXIS)} wide",
+        _FILLED * math.prod(CARRIAGE) * MATERIALS["aluminium alloy"].density,
+        data=f"{_HOLES.number} holes for {_HOLES.thread}, {in_mm(_HOLES.across)} x {in_mm(_HOLES.along)}",
+        holes=(_HOLES,),
+    )
+    title = "carriage of an axis of the rail's retreat"
+    return bought_part(part_id("retreat-carriage"), title, "guide carriage", box(*CARRIAGE), bought)
+
+
+_UP_AND_FRONT = complex(RETREAT.imag, RETREAT.real)
+"""Direction of the retreat, its real part up, its imaginary one to the front."""
+
+_ALONG_RETREAT = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=cmath.phase(_UP_AND_FRONT)))
+"""A part whose z points along the width, and its x along the retreat."""

@@ -17,7 +17,7 @@ from ilmek.elements.materials import GRAVITY
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.feet import FOOT
-from ilmek.machines.automated_loom.frame import ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.frame import CARRIED, END_PLATE, ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.rapier_support import LEAST, RapierSupport, rapier_support, rapier_supports
 from ilmek.machines.automated_loom.shaking import least_frequency, stiff_post
 from ilmek.machines.beat import BeatDrive
@@ -231,7 +231,8 @@ def support_bodies(loom: LoomDesign, frame: LoomFrame, face: float) -> Iterator[
     face  of the columns from the middle of the width [m]
     """
     held = supports(loom, frame)
-    aside = loom.task.rail_length / 2 + max(PAST_RAIL - held.post.side / 2, 2 * RAIL_AXIS + held.post.side / 2)
+    least = CARRIED + RAIL_AXIS + END_PLATE + ROOM + held.post.side / 2  # beside the rail's axis on its arm
+    aside = loom.task.rail_length / 2 + max(PAST_RAIL - held.post.side / 2, least)
     ends = (-aside, aside)
     yield Occurrence(
         member("beat-post", "post of the beat", held.post, held.height),

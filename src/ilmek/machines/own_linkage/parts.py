@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ilmek.elements.bearing_table import RollingBearing
-from ilmek.elements.columns import STEEL
 from ilmek.elements.linear_guides import LinearGuide
 from ilmek.elements.materials import MATERIALS, find_material
 from ilmek.elements.parallel_keys import KeyedEnd
@@ -30,7 +29,6 @@ from ilmek.machines.own_linkage.forms import Layer
 from ilmek.machines.own_linkage.layers import RingSide
 from ilmek.machines.own_linkage.shafts import (
     ShaftLengths,
-    groove_steps,
     housing_length,
     key_direction,
     shaft_lengths,
@@ -40,7 +38,7 @@ from ilmek.machines.own_linkage.shafts import (
 )
 from ilmek.machines.own_linkage.sizes import StudSize, bush_wall
 from ilmek.part import catalogue
-from ilmek.part.part import Bought, Part, Seat, bought_part
+from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, rectangle, stepped, tube
@@ -91,11 +89,7 @@ class PartStock:
 
     def ring(self, row: RetainingRing) -> Part:
         """A retaining ring, as it lies in its groove."""
-        shape = tube(row.outer, (row.outer - row.groove) / 2, row.thickness)
-        bought = Bought(row.designation, shape.volume * STEEL.density)
-        return self.part(
-            "ring", (row.shaft,), lambda name: bought_part(name, "retaining ring", "fastener", shape, bought)
-        )
+        return self.part("ring", (row.shaft,), lambda name: catalogue.retaining_ring(name, row))
 
     def bearing(self, row: RollingBearing) -> Part:
         """A rolling bearing."""
@@ -117,7 +111,7 @@ class PartStock:
     def pin(self, stud: StudSize, shank: float, collar: float, journal: float) -> Part:
         """A pin by the lengths of its shank, its collar and its journal up to the ring's groove."""
         ring, thick = stud.ring, stud.collar
-        steps = [(stud.shank, shank), (thick, collar), (stud.journal, journal), *groove_steps(ring)]
+        steps = [(stud.shank, shank), (thick, collar), (stud.journal, journal), *ring.steps]
         return self.made("pin", "pin or bush", stepped(*steps), stud.journal, stud.shank, shank, collar, journal)
 
     def shaft(self, stud: StudSize, lengths: ShaftLengths, key: KeyedEnd | None) -> Part:

@@ -7,7 +7,6 @@ and a ring; where there is no room for both beside a pin, link and shaft are of 
 from typing import NamedTuple
 
 from ilmek.elements.parallel_keys import KeyedEnd
-from ilmek.elements.retaining_rings import RetainingRing
 from ilmek.linkage.model import GROUND
 from ilmek.machines.own_linkage.axes import PinAxis
 from ilmek.machines.own_linkage.construction import PLAY, Construction
@@ -93,7 +92,7 @@ def shaft_members(stud: StudSize, lengths: ShaftLengths, key: KeyedEnd | None) -
     stub, plain, hub, beyond = lengths
     d, ring = stud.journal, stud.ring
     below = (ring.groove, ring.slot), (d, plain - ring.slot)
-    above = ((d, beyond + PLAY), *groove_steps(ring)) if hub else ()
+    above = ((d, beyond + PLAY), *ring.steps) if hub else ()
     if key is None:
         return (Placed(stepped((d, stub), *below, *(((d, hub), *above) if hub else ()))),)
     end = catalogue.keyed_journal(key)
@@ -101,8 +100,3 @@ def shaft_members(stud: StudSize, lengths: ShaftLengths, key: KeyedEnd | None) -
     if hub:
         pieces += [(Prism(end.section, hub), stub + plain), (stepped(*above), stub + plain + hub)]
     return tuple(Placed(piece, (placement(z=z),)) for piece, z in pieces)
-
-
-def groove_steps(ring: RetainingRing) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The groove of a ring, and the end of the pin behind it: diameters and lengths."""
-    return (ring.groove, ring.slot), (ring.shaft, ring.end)

@@ -24,7 +24,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import Profile, drilled
-from ilmek.part.shapes import Prism, Shape, bar, square_tube, tube
+from ilmek.part.shapes import Prism, Shape, bar, square_tube, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, rounded_hull, strip
 from ilmek.records import record
@@ -50,6 +50,7 @@ class CompensatorParts:
     roller: Part
     roller_pin: Part
     spring_pin: Part
+    spring_ring: Part
     struts: StrutParts
     beam: Part
     pivot_lug: Part
@@ -60,6 +61,7 @@ class CompensatorParts:
 def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Members) -> CompensatorParts:
     """The parts for a synthesised lever and the members that were chosen."""
     supports = BarSupports(params, sprung, members)
+    ring = supports.spring_ring
     thick, pin, roller, section = params.lever_thickness, members.pin, members.roller, members.tube
     flat, turned = "machined link", "pin or bush"
     pins = bar(roller.bore, thick + PLAY + roller.width)
@@ -79,8 +81,13 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
         roller=catalogue.bearing(part_id("roller"), "roller of bars and rods", roller),
         roller_pin=_made("roller-pin", "pin of a roller", turned, pins),
         spring_pin=_made(
-            "spring-pin", "pin of the springs", turned, bar(members.spring_pin, supports.springs_wide), TOUGH
+            "spring-pin",
+            "pin of the springs",
+            turned,
+            stepped(*reversed(ring.steps), (members.spring_pin, supports.springs_wide), *ring.steps),
+            TOUGH,
         ),
+        spring_ring=catalogue.retaining_ring(part_id("spring-ring"), ring),
         struts=strut_parts(supports),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members)),
         pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(pin, supports.clear, thick)),
@@ -103,7 +110,7 @@ def sprung_bar(parts: CompensatorParts, name: str, motion: SceneMotion | None) -
             Occurrence(parts.bush, _places([0j], at.stations, -at.members.pin)),
             Occurrence(parts.saddle, _places([at.bar], at.stations, -1.5 * thick, turned=-at.bar)),
             *_rollers(parts, [at.bar], -at.bar, -1),
-            Occurrence(parts.spring_pin, _places([at.reach], at.stations, -at.springs_wide / 2)),
+            *_sprung_pins(parts, at.reach),
         ),
         joint=Joint(JointKind.PIN, motion=motion, passive="its springs hold it against the warps"),
         positions=(_along(at.sprung.lever.pivot),),
@@ -144,7 +151,7 @@ def fitted(parts: CompensatorParts, name: str) -> RigidBody:
             Occurrence(parts.pin, _places([lever.pivot], at.stations, far)),
             Occurrence(parts.rod, _places(_rods(at), [-at.params.cloth.width / 2])),
             *_rollers(parts, _rods(at), -1, 1),
-            Occurrence(parts.spring_pin, _places([complex(lever.anchor)], at.stations, -at.springs_wide / 2)),
+            *_sprung_pins(parts, complex(lever.anchor)),
         ),
         parent=stand_id(name),
     )
@@ -182,6 +189,16 @@ def _made(name: str, title: str, process: str, shape: Shape, material: Material 
 
 def _along(point: complex, z: float = 0.0) -> Placement:
     return placement(point.real, point.imag, z)
+
+
+def _sprung_pins(parts: CompensatorParts, axis: complex) -> tuple[Occurrence, Occurrence]:
+    """The pins of the springs about an axis, with a ring in the groove at each end."""
+    at, ring = parts.supports, parts.supports.spring_ring
+    half = at.springs_wide / 2
+    shifts = (half, -half - ring.thickness)
+    rings = tuple(position for shift in shifts for position in _places([axis], at.stations, shift))
+    pins = _places([axis], at.stations, -half - ring.slot - ring.end)
+    return Occurrence(parts.spring_pin, pins), Occurrence(parts.spring_ring, rings)
 
 
 def _places(

@@ -34,10 +34,8 @@ _SAMPLES = 49
 _WALL = 3 * mm
 """From the socket of a rod to the bore of its eye [m]; assumed by this project."""
 
-_ROD, _COLLAR, _LOOSE = 0.4, 0.1, 0.5 * mm
-"""Diameter of a rod over that of its collar, the collar's share of a compressed spring, and play of a rod in its sleeve
-[m]; assumed by this project.
-"""
+_ROD, _COLLAR = 0.4, 0.1
+"""Diameter of a rod over that of its collar, and the collar's share of a compressed spring; assumed by this project."""
 
 
 @record
@@ -155,8 +153,8 @@ def _rod(strut: Strut) -> Turned:
 def _sleeve(strut: Strut) -> Turned:
     """Shank and bored sleeve from z = 0, the end in the eye."""
     floor, end = strut.socket, strut.socket + strut.sleeve
-    rod, wide, bore = 0.5j * strut.rod, 0.5j * strut.guide, 0.5j * (strut.rod + _LOOSE)
-    inside = [end + bore, floor + PLAY + bore, complex(floor + PLAY)]
+    rod, wide = 0.5j * strut.rod, 0.5j * strut.guide
+    inside = [end + rod, floor + PLAY + rod, complex(floor + PLAY)]
     return Turned(Profile(polygon(np.array([0j, rod, floor + rod, floor + wide, end + wide, *inside]))))
 
 

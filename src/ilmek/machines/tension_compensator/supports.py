@@ -9,6 +9,7 @@ import math
 import numpy as np
 
 from ilmek.arrays import ComplexArray
+from ilmek.elements.retaining_rings import RetainingRing, retaining_ring
 from ilmek.machines.tension_compensator.members import CORNER, SADDLE, STRIP, Members
 from ilmek.machines.tension_compensator.params import TensionCompensatorParams
 from ilmek.machines.tension_compensator.synthesis import PLAY, SprungLever
@@ -36,9 +37,14 @@ class BarSupports:
 
     @property
     def springs_wide(self) -> float:
-        """Length of the pin that carries the springs of a lever, as far beside it on both sides [m]."""
+        """Of the pin that carries the springs of a lever, between its rings, as far beside it on both sides [m]."""
         beside = math.ceil(self.sprung.springs / 2) * self.sprung.pitch
         return self.params.lever_thickness + 2 * max(beside, 5 * PLAY)
+
+    @property
+    def spring_ring(self) -> RetainingRing:
+        """The ring that holds the eyes on their pin, at both ends."""
+        return retaining_ring(self.members.spring_pin)
 
     @property
     def spring_stations(self) -> tuple[float, ...]:

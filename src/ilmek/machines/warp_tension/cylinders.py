@@ -7,7 +7,8 @@
 
 T n is the pull of the worst case. Loads are complex, x to the front, y upwards. A cylinder bends in the plane of its
 load, as a beam between its bearings.
-The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move.
+The warps slip over the spacer: on its other side they pull with T exp(mu phi) while they move. That bounds the torque
+at its driven end, whatever its motor does: T n (exp(mu phi) - 1) R.
 
 Bearings: the load is the reaction; life after ISO 281 in turns of the cylinder, which are few, so that the static
 safety C0 / P0 decides, 1.5 and more [ISO 76: 1 to 2 for ball bearings under normal conditions]. A shaft end of the
@@ -203,7 +204,8 @@ def cylinders(design: WarpTensionDesign) -> tuple[Cylinder, Cylinder, Cylinder]:
     chosen = spacer_tube(params, design.outer_radius)
     under = (chosen.inner_radius + metal_left(params, chosen), chosen.inner_radius)
     shell = spacer_shell(params, chosen), chosen
-    spacer = _cylinder(design, SPACER, under, shell, spacer_load(params, load), 0.0)
+    slips = 0.0 if params.by_hand else design.loads.worst * (slipping(params) - 1) * chosen.outer_radius
+    spacer = _cylinder(design, SPACER, under, shell, spacer_load(params, load), slips)
     upper, lower, spacer = (replace(one, mass=one.shape.volume * params.density) for one in (upper, lower, spacer))
     return upper, lower, spacer
 
@@ -234,7 +236,12 @@ def spacer_load(params: WarpTensionParams, load: float) -> complex:
 
 def tension_beyond(params: WarpTensionParams) -> float:
     """Tension of a warp on the other side of the spacer while it slips [N]."""
-    return params.cloth.warp_tension * capstan(params.cloth.yarns.friction, params.spacer_wrap)
+    return params.cloth.warp_tension * slipping(params)
+
+
+def slipping(params: WarpTensionParams) -> float:
+    """Ratio of the tensions on both sides of the spacer at which the warps slip over it."""
+    return capstan(params.cloth.yarns.friction, params.spacer_wrap)
 
 
 def stock(inner: float, outer: float) -> Tube | None:

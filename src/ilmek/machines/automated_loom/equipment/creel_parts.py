@@ -26,13 +26,12 @@ from ilmek.machines.automated_loom.equipment.creel import (
     foot_under_duct,
 )
 from ilmek.machines.automated_loom.equipment.devices import TO_THE_BACK, TO_THE_LEFT, TO_THE_RIGHT, device, placed
-from ilmek.machines.automated_loom.equipment.energy_chain import ACROSS
 from ilmek.machines.automated_loom.equipment.guards import POST
 from ilmek.machines.automated_loom.equipment.surroundings import surroundings
 from ilmek.machines.automated_loom.equipment.yarn_path import yarn_path
 from ilmek.machines.automated_loom.frame import END_PLATE, end_plate, member, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
-from ilmek.machines.automated_loom.on_rail import CONDUIT_MASS, CONDUIT_SIZE, WALL
+from ilmek.machines.automated_loom.on_rail import ACROSS, CONDUIT_MASS, CONDUIT_SIZE, WALL
 from ilmek.part.part import WELDED, Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, IDENTITY, UPRIGHT, placement
 from ilmek.part.profile import Profile

@@ -8,6 +8,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.frame import ROOM, part_id
 from ilmek.machines.automated_loom.in_space.maker import MachineTree
 from ilmek.machines.automated_loom.on_rail import (
+    ACROSS,
     ARM_DEPTH,
     CHAIN,
     PLAY,
@@ -19,7 +20,6 @@ from ilmek.machines.automated_loom.on_rail import (
     chain_under,
     share_of,
     trough_corners,
-    trough_part,
 )
 from ilmek.machines.automated_loom.own_parts import RAIL
 from ilmek.machines.automated_loom.parts import parts_of_loom
@@ -28,7 +28,7 @@ from ilmek.machines.weaver.drive_parts import drive_front, reducer_left
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import HEAD
 from ilmek.part.part import Part
-from ilmek.part.placement import ALONG_WIDTH, placement
+from ilmek.part.placement import placement
 from ilmek.part.shapes import Corner, Placed, Sum, box
 from ilmek.part.tree import Occurrence, RigidBody, Tree
 from ilmek.report import Check, at_least, at_most
@@ -43,9 +43,6 @@ ARM, TOE = (30 * mm, ARM_DEPTH), (8 * mm, 3 * mm)
 """Width and depth of the arm of a head to its chain, under the end of the bracket, and how far and how thick its lower
 end reaches to the front [m]; assumed by this project.
 """
-
-ACROSS = ALONG_WIDTH.after(placement(about=(0.0, 0.0, 1.0), angle=-turn / 4))
-"""A part whose z points along the width, to the weaver's right: its x to the back, its y up."""
 
 
 def _side(loom: LoomDesign) -> float:
@@ -63,7 +60,7 @@ def trough_box(loom: LoomDesign) -> tuple[Corner, Corner]:
 
 
 def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
-    """Trough and chains on the rail, and on each head the arm that moves the end of its chain."""
+    """Chains in the trough of the rail, and on each head the arm that moves the end of its chain."""
     yield MachineTree("automated-loom", Tree((_chains(loom),)), parent=RAIL)
     shape, end = loom.weaver.shape, float(trough_box(loom)[0][1]) + WALL + PLAY + energy_chain(loom).loop[0]
     top = shape.rail - RAIL_AXIS / 2
@@ -80,19 +77,13 @@ def chain_trees(loom: LoomDesign) -> Iterator[MachineTree]:
 
 
 def _chains(loom: LoomDesign) -> RigidBody:
-    """The trough under the rail, and in it the room of the chain of each head."""
+    """In the trough under the rail the room of the chain of each head."""
     (low, high), side, rail = trough_box(loom), _side(loom), rail_middle(loom)
     own, room = placement(0.0, rail.imag, rail.real).inverse, chain_room(loom, side)
     middle = placement(0.0, float(low[1]) + WALL + PLAY + energy_chain(loom).loop[0] / 2, float(high[2] + low[2]) / 2)
     starts = (placement(float(low[0]) + k * room) for k in range(loom.heads))
-    corner = placement(float(low[0]), float(low[1]), float(high[2]))
-    return RigidBody(
-        part_id("chains"),
-        (
-            Occurrence(trough_part(loom, side), (own.after(corner).after(ACROSS),)),
-            Occurrence(chain_part(loom, side), tuple(own.after(middle).after(start).after(ACROSS) for start in starts)),
-        ),
-    )
+    pieces = tuple(own.after(middle).after(start).after(ACROSS) for start in starts)
+    return RigidBody(part_id("chains"), (Occurrence(chain_part(loom, side), pieces),))
 
 
 def chain_checks(loom: LoomDesign) -> tuple[Check, ...]:
