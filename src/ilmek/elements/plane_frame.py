@@ -112,7 +112,7 @@ def _supported(
         inertia[3 * node, 3 * node] += mass
         inertia[3 * node + 1, 3 * node + 1] += mass
     fixed = [3 * node + direction for node, held in supports.items() for direction in range(3) if held[direction]]
-    free = np.setdiff1d(np.arange(len(stiffness)), fixed)
+    free = np.delete(np.arange(len(stiffness)), fixed)
     return stiffness[np.ix_(free, free)], inertia[np.ix_(free, free)]
 
 

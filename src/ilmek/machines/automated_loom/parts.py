@@ -29,8 +29,6 @@ from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
 from ilmek.report import BillLine
 
-STEEL = "structural steel"
-
 _OF_FRAME = ("welded frame", "laser-cut part")
 """Kinds of part whose mass is the frame's."""
 
