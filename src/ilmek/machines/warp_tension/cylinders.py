@@ -155,9 +155,14 @@ class Cylinder:
         return flange_radius(self.shell.outer_radius, self.throat)
 
     @property
+    def stub_stress(self) -> float:
+        """Von Mises stress in the shaft end [Pa]."""
+        return self.end.stress
+
+    @property
     def stub_safety(self) -> float:
         """Yield strength of the shaft end over its stress."""
-        return STUB.strength / self.end.stress if self.end.stress > 0 else math.inf
+        return STUB.strength / self.stub_stress if self.stub_stress > 0 else math.inf
 
     @property
     def tube_name(self) -> str:

@@ -219,7 +219,7 @@ def _cylinder_table(three: tuple[Cylinder, ...]) -> Table:
                 cylinder.torque,
                 cylinder.mass,
             ),
-            *(cylinder.bearing.name, cylinder.static_safety, cylinder.life, cylinder.end.stress),
+            *(cylinder.bearing.name, cylinder.static_safety, cylinder.life, cylinder.stub_stress),
         )
         for cylinder in three
     )
