@@ -10,7 +10,7 @@ from default_machines import default_design
 from ilmek.elements.columns import SECTIONS
 from ilmek.elements.fits import tolerance_grade
 from ilmek.elements.making import DRAWN, FINEST, GRINDING, MILLING, TURNING
-from ilmek.elements.stock_sizes import CAPILLARIES, PLATES, ROUNDS, SQUARES
+from ilmek.elements.stock_sizes import PLATES, ROUNDS, SQUARES
 from ilmek.elements.tubes import TUBES
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
@@ -32,6 +32,7 @@ LOOMS: dict[str, dict[str, str]] = {
 }
 ALONE = [name for name, machine in MACHINES.items() if machine.tree is not None]
 NEAR = 1e-6
+CAPILLARIES = [(outer * mm, wall * mm) for outer, wall in ((1, 0.25), (1.6, 0.4), (2, 0.5), (3, 0.75), (4, 1))]
 
 
 @cache

@@ -10,7 +10,8 @@ from processes import PATIENCE, until
 
 from ilmek.errors import IlmekError
 from ilmek.jobs.studio.answers import Context
-from ilmek.jobs.studio.loom.run import CommandAnswer, LoomCommand, RunNews, RunRequest, TwinRunEnd, command, run
+from ilmek.jobs.studio.loom.run import LoomCommand, RunNews, RunRequest, TwinRunEnd, command, run
+from ilmek.loom.control.view import Answer
 from ilmek.progress import Cancelled, Progress
 
 
@@ -46,7 +47,7 @@ def test_a_run_is_held_led_on_and_stopped_by_commands(project: Path) -> None:
     working.start()
     try:
         until(lambda: bool(news) and news[-1].state == "Execute", "the first row")
-        assert command(LoomCommand("hold"), context) == CommandAnswer(True, "")
+        assert command(LoomCommand("hold"), context) == Answer(True, "")
         until(lambda: news[-1].state == "Held")
         assert command(LoomCommand("resume"), context).ok
         until(lambda: news[-1].state == "Execute")

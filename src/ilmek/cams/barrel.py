@@ -18,7 +18,6 @@ of contact, n perpendicular to the relative velocity; development: `strip` and i
 
 import math
 from abc import abstractmethod
-from dataclasses import replace
 from functools import partial
 from typing import ClassVar, Literal
 
@@ -130,10 +129,6 @@ class BarrelCam(Barrel):
         """Along the axis."""
         return 1.0
 
-    def resized(self, prime_radius: float) -> "BarrelCam":
-        """The same cam with another mean radius [m]."""
-        return replace(self, prime_radius=prime_radius)
-
 
 @value_record
 class BarrelArmCam(Barrel):
@@ -177,10 +172,6 @@ class BarrelArmCam(Barrel):
     def direction(self, motion: FollowerMotion) -> ComplexField:
         """Perpendicular to the arm: exp(-i side phi)."""
         return unit(-self.side * (self.start + motion.s))
-
-    def resized(self, prime_radius: float) -> "BarrelArmCam":
-        """The same cam with another mean radius [m]."""
-        return replace(self, prime_radius=prime_radius)
 
 
 def undercut_in_space(cam: Barrel, *, both_flanks: bool = True) -> Extremum | None:

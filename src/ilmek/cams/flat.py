@@ -12,7 +12,6 @@ Harmonic rise and fall over half a turn each make a circle of radius Rb + L/2.  
 """
 
 import math
-from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -55,10 +54,6 @@ class FlatCam(CamCurves):
     def prime_bounds(self) -> tuple[float, float]:
         """Bounds of the base radius [m], both excluded."""
         return 0.0, math.inf
-
-    def resized(self, prime_radius: float) -> "FlatCam":
-        """The same cam with another prime radius [m]."""
-        return replace(self, prime_radius=prime_radius)
 
     def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
         """The trace at cam angles [rad], for the follower's motion there; the pitch curve is the surface itself."""

@@ -14,7 +14,6 @@ the transmission angle from 90 deg.
 """
 
 import math
-from dataclasses import replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -98,10 +97,6 @@ class OscillatingCam(CamCurves):
         c, arm = self.pivot, self.arm
         most = math.sqrt(max(c**2 + arm**2 + 2 * c * arm * math.cos(min(self.swing, math.pi)), 0.0))
         return max(abs(c - arm), self.roller_radius), most
-
-    def resized(self, prime_radius: float) -> "OscillatingCam":
-        """The same cam with another prime radius [m]."""
-        return replace(self, prime_radius=prime_radius)
 
     def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
         """The trace at cam angles [rad], for the follower's motion there."""

@@ -16,7 +16,6 @@ the pivot along the face), 0 for a face through the pivot. side +1: face above t
 """
 
 import math
-from dataclasses import replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -75,10 +74,6 @@ class OscillatingFlatCam(CamCurves):
     def prime_bounds(self) -> tuple[float, float]:
         """Bounds of the base radius [m], both excluded: the face must not swing past a right angle."""
         return 0.0, self.pivot * math.cos(min(self.swing, math.pi)) + self.face_offset
-
-    def resized(self, prime_radius: float) -> "OscillatingFlatCam":
-        """The same cam with another prime radius [m]."""
-        return replace(self, prime_radius=prime_radius)
 
     def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
         """The trace at cam angles [rad], for the follower's motion there; the pitch curve is the surface itself."""

@@ -5,7 +5,6 @@ follower moves and touches as a roller of its radius; only the Hertz contact is 
 """
 
 import math
-from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
@@ -61,10 +60,6 @@ class PlateCam(CamCurves, Shown):
         least = max(abs(self.offset), self.roller_radius)
         lowest = min(self.programme.bounds[0], 0.0)
         return max(least, math.hypot(math.sqrt(least**2 - self.offset**2) - lowest, self.offset)), math.inf
-
-    def resized(self, prime_radius: float) -> "PlateCam":
-        """The same cam with another prime radius [m]."""
-        return replace(self, prime_radius=prime_radius)
 
     def trace_of(self, angle: FloatArray, motion: FollowerMotion) -> CamTrace:
         """The trace at cam angles [rad], for the follower's motion there."""

@@ -15,7 +15,8 @@ Positive curvature is convex.  [do Carmo, Differential Geometry of Curves and Su
 """
 
 from abc import ABC, abstractmethod
-from typing import Protocol, runtime_checkable
+from dataclasses import replace
+from typing import Protocol, Self, runtime_checkable
 
 import numpy as np
 
@@ -147,6 +148,10 @@ class CamCurves(ABC):
     def pressure_angle(self, angle: Quantities) -> FloatArray:
         """Pressure angle [rad] at cam angles [rad]."""
         return self.trace(angle).pressure_angle
+
+    def resized(self, prime_radius: float) -> Self:
+        """The same cam with another prime radius [m]."""
+        return replace(self, prime_radius=prime_radius)  # type: ignore[type-var]  # every cam is a record
 
     def curvature(self, angle: Quantities) -> FloatArray:
         """Curvature of the pitch curve [1/m] at cam angles [rad], positive where convex."""

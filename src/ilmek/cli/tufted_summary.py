@@ -20,9 +20,6 @@ from ilmek.units import format_quantity
 
 KNOTTED, GUN, TUFTING = TECHNIQUES = ("knotted", "gun", "tufting")
 
-TUFTS = "tufts"
-"""The headline of a tufted carpet."""
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TuftingTechnique:

@@ -1,7 +1,6 @@
 from ilmek.elements.bearing_table import RollingBearing as RollingBearing
 from ilmek.elements.bearings import smallest_bearing as smallest_bearing
 from ilmek.elements.gear_pair import GearPair as GearPair
-from ilmek.elements.gear_pair import smallest_pair as smallest_pair
 from ilmek.elements.materials import Material as Material
 from ilmek.elements.materials import find_material as find_material
 from ilmek.elements.motors import Motor as Motor

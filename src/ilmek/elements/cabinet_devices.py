@@ -140,10 +140,6 @@ def mains_terminal(section: float) -> FieldDevice:
     return _device(f"terminal {taken:g} mm²", "terminal", (wide, 60, 48), 30 * g, "IEC 60947-7-1")
 
 
-CLAMP = 8 * mm
-"""Pitch of the clamps of a protective bar [m]."""
-
-
 def protective_bar(clamps: int) -> FieldDevice:
     """The bar of the protective conductors, with so many clamps.
 

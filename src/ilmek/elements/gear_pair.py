@@ -12,7 +12,7 @@ nominal stress at the pitch point; its factors of application, speed, load distr
 import math
 from dataclasses import dataclass
 
-from ilmek.elements.gears import MODULES, lewis
+from ilmek.elements.gears import lewis
 from ilmek.elements.involute import Gear, involute, involute_angle
 from ilmek.elements.materials import Material
 from ilmek.errors import ParameterError
@@ -123,34 +123,6 @@ def pair_at(distance: float, module: float, teeth: tuple[int, int], width: float
     shift = both * (involute(math.acos(cosine)) - involute(PRESSURE_ANGLE)) / (2 * math.tan(PRESSURE_ANGLE))
     first, second = (Gear(module, number, part * shift) for number, part in zip(teeth, (share, 1 - share), strict=True))
     return GearPair(first, second, width)
-
-
-WIDTH = 10.0
-"""Width over module of ordinary gears on stiff shafts [usual practice: 8 to 14]."""
-
-
-def smallest_pair(
-    ratio: float,
-    torque: float,
-    first: Material,
-    second: Material,
-    *,
-    bending: float,
-    safety: float = 1.2,
-    teeth: int = 20,
-) -> GearPair | None:
-    """The pair of the finest preferred module that is sufficient for a torque on the first gear [N m]; None if none is.
-
-    bending  allowed bending stress of the teeth [Pa]      safety  factor on the Hertz pressure
-    teeth    of the first gear; the second has the nearest number to `ratio` times it
-    """
-    known = [material.hertz for material in (first, second) if material.hertz is not None]
-    for module in MODULES:
-        pair = GearPair(Gear(module, teeth), Gear(module, max(5, round(ratio * teeth))), WIDTH * module)
-        presses = pair.pressure(torque, first, second) * safety
-        if pair.bending(torque) <= bending and all(presses <= limit for limit in known):
-            return pair
-    return None
 
 
 def _leg(hypotenuse: float, other: float) -> float:

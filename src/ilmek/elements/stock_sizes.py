@@ -33,10 +33,6 @@ SQUARES = (*(size * mm for size in (2, 3, 4, 5, 6, 8, 10, 12, 14, 15, 16, 18)), 
 """Sides of square bars [m]."""
 
 
-CAPILLARIES = tuple((outer * mm, wall * mm) for outer, wall in ((1, 0.25), (1.6, 0.4), (2, 0.5), (3, 0.75), (4, 1)))
-"""Outer diameters and walls of capillary tubes of stainless steel [m]."""
-
-
 def offered(size: float, series: tuple[float, ...]) -> float:
     """The least size of a series that is no less than a size [m]; beyond the series the size in whole millimetres.
 

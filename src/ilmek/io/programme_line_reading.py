@@ -41,7 +41,6 @@ _AFTER = (
 _MOST_DIGITS = 9
 _NEWLINE, _ZERO, _NUMBER, _REST, _STAR, _SPACE = 10, 48, 35, 126, 42, 32
 _BEGIN, _END = 5, 6  # columns of a line behind its kind and its numbers: first byte, and the one behind the last
-NUMBERS = 4
 
 WRONG_ORDER, WRONG_CHART, TOO_MANY = 1, 2, 3
 """What is wrong with the first faulty line of a row."""

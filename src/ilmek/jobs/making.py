@@ -11,7 +11,6 @@ from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.making import MakingStep
 from ilmek.report import Json
 from ilmek.units import cm, format_number, format_quantity
-from ilmek.weaving.warping import Warping
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +41,6 @@ class Making:
         return None if self.woven is None else self.woven[1] - self.chart.size.length
 
     @property
-    def warping(self) -> Warping:
-        """Its warps."""
-        return self.params.dressing
-
-    @property
     def cost(self) -> CarpetCost | None:
         """The cost of the carpet, by the time in which it is woven; None without a loom or that time."""
         loom, time, chart = self.loomed.cost, self.loomed.weaving_time, self.chart
@@ -58,7 +52,7 @@ class Making:
             area=chart.size.area,
             time=time,
             energy=loom.energy * time / loom.time,
-            dressing=float(self.warping.dressing_time),
+            dressing=float(self.params.dressing.dressing_time),
         )
 
     @property

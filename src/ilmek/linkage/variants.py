@@ -31,6 +31,7 @@ from ilmek.linkage.structure import Plan, plan
 from ilmek.linkage.tape import Dimensions
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.records import record, with_fields
+from ilmek.report.framed import Framed
 from ilmek.units import turn as full_turn
 
 BLOCK = 16384

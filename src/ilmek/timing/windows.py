@@ -67,18 +67,6 @@ def common(first: Windows, second: Windows) -> Windows:
     return windows_of((start, end) for start, end in met if end > start)
 
 
-def outside(windows: Windows) -> Windows:
-    """The complement: the rest of the turn.
-
-    >>> outside((Window(1.0, 2.0), Window(6.0, 6.5)))
-    (Window(start=0.21681469282041377, end=1.0), Window(start=2.0, end=6.0))
-    """
-    if not windows:
-        return WHOLE
-    later = [*(window.start for window in windows[1:]), windows[0].start + turn]
-    return windows_of((a.end, start) for a, start in zip(windows, later, strict=True) if start > a.end + _SAME)
-
-
 def separation(first: Windows, second: Windows) -> float:
     """The least master angle [rad] between a window of one and a window of the other, in either direction.
 

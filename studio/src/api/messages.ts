@@ -10,6 +10,31 @@
  */
 export interface Messages {}
 /**
+ * An alarm that is raised.
+ *
+ *     name    stable, as in the list of alarms      stops  whether the loom stands until it is cleared
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "AlarmView".
+ */
+export interface AlarmView {
+  name: string;
+  cause: string;
+  remedy: string;
+  stops: boolean;
+  time: number;
+}
+/**
+ * The answer to a command: whether it is carried out, and why not.
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Answer".
+ */
+export interface Answer {
+  ok: boolean;
+  reason: string;
+}
+/**
  * A colour of a drawing, `#rrggbb`, the name of its yarn, the CIEDE2000 of the two, and its knots.
  *
  *     merged_with  the other colours of the yarn, those with most knots; at most MOST_MERGED
@@ -42,12 +67,16 @@ export interface BodyAnswer {
   solved: boolean;
 }
 /**
- * A part of a circuit between dead centres: range of the input [rad; m], signs of the closed forms.
+ * A part of a circuit between two dead centres of the input.
+ *
+ *     start, stop  least and greatest value of the input [rad, m], start within (-pi, pi]; a turn apart if it turns fully
+ *     branches     signs of the closed forms along it, in the form of `Mechanism.branches`; {} where no closed form has it
+ *     full         the input turns fully: the branch has no ends
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "BranchAnswer".
+ * via the `definition` "Branch".
  */
-export interface BranchAnswer {
+export interface Branch {
   start: number;
   stop: number;
   branches: {
@@ -233,6 +262,24 @@ export interface CheckDifference {
   change: number | null;
 }
 /**
+ * A choice of a design.
+ *
+ *     name          what was chosen, a parameter's name where it is one         chosen  with its unit
+ *     decided_by    the check that the next cheaper fails, or the aim: price, time
+ *     next_cheaper  the next cheaper one; "" where this is the cheapest
+ *     failed        value and limit of the check that it fails; "" where none
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Choice".
+ */
+export interface Choice {
+  name: string;
+  chosen: string;
+  decided_by: string;
+  next_cheaper: string;
+  failed: string;
+}
+/**
  * A circuit: its branches in order, values of the input at which it reverses, and at which another one crosses.
  *
  *     current  whether the mechanism as drawn is on it      closed  whether the path returns to its start
@@ -241,21 +288,11 @@ export interface CheckDifference {
  * via the `definition` "CircuitAnswer".
  */
 export interface CircuitAnswer {
-  branches: BranchAnswer[];
+  branches: Branch[];
   dead_centres: number[];
   crossings: number[];
   closed: boolean;
   current: boolean;
-}
-/**
- * Whether the controller carries a command out, and why not.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "CommandAnswer".
- */
-export interface CommandAnswer {
-  ok: boolean;
-  reason: string;
 }
 /**
  * A state that is shown as its command line and as Python.
@@ -459,7 +496,7 @@ export interface ShownTrack {
     [k: string]: number | null;
   };
   motions: ShownMotionPart[];
-  events: ShownEvent[];
+  events: TrackEvent[];
   peaks: {
     [k: string]: number | null;
   };
@@ -486,12 +523,15 @@ export interface ShownMotionPart {
   jerk: number | null;
 }
 /**
- * A named instant of a track [rad]; `on` is the motion that it follows, at this share of its time.
+ * A named instant of a track: master angle [rad].
+ *
+ *     on, share   a motion, and the share [-] of its time at which the event occurs: the event follows that motion;
+ *                 default: the event is independent
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownEvent".
+ * via the `definition` "TrackEvent".
  */
-export interface ShownEvent {
+export interface TrackEvent {
   name: string;
   angle: number;
   on: string;
@@ -614,7 +654,7 @@ export interface DesignView {
   reasons: ShownReason[];
   checks: ShownCheck[];
   results: ShownResult[];
-  choices: ShownChoice[];
+  choices: Choice[];
   warnings: string[];
   parameters: {
     [k: string]: ForceValue;
@@ -647,19 +687,6 @@ export interface ShownResult {
   unit: string;
   meaning: string;
   value: number | null;
-}
-/**
- * What the design chose of what was left open, which check decided, and what the next cheaper one failed.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownChoice".
- */
-export interface ShownChoice {
-  name: string;
-  chosen: string;
-  decided_by: string;
-  next_cheaper: string;
-  failed: string;
 }
 /**
  * The value in force of a parameter [SI], and its text; set: whether it differs from the default.
@@ -967,6 +994,26 @@ export interface LeftOutReason {
   count: number;
 }
 /**
+ * What must come after what: from a place to a place, each the number of a lane and a master angle [rad].
+ *
+ * This interface was referenced by `Messages`'s JSON-Schema
+ * via the `definition` "Link".
+ */
+export interface Link {
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  first: [number, number];
+  /**
+   * @minItems 2
+   * @maxItems 2
+   */
+  then: [number, number];
+  label: string;
+  ok: boolean;
+}
+/**
  * What is wrong with a mechanism: what was found, what is allowed, what to do.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
@@ -1099,7 +1146,7 @@ export interface ShownPlot {
   x: ShownAxis;
   y: ShownAxis;
   curves: ShownCurve[];
-  marks: ShownMark[];
+  marks: Mark[];
 }
 /**
  * An axis: label, and the unit its SI data are shown in.
@@ -1125,12 +1172,12 @@ export interface ShownCurve {
   y: (number | null)[];
 }
 /**
- * A named abscissa [SI].
+ * A named abscissa: a vertical line in a plot.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownMark".
+ * via the `definition` "Mark".
  */
-export interface ShownMark {
+export interface Mark {
   x: number;
   label: string;
 }
@@ -1244,7 +1291,7 @@ export interface ShownTiming {
   drive: ShownAxis;
   period: number;
   lanes: ShownLane[];
-  links: ShownLink[];
+  links: Link[];
 }
 /**
  * A track of a cyclogram: position 0 to 1 over the master angle [rad].
@@ -1259,17 +1306,17 @@ export interface ShownLane {
   look: number;
   angle: (number | null)[];
   position: (number | null)[];
-  events: ShownMark[];
-  moves: ShownMove[];
-  shades: ShownShade[];
+  events: Mark[];
+  moves: Move[];
+  shades: Shade[];
 }
 /**
- * A motion of a lane, from `begin` to `finish` [SI] over master angles [rad].
+ * A motion of a lane: from `begin` to `finish` [SI] over master angles [rad], by the law of a name.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownMove".
+ * via the `definition` "Move".
  */
-export interface ShownMove {
+export interface Move {
   name: string;
   start: number;
   end: number;
@@ -1278,36 +1325,16 @@ export interface ShownMove {
   law: string;
 }
 /**
- * A window of a lane [rad].
+ * A window of a lane: master angles [rad], what it is, and whether it is one that must not be.
  *
  * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownShade".
+ * via the `definition` "Shade".
  */
-export interface ShownShade {
+export interface Shade {
   start: number;
   end: number;
   label: string;
   bad: boolean;
-}
-/**
- * What must come after what: a lane's number and a master angle [rad] each.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "ShownLink".
- */
-export interface ShownLink {
-  /**
-   * @minItems 2
-   * @maxItems 2
-   */
-  first: [number, number];
-  /**
-   * @minItems 2
-   * @maxItems 2
-   */
-  then: [number, number];
-  label: string;
-  ok: boolean;
 }
 /**
  * What lanes are busy with over time; the first `pale` kinds are drawn pale.
@@ -1921,17 +1948,6 @@ export interface RowRequest {
   path?: string;
 }
 /**
- * An alarm of the run: its cause, and what is to be done.
- *
- * This interface was referenced by `Messages`'s JSON-Schema
- * via the `definition` "RunAlarm".
- */
-export interface RunAlarm {
-  name: string;
-  cause: string;
-  remedy: string;
-}
-/**
  * The run at an instant; rows and warp pairs count from 0, from the bottom edge and from the left.
  *
  *     time, left   of the loom's clock, until now and until the end by the programme [s]
@@ -1956,7 +1972,7 @@ export interface RunNews {
   columns: (number | null)[];
   tied: number;
   due: number;
-  alarms: RunAlarm[];
+  alarms: AlarmView[];
   requests: string[];
   commands: string[];
 }

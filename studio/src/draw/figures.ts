@@ -1,5 +1,6 @@
 /** Figures as the server sends them. Values are SI. */
 export type {
+  Mark,
   MovingPoint,
   MovingShape,
   ShownAnimation,
@@ -11,7 +12,6 @@ export type {
   ShownFigure,
   ShownGantt,
   ShownLane,
-  ShownMark,
   ShownPlot,
   ShownStroke,
   ShownTable,

@@ -18,8 +18,6 @@ from ilmek.io.rendered.resolution import scale_for
 from ilmek.io.rendered.strokes import widen_strokes
 from ilmek.units import counted
 
-NAMESPACE = "http://www.w3.org/2000/svg"
-
 MOST_ELEMENTS, MOST_DEPTH = 500_000, 256
 """Largest number of elements of a drawing, and of those inside each other."""
 

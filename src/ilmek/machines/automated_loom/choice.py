@@ -29,11 +29,6 @@ class BeatOption:
     timing: RowTiming
 
     @property
-    def period(self) -> float:
-        """Time of a row's wefts and beats [s]."""
-        return self.task.period
-
-    @property
     def drive(self) -> BeatDrive:
         """Its drive at that period."""
         return _drive(self)
@@ -67,7 +62,7 @@ def beat_options(task: LoomTask, timed: Callable[[PlannedBeat], tuple[LoomTask, 
         plan: PlannedBeat = component.beat(task, kind)
         options.append(BeatOption(kind, plan, *timed(plan)))
     if len(options) > 1:
-        options.sort(key=lambda option: (option.price, option.period))
+        options.sort(key=lambda option: (option.price, option.task.period))
     return tuple(options)
 
 

@@ -18,6 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import chain
+from typing import TypeAlias
 
 import numpy as np
 
@@ -188,13 +189,18 @@ class LoomFrame:
         return of_columns if self.rail is None else (*of_columns, *rail_checks(self.guide[1], self.rail))
 
 
-def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], Iterable[Check]] = lambda _frame: ()) -> LoomFrame:
+def frame_for(
+    task: FrameTask,
+    sway: Callable[["LoomFrame"], Iterable[Check]] = lambda _frame: (),
+    fails: Callable[["LoomFrame"], bool] = lambda _frame: False,
+) -> LoomFrame:
     """The frame of the lightest sections that keep their checks; of the largest where none of the table does.
 
     A side has one column if any has room that keeps its checks, else the least number of them. Where none is as stiff
     as required, the columns are those that strength, bow and buckling need, and the frame fails the checks of its sway.
 
-    sway  frame -> checks of its stiffness as a whole, of which those after one that fails are not computed
+    sway   frame -> checks of its stiffness as a whole, of which those after one that fails are not computed
+    fails  frame -> whether one of them fails, where that is known sooner
     """
     sections = ascending()
     narrow = tuple(section for section in sections if section.side <= task.room) or sections[:1]
@@ -216,36 +222,45 @@ def frame_for(task: FrameTask, sway: Callable[["LoomFrame"], Iterable[Check]] = 
         if all(check.ok for check in own):
             yield from sway(framed(column))
 
-    column, of_column = _chosen("columns", columns, stiffness, strength)
+    def lasts(column: tuple[int, HollowSquare]) -> bool:
+        return all(check.ok for check in strength(column)) and not fails(framed(column))
+
+    stiff = next((number for number, column in enumerate(columns) if lasts(column)), len(columns))
+    column, of_column = _chosen("columns", (columns[max(stiff - 1, 0) :], stiffness), (columns, strength))
     return framed(column, of_column, *of_rail)
 
 
+@lru_cache(maxsize=16)
 def rail_for(task: RailTask) -> tuple[HollowSquare, tuple[Choice, ...]]:
     """The lightest section of the heads' rail that keeps its checks, and the choice of it."""
     high = [(1, square) for square in ascending() if square.side >= task.least]
-    (_, rail), choice = _chosen("rail", high, lambda one: rail_checks(task, one[1]))
+    (_, rail), choice = _chosen("rail", (high, lambda column: rail_checks(task, column[1])))
     return rail, (choice,)
 
 
+_Columns: TypeAlias = tuple[int, HollowSquare]
+"""Number of columns of a side, and their section."""
+
+
 def _chosen(
-    name: str,
-    offered: Sequence[tuple[int, HollowSquare]],
-    *rules: Callable[[tuple[int, HollowSquare]], Iterable[Check]],
-) -> tuple[tuple[int, HollowSquare], Choice]:
-    """The first number and section that keep the checks of a rule, of the first rule that any keeps, or the last."""
+    name: str, *rules: tuple[Sequence[_Columns], Callable[[_Columns], Iterable[Check]]]
+) -> tuple[_Columns, Choice]:
+    """The first number and section, of those offered, that keep the checks of a rule: of the first rule that any keeps,
+    or the last one offered.
+    """
 
     def label(number: int, section: HollowSquare) -> str:
         return section.name if number == 1 else f"{number} x ({section.name})"
 
-    for checks_of in rules:
+    for offered, checks_of in rules:
         smaller: tuple[str, Iterable[Check]] | None = None
-        for one in offered:
-            checks = iter(checks_of(one))
+        for columns in offered:
+            checks = iter(checks_of(columns))
             judged = list(_to_failure(checks))
             if all(check.ok for check in judged):
                 last = [Alternative(size, tuple(own)) for size, own in ([smaller] if smaller else [])]
-                return one, choose(f"frame_{name}", [*last, Alternative(label(*one), tuple(judged))])[1]
-            smaller = label(*one), chain(judged, checks)
+                return columns, choose(f"frame_{name}", [*last, Alternative(label(*columns), tuple(judged))])[1]
+            smaller = label(*columns), chain(judged, checks)
     return offered[-1], Choice(f"frame_{name}", label(*offered[-1]), "the largest that has room")
 
 

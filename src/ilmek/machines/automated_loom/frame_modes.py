@@ -13,10 +13,11 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from itertools import pairwise
+from typing import TypeAlias
 
 from ilmek.elements.beam.model import Beam
 from ilmek.elements.columns import STEEL, HollowSquare
-from ilmek.elements.plane_frame import FrameMember, frame_frequencies
+from ilmek.elements.plane_frame import FrameMember, frame_frequencies, vibrates_above
 from ilmek.elements.whirl import Mass, frequencies
 from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.design import LoomDesign
@@ -31,6 +32,11 @@ from ilmek.report import Check, at_least
 from ilmek.units import turn
 
 _NEAR = 1e-6
+_ROUNDING = 1e-6
+
+_Sway: TypeAlias = tuple[list[complex], list[FrameMember], dict[int, tuple[bool, bool, bool]], dict[int, float], float]
+"""A plane frame: the arguments of `frame_frequencies`."""
+
 _HINGED = True, True, False
 
 
@@ -64,8 +70,8 @@ class FrameModes:
 def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
     """The natural frequencies of a loom's frame and the frequencies of its drives."""
     return FrameModes(
-        across=_across(loom, frame),
-        along=_along(loom, frame),
+        across=_lowest_sway(_across(loom, frame)),
+        along=_lowest_sway(_along(loom, frame)),
         rail=None if frame.rail is None else rail_frequency(frame.guide[1], frame.rail),
         beam=_beat_beam(loom),
         drives=drive_frequencies(loom),
@@ -75,8 +81,14 @@ def frame_modes(loom: LoomDesign, frame: LoomFrame) -> FrameModes:
 def sway_checks(loom: LoomDesign, frame: LoomFrame) -> Iterator[Check]:
     """Whether both natural frequencies of the frame as a whole keep their distance from those of the drives."""
     drives = drive_frequencies(loom)
-    yield _across_check(_across(loom, frame), drives)
-    yield _along_check(_along(loom, frame), drives)
+    yield _across_check(_lowest_sway(_across(loom, frame)), drives)
+    yield _along_check(_lowest_sway(_along(loom, frame)), drives)
+
+
+def sways_slowly(loom: LoomDesign, frame: LoomFrame) -> bool:
+    """Whether one of these checks fails; found without the frequencies. Near the limit it may be False all the same."""
+    limit = (1 - _ROUNDING) * DISTANCE * max(drive_frequencies(loom).values())
+    return not all(vibrates_above(*sway(loom, frame), frequency=limit) for sway in (_across, _along))
 
 
 def _across_check(value: float, drives: Mapping[str, float]) -> Check:
@@ -146,7 +158,11 @@ def _nearest(coordinates: list[float], wanted: float) -> int:
     return min(range(len(coordinates)), key=lambda k: abs(coordinates[k] - wanted))
 
 
-def _across(loom: LoomDesign, frame: LoomFrame) -> float:
+def _lowest_sway(sway: _Sway) -> float:
+    return float(frame_frequencies(*sway)[0])
+
+
+def _across(loom: LoomDesign, frame: LoomFrame) -> _Sway:
     """Both columns hinged at the floor, with the beams at the floor, behind the cams and under the back rest."""
     made, floor = brackets_of(loom), loom.side.floor
     base = base_section(loom, frame)
@@ -167,10 +183,10 @@ def _across(loom: LoomDesign, frame: LoomFrame) -> float:
     members += [_member(level, number + level, section) for level, section in levelled]
     masses = dict(enumerate([*carried, *carried]))
     held = dict.fromkeys((0, number), _HINGED)
-    return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])
+    return nodes, members, held, masses, STEEL.modulus
 
 
-def _along(loom: LoomDesign, frame: LoomFrame) -> float:
+def _along(loom: LoomDesign, frame: LoomFrame) -> _Sway:
     """A side: its columns, on feet that bend between their ends, and the posts before the columns."""
     levels, carried = _levels(loom, ())
     rear, front = foot_reach(loom, frame)
@@ -188,7 +204,7 @@ def _along(loom: LoomDesign, frame: LoomFrame) -> float:
         members.append(_member(_nearest(feet, min(x, front)), top, section))
         masses[top] = mass
     held = dict.fromkeys((0, len(feet) - 1), _HINGED)
-    return float(frame_frequencies(nodes, members, held, masses, STEEL.modulus)[0])
+    return nodes, members, held, masses, STEEL.modulus
 
 
 def _posts(loom: LoomDesign, frame: LoomFrame) -> Iterator[tuple[float, float, HollowSquare, float]]:

@@ -14,7 +14,7 @@ from ilmek.machines.automated_loom.design import LoomDesign
 from ilmek.machines.automated_loom.equipment.signals import signals_of
 from ilmek.machines.automated_loom.feet import foot_for
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, LoomFrame, RailTask, frame_for
-from ilmek.machines.automated_loom.frame_modes import sway_checks
+from ilmek.machines.automated_loom.frame_modes import sway_checks, sways_slowly
 from ilmek.machines.automated_loom.joints import TIPPING, tipping
 from ilmek.machines.automated_loom.on_rail import rail_cargo
 from ilmek.machines.automated_loom.own_parts import carried_tree, frame_tree
@@ -28,8 +28,6 @@ from ilmek.part.bill import bill, line_of
 from ilmek.part.tree import Tree
 from ilmek.records import computed, group, record
 from ilmek.report import BillLine
-
-STEEL = "structural steel"
 
 _OF_FRAME = ("welded frame", "laser-cut part")
 """Kinds of part whose mass is the frame's."""
@@ -96,7 +94,7 @@ def _frame(loom: LoomDesign, task: FrameTask) -> LoomFrame:
     rail = task.rail
     spans = range(rail.spans, 2 * rail.spans + 1) if rail else ()
     offered = [replace(task, rail=rail and replace(rail, spans=number)) for number in spans] or [task]
-    frames = (frame_for(one, lambda frame: sway_checks(loom, frame)) for one in offered)
+    frames = (frame_for(task, partial(sway_checks, loom), partial(sways_slowly, loom)) for task in offered)
     first = next(frames)
     return next((frame for frame in chain((first,), frames) if _rail_holds(loom, frame)), first)
 

@@ -190,11 +190,6 @@ def keyed_hole(built: Construction, axis: PinAxis) -> Contour:
     return Contour(axis.points[axis.driven] + key_direction(built, axis) * bore.points, bore.bulges)
 
 
-def _whole(size: float) -> float:
-    """The size in whole millimetres, not less [m]."""
-    return math.ceil(size / mm) * mm
-
-
 def base_part(built: Construction) -> Part:
     """The plate that stands: about all pivots, housings and rails, with holes for screws at its corners."""
     holes, reach = [], []

@@ -18,8 +18,6 @@ from ilmek.report import Work
 from ilmek.units import mm
 from ilmek.weaving.shed import shed_lengthening
 
-STEEL = "structural steel"
-
 ITERATIONS = 6
 """Trials of the spans: the room that the guides need depends on the bars, and these on the warps' forces."""
 

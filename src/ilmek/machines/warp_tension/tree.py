@@ -26,7 +26,7 @@ from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, bar, stepped
 from ilmek.part.tree import GROUND, Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.plane.contours import circle
 from ilmek.report.scene import SceneMotion
-from ilmek.units import format_quantity, mm, turn
+from ilmek.units import mm, turn
 
 WHEEL, HANDLE, HANDLE_SIZE, CRANK_SHAFT = 8 * mm, 110 * mm, 25 * mm, 25 * mm
 """Thickness of a hand wheel, length and diameter of its handle, diameter of its shaft [m]; assumed by this project."""
@@ -246,9 +246,3 @@ def _side(*, z: float, flipped: bool) -> Placement:
 
 def _made(name: str, title: str, process: str, shape: Shape, material: Material) -> Part:
     return Part(part_id(name), title, process, shape, material)
-
-
-def _size(cylinder: Cylinder) -> str:
-    """Outer diameter and wall of the tube."""
-    outer = cylinder.shell.outer_radius
-    return f"tube {format_quantity(2 * outer, 'mm')} x {format_quantity(outer - cylinder.inner, 'mm')}"

@@ -16,7 +16,7 @@ tuft once more, which sets their last loops; what they tuft then is beyond the e
 
 import numpy as np
 
-from ilmek.arrays import Float, Int, Int32, UInt8
+from ilmek.arrays import Int, Int32, UInt8
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.units import mm
@@ -111,9 +111,3 @@ def tuft_programme(
         height = np.where(enters, np.where(wanted, grid.height, grid.hidden), height)
         last = np.where(enters, place, last)
     return TuftProgramme(grid, rows, columns, threads, 1 - colours, shifts, grid.stitch / colours, feeds)
-
-
-def yarn_by_thread(programme: TuftProgramme) -> Float[np.ndarray, " colours"]:
-    """Yarn of each colour [m]."""
-    fed = np.where(programme.feeds == OUT, 0, programme.feeds).sum(axis=0, dtype=np.int64)
-    return np.asarray(np.bincount(programme.threads, weights=fed * UNIT))

@@ -3,7 +3,7 @@ import { useSignalEffect } from "@preact/signals";
 import { useContext, useMemo } from "preact/hooks";
 import type { MotionAnswer } from "../../api/messages";
 import { CursorContext, type Cursors, cursorOf, Plot } from "../../draw";
-import type { ShownMark, ShownPlot } from "../../draw/figures";
+import type { Mark, ShownPlot } from "../../draw/figures";
 import { t } from "../../text";
 import type { Editor } from "./editor";
 import { wrapped } from "./figure";
@@ -78,7 +78,7 @@ export function plotOf(
   if (limit && curves.length > 0) {
     curves.push({ label: limit.label, look: 7, dashed: true, x: ends, y: [limit.value, limit.value] });
   }
-  const marks: ShownMark[] = motion.dead_centres.map((one) => ({ x: one.value, label: one.bodies.join(", ") }));
+  const marks: Mark[] = motion.dead_centres.map((one) => ({ x: one.value, label: one.bodies.join(", ") }));
   const drive = motion.kind === "rotation" ? "deg" : "mm";
   return { x: { label: driveLabel(motion), shown_unit: drive }, y: { label: title, shown_unit: unit }, curves, marks };
 }

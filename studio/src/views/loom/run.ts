@@ -1,6 +1,6 @@
 /** The run of the twin that this page has started: it goes on while other views are open, and after a reload. */
 import { signal } from "@preact/signals";
-import type { CommandAnswer, RunNews, TwinRunEnd } from "../../api/messages";
+import type { Answer, RunNews, TwinRunEnd } from "../../api/messages";
 import { ApiError, post } from "../../api/request";
 import { followWork, runWork, type WorkListeners } from "../../api/work";
 import { t } from "../../text";
@@ -51,7 +51,7 @@ export function cancelRun(): void {
 /** Gives a command to the loom; a refusal is shown. */
 export async function give(command: "hold" | "resume" | "stop"): Promise<void> {
   try {
-    const answer = await post<CommandAnswer>("/loom/command", { command });
+    const answer = await post<Answer>("/loom/command", { command });
     if (!answer.ok) toast(t("loom.refused", { reason: answer.reason }), "warn");
   } catch (reason) {
     toast(t("loom.refused", { reason: words(reason) }), "warn");

@@ -242,15 +242,8 @@ def _needed(result: ChartResult) -> tuple[ChartYarn, ...]:
     """The yarns of a chart with what is needed of them."""
     yarns = list(_yarns(result.chart))
     for index, need in zip(result.chart.used, result.bill.pile, strict=True):
-        yarns[index] = replace(
-            yarns[index],
-            knots=need.knots,
-            length=need.length,
-            mass=need.mass,
-            to_buy=need.to_buy,
-            price=need.price,
-            hanks=need.hanks,
-        )
+        own = yarns[index]
+        yarns[index] = alike(ChartYarn, need, name=own.name, srgb=own.srgb, symbol=own.symbol)
     return tuple(yarns)
 
 
@@ -272,10 +265,7 @@ def _answer(result: ChartResult, draft: bool, seconds: float) -> ChartAnswer:
         reason=reading.reason,
         fit=reading.fit.words,
         yarns=_needed(result),
-        ground=tuple(
-            GroundNeed(in_page(one.name), one.use, one.length, one.mass, one.to_buy, one.hanks, one.price)
-            for one in bill.ground
-        ),
+        ground=tuple(alike(GroundNeed, need, name=in_page(need.name)) for need in bill.ground),
         listed=tuple(ListedYarn(yarn.name, yarn.hex) for yarn in result.order.yarns),
         assignment=_assignment(chart),
         hardest=tuple(HardRow(number, result.statistics.of_row(number)) for number in result.statistics.hardest),

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from ilmek.records import JsonObject
+from ilmek.timing.track import TrackEvent
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,16 +22,6 @@ class ShownMotionPart:
     jerk: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class ShownEvent:
-    """A named instant of a track [rad]; `on` is the motion that it follows, at this share of its time."""
-
-    name: str
-    angle: float
-    on: str
-    share: float
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownTrack:
     """A track. SI; null where there is no limit, or where a peak is infinite.
@@ -47,7 +38,7 @@ class ShownTrack:
     locked: bool
     limits: dict[str, float | None]
     motions: tuple[ShownMotionPart, ...]
-    events: tuple[ShownEvent, ...]
+    events: tuple[TrackEvent, ...]
     peaks: dict[str, float | None]
     low: float
     high: float

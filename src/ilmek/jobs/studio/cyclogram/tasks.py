@@ -15,7 +15,6 @@ from ilmek.jobs.studio.cyclogram.answers import (
     MachineCyclograms,
     NamedCyclogram,
     ShownBinding,
-    ShownEvent,
     ShownExclusion,
     ShownLimit,
     ShownMoment,
@@ -85,7 +84,7 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
         relations=relations,
         exclusions=exclusions,
         limits=tuple(
-            ShownLimit(check.name, check.source, _finite(check.value), check.limit, check.unit, check.ok)
+            ShownLimit(check.name, check.source, check.value, check.limit, check.unit, check.ok)
             for check in limit_checks(cyclogram)
         ),
         laws=tuple(FAMILIES),
@@ -108,14 +107,13 @@ def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
         track,
         shown_unit=track.unit,
         factor=from_si(1.0, track.unit),
-        limits={name: _finite(getattr(limits, name)) for name in ("speed", "acceleration", "jerk")}
+        limits={name: getattr(limits, name) for name in ("speed", "acceleration", "jerk")}
         | {"time": limits.time or None},
         motions=tuple(_part(cyclogram, part) for part in track.segments),
-        events=tuple(ShownEvent(event.name, event.angle, event.on, event.share) for event in track.events),
         peaks={
-            "speed": _finite(peak_speed(track, period)),
-            "acceleration": _finite(peak_acceleration(track, period)),
-            "jerk": _finite(peak_jerk(track, period)),
+            "speed": peak_speed(track, period),
+            "acceleration": peak_acceleration(track, period),
+            "jerk": peak_jerk(track, period),
         },
         low=float(rows.position.min()),
         high=float(rows.position.max()),
@@ -126,12 +124,8 @@ def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
 def _part(cyclogram: Cyclogram, part: TrackSegment) -> ShownMotionPart:
     rate, law = cyclogram.speed / part.beta, part.law
     peaks = (law.velocity_peak, law.acceleration_peak, law.jerk_peak)
-    values = (_finite(abs(part.stroke) * peak * rate**order) for order, peak in enumerate(peaks, 1))
+    values = (abs(part.stroke) * peak * rate**order for order, peak in enumerate(peaks, 1))
     return ShownMotionPart(part.name, part.start, part.end, part.begin, part.finish, law.name, law_label(law), *values)
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _relation(cyclogram: Cyclogram, relation: Relation) -> ShownRelation:
@@ -178,7 +172,7 @@ def _presence(cyclogram: Cyclogram, one: Presence) -> ShownPresence:
     windows = _spans(present(cyclogram, one))
     if isinstance(one, Spans):
         return ShownPresence("", one.name, windows)
-    return ShownPresence(one.track, one.label(cyclogram.units), windows, _finite(one.low), _finite(one.high))
+    return ShownPresence(one.track, one.label(cyclogram.units), windows, one.low, one.high)
 
 
 def _spans(windows: Windows) -> list[list[float]]:
@@ -198,7 +192,7 @@ def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
         shown_unit=solution.unit,
         factor=from_si(1.0, solution.unit),
         binding=tuple(
-            ShownBinding(one.label, one.kind, binding_cost(one, solution), _finite(one.share), one.cost)
+            ShownBinding(one.label, one.kind, binding_cost(one, solution), one.share, one.cost)
             for one in solution.binding
         ),
     )

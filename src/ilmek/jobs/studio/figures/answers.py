@@ -7,6 +7,8 @@ number of a colour, a marker and dashes: a body or quantity has one look in all 
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from ilmek.report.figure import Link, Mark, Move, Shade
+
 Numbers: TypeAlias = list[float | None]
 
 
@@ -29,14 +31,6 @@ class ShownCurve:
     y: Numbers
 
 
-@dataclass(frozen=True, slots=True)
-class ShownMark:
-    """A named abscissa [SI]."""
-
-    x: float
-    label: str
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownPlot:
     """Curves over one axis; figures over a quantity of the same label share a cursor."""
@@ -44,7 +38,7 @@ class ShownPlot:
     x: ShownAxis
     y: ShownAxis
     curves: list[ShownCurve]
-    marks: list[ShownMark]
+    marks: tuple[Mark, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,28 +125,6 @@ class ShownAnimation:
     period: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class ShownMove:
-    """A motion of a lane, from `begin` to `finish` [SI] over master angles [rad]."""
-
-    name: str
-    start: float
-    end: float
-    begin: float
-    finish: float
-    law: str
-
-
-@dataclass(frozen=True, slots=True)
-class ShownShade:
-    """A window of a lane [rad]."""
-
-    start: float
-    end: float
-    label: str
-    bad: bool
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownLane:
     """A track of a cyclogram: position 0 to 1 over the master angle [rad]."""
@@ -163,19 +135,9 @@ class ShownLane:
     look: int
     angle: Numbers
     position: Numbers
-    events: list[ShownMark]
-    moves: list[ShownMove]
-    shades: list[ShownShade]
-
-
-@dataclass(frozen=True, slots=True)
-class ShownLink:
-    """What must come after what: a lane's number and a master angle [rad] each."""
-
-    first: tuple[int, float]
-    then: tuple[int, float]
-    label: str
-    ok: bool
+    events: tuple[Mark, ...]
+    moves: tuple[Move, ...]
+    shades: tuple[Shade, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -185,7 +147,7 @@ class ShownTiming:
     drive: ShownAxis
     period: float
     lanes: list[ShownLane]
-    links: list[ShownLink]
+    links: tuple[Link, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
+from ilmek.jobs.studio.answers import alike
 from ilmek.jobs.studio.figures.answers import (
     MovingPoint,
     MovingShape,
@@ -22,12 +23,8 @@ from ilmek.jobs.studio.figures.answers import (
     ShownFigure,
     ShownGantt,
     ShownLane,
-    ShownLink,
-    ShownMark,
-    ShownMove,
     ShownPlot,
     ShownReading,
-    ShownShade,
     ShownSpans,
     ShownStroke,
     ShownTable,
@@ -111,8 +108,7 @@ def _plot(plot: Plot, looks: Mapping[str, int]) -> ShownPlot:
     for one, look in zip(plot.series, numbers, strict=True):
         x, y = thinned_curve(np.asarray(one.x, float), np.asarray(one.y, float))
         curves.append(ShownCurve(one.label, look, one.dashed, rounded_numbers(x), rounded_numbers(y)))
-    marks = [ShownMark(mark.x, mark.label) for mark in plot.marks]
-    return ShownPlot(ShownAxis(plot.x.label, plot.x.unit), ShownAxis(plot.y.label, plot.y.unit), curves, marks)
+    return ShownPlot(ShownAxis(plot.x.label, plot.x.unit), ShownAxis(plot.y.label, plot.y.unit), curves, plot.marks)
 
 
 def _coloured(strokes: Iterable[Stroke | MovingStroke], looks: Mapping[str, int]) -> list[int]:
@@ -200,20 +196,16 @@ def _timing(timing: Timing, looks: Mapping[str, int]) -> ShownTiming:
     for lane, look in zip(timing.lanes, numbers, strict=True):
         angle, position = thinned_curve(np.asarray(lane.angle, float), np.asarray(lane.position, float))
         lanes.append(
-            ShownLane(
-                lane.name,
-                lane.actuator,
-                lane.unit,
-                look,
-                rounded_numbers(angle),
-                rounded_numbers(position),
-                [ShownMark(event.x, event.label) for event in lane.events],
-                [ShownMove(move.name, move.start, move.end, move.begin, move.finish, move.law) for move in lane.moves],
-                [ShownShade(shade.start, shade.end, shade.label, shade.bad) for shade in lane.shades],
+            alike(
+                ShownLane,
+                lane,
+                shown_unit=lane.unit,
+                look=look,
+                angle=rounded_numbers(angle),
+                position=rounded_numbers(position),
             )
         )
-    links = [ShownLink(link.first, link.then, link.label, link.ok) for link in timing.links]
-    return ShownTiming(ShownAxis(timing.drive.label, timing.drive.unit), timing.period, lanes, links)
+    return ShownTiming(ShownAxis(timing.drive.label, timing.drive.unit), timing.period, lanes, timing.links)
 
 
 def _gantt(gantt: Gantt, looks: Mapping[str, int]) -> ShownGantt:

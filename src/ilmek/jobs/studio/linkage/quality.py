@@ -14,7 +14,7 @@ from ilmek.jobs.studio.linkage.motion import RunOptions, mechanism_run
 from ilmek.jobs.studio.linkage.part import machine_of_part, solved_part
 from ilmek.jobs.studio.linkage.tasks import MechanismRequest, drawn_mechanism, fault_of, plan_of
 from ilmek.jobs.studio.words import all_in_page, in_page
-from ilmek.linkage.circuits import Circuit, circuits
+from ilmek.linkage.circuits import Branch, Circuit, circuits
 from ilmek.linkage.configuration_path import InputPath
 from ilmek.linkage.coupler_curve import coupler_curve
 from ilmek.linkage.mobility import mobility
@@ -29,16 +29,6 @@ MOST_BRANCHES = 5
 """Largest number of branches whose combinations are followed to find circuits."""
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class BranchAnswer:
-    """A part of a circuit between dead centres: range of the input [rad; m], signs of the closed forms."""
-
-    start: float
-    stop: float
-    branches: dict[str, int]
-    full: bool
-
-
 @dataclass(frozen=True, slots=True)
 class CircuitAnswer:
     """A circuit: its branches in order, values of the input at which it reverses, and at which another one crosses.
@@ -46,7 +36,7 @@ class CircuitAnswer:
     current  whether the mechanism as drawn is on it      closed  whether the path returns to its start
     """
 
-    branches: tuple[BranchAnswer, ...]
+    branches: tuple[Branch, ...]
     dead_centres: tuple[float, ...]
     crossings: tuple[float, ...]
     closed: bool
@@ -162,9 +152,8 @@ def _circuits(moved: OneInput) -> tuple[tuple[CircuitAnswer, ...], tuple[str, ..
 
 
 def _circuit(circuit: Circuit, own: dict[str, int]) -> CircuitAnswer:
-    branches = tuple(BranchAnswer(one.start, one.stop, dict(one.branches), one.full) for one in circuit.branches)
-    current = any(branch.branches == own for branch in branches)
-    return CircuitAnswer(branches, circuit.dead_centres, circuit.crossings, circuit.closed, current)
+    current = any(branch.branches == own for branch in circuit.branches)
+    return CircuitAnswer(circuit.branches, circuit.dead_centres, circuit.crossings, circuit.closed, current)
 
 
 def _curves(run: MechanismRun, moved: OneInput) -> tuple[CurveAnswer, ...]:

@@ -13,7 +13,7 @@ from ilmek.jobs.run.order import FAST, FAST_COMMIT, FASTEST, RunOrder
 from ilmek.jobs.studio.answers import Context, alike
 from ilmek.jobs.studio.loom.scene import RECIPE, project_loom
 from ilmek.jobs.studio.project.folder import OWN
-from ilmek.loom.control.view import Snapshot
+from ilmek.loom.control.view import AlarmView, Answer, Snapshot
 from ilmek.loom.explicit import CompiledProgramme
 from ilmek.records import JsonObject
 from ilmek.units import BILLION
@@ -44,23 +44,6 @@ class LoomCommand:
 
 
 @dataclass(frozen=True, slots=True)
-class CommandAnswer:
-    """Whether the controller carries a command out, and why not."""
-
-    ok: bool
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class RunAlarm:
-    """An alarm of the run: its cause, and what is to be done."""
-
-    name: str
-    cause: str
-    remedy: str
-
-
-@dataclass(frozen=True, slots=True)
 class RunNews:
     """The run at an instant; rows and warp pairs count from 0, from the bottom edge and from the left.
 
@@ -83,7 +66,7 @@ class RunNews:
     columns: tuple[int | None, ...]
     tied: int
     due: int
-    alarms: tuple[RunAlarm, ...]
+    alarms: tuple[AlarmView, ...]
     requests: tuple[str, ...]
     commands: tuple[str, ...]
 
@@ -130,14 +113,14 @@ def run(request: RunRequest, context: Context) -> TwinRunEnd:
     return TwinRunEnd(result.state, result.snapshot.knots, result.snapshot.total, result.faults, _news(result.snapshot))
 
 
-def command(request: LoomCommand, context: Context) -> CommandAnswer:
+def command(request: LoomCommand, context: Context) -> Answer:
     """Give a command to the run of the project. Raises ParameterError for an unknown one, LoomError without a run."""
     if request.command not in COMMANDS:
         raise ParameterError(f"the command {request.command!r}", allowed=", ".join(COMMANDS))
     answer: JsonObject | None = send_command(_journal(context.folder) / CHANNEL, request.command)
     if answer is None:
         raise LoomError("no run of this project goes on", do="start one")
-    return CommandAnswer(bool(answer.get("ok")), str(answer.get("reason", "")))
+    return Answer(bool(answer.get("ok")), str(answer.get("reason", "")))
 
 
 def _journal(folder: Path) -> Path:
@@ -168,5 +151,4 @@ def _news(now: Snapshot) -> RunNews:
         columns=tuple(head.column for head in now.heads),
         tied=sum(head.tied for head in now.heads),
         due=sum(head.knots for head in now.heads),
-        alarms=tuple(RunAlarm(alarm.name, alarm.cause, alarm.remedy) for alarm in now.alarms),
     )

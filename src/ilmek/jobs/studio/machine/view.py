@@ -18,7 +18,7 @@ from ilmek.machines.component import AnyComponent
 from ilmek.params import Params, Setting, Value
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
-from ilmek.report import BUILDABLE, Report, result_text
+from ilmek.report import BUILDABLE, Choice, Report, result_text
 from ilmek.units import si_unit
 from ilmek.viz.number_format import quantity
 
@@ -33,17 +33,6 @@ class ShownResult:
     unit: str
     meaning: str
     value: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class ShownChoice:
-    """What the design chose of what was left open, which check decided, and what the next cheaper one failed."""
-
-    name: str
-    chosen: str
-    decided_by: str
-    next_cheaper: str
-    failed: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +70,7 @@ class DesignView:
     reasons: tuple[ShownReason, ...]
     checks: tuple[ShownCheck, ...]
     results: tuple[ShownResult, ...]
-    choices: tuple[ShownChoice, ...]
+    choices: tuple[Choice, ...]
     warnings: tuple[str, ...]
     parameters: dict[str, ForceValue]
     seconds: float
@@ -171,7 +160,7 @@ def shown(report: Report, params: Params, seconds: float) -> DesignView:
         reasons=tuple(ShownReason(reason.name, *printed(reason), in_page(reason.cure)) for reason in report.reasons),
         checks=checks,
         results=tuple(_results(report, "")),
-        choices=tuple(ShownChoice(**choice.as_json()) for choice in report.all_choices),
+        choices=report.all_choices,
         warnings=all_in_page(report.all_warnings),
         parameters=in_force(report, params),
         seconds=seconds,

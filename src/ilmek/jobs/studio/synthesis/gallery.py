@@ -28,7 +28,7 @@ from ilmek.machines.motion_four_bar import MotionFourBar
 from ilmek.report import Json
 from ilmek.synthesis.approximation.function_generator import FunctionApproximation
 from ilmek.synthesis.burmester.curve import CurveBranch
-from ilmek.synthesis.candidate import Candidate, PositionResult
+from ilmek.synthesis.candidate import Candidate
 from ilmek.synthesis.circuit_loops import LoopConfigurations, circuit_loops
 from ilmek.synthesis.filters import REASONS
 from ilmek.synthesis.four_bar import FourBar
@@ -82,12 +82,12 @@ def _shown(number: int, option: FourBarOption, *, task_only: bool) -> ShownFourB
         links=one.four_bar.lengths._asdict(),
         class_name=one.grashof.kind,
         branch=one.four_bar.branch,
-        positions=tuple(_position(met) for met in one.positions),
+        positions=tuple(alike(ShownPosition, met) for met in one.positions),
         transmission=one.transmission_over(task_only=task_only),
         merit=None if option.merit is None else _merit(option.merit),
-        error_max=_known(_error_max(one, details)),
-        error_rms=_known(finite(details.get("error_rms"))),
-        apart=_known(option.apart),
+        error_max=_error_max(one, details),
+        error_rms=finite(details.get("error_rms")),
+        apart=option.apart,
         certified=option.certified or details.get("proven") is True,
         made=option.made,
         active=tuple(str(limit) for limit in active) if isinstance(active, list) else (),
@@ -104,25 +104,10 @@ def _error_max(candidate: Candidate, details: Mapping[str, Json]) -> float:
     return candidate.point_error if math.isfinite(candidate.point_error) else candidate.angle_error
 
 
-def _known(value: float) -> float | None:
-    return value if math.isfinite(value) else None
-
-
 def pins(four_bar: FourBar) -> dict[str, list[float]]:
     """Pivots, pins and tracer of a four-bar as drawn [m], unrounded: the same four-bar can be made from them."""
     known = {name: getattr(four_bar, name) for name in PINS}
     return {name: [at.real, at.imag] for name, at in known.items() if at is not None}
-
-
-def _position(met: PositionResult) -> ShownPosition:
-    return ShownPosition(
-        _known(met.crank_angle),
-        met.circuit,
-        met.branch,
-        _known(met.point_error),
-        _known(met.coupler_error),
-        _known(met.rocker_error),
-    )
 
 
 def _merit(merit: Merit) -> ShownMerit:
@@ -135,7 +120,7 @@ def _merit(merit: Merit) -> ShownMerit:
     best = (1.0, 0.0, 1.0, 0.0)
     own = (math.sin(merit.transmission), merit.size, merit.ratio, merit.sensitivity)
     factors = {name: float(merit_value(*(*best[:at], own[at], *best[at + 1 :]))) ** 4 for at, name in enumerate(terms)}
-    return ShownMerit(merit.value, terms, factors, _known(merit.point_shift), _known(merit.angle_shift))
+    return ShownMerit(merit.value, terms, factors, merit.point_shift, merit.angle_shift)
 
 
 def _motion(one: Candidate) -> ShownMotion:
