@@ -15,7 +15,7 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.plates import round_bore
 from ilmek.machines.catalogue import MACHINES
-from ilmek.part import catalogue
+from ilmek.part import catalogue, guides
 from ilmek.part.features import features_of_size
 from ilmek.part.meetings import meetings
 from ilmek.part.part import Part
@@ -246,7 +246,7 @@ def test_what_runs_has_play_and_what_is_fixed_has_none(machine: str) -> None:
 
 
 def test_the_face_under_a_rail_is_flat() -> None:
-    rail = catalogue.guide_rail("rail", "rail", LINEAR_GUIDES[2], 0.8)
+    rail = guides.guide_rail("rail", "rail", LINEAR_GUIDES[2], 0.8)
     beam = _made("beam", box(40 * mm, 20 * mm, 1.0))
     on_it = Occurrence(rail, (placement(0.0, 10 * mm, 0.1),))
     ((face,),) = tolerances_of(Tree((RigidBody("rail", (_at(beam), on_it)),))).values()

@@ -184,7 +184,7 @@ class ApproachSearch:
         rotation, origin = np.empty((len(angle), 3, 3)), np.empty((len(angle), 3))
         for number in np.unique(body).tolist():
             here, carried = np.flatnonzero(body == number), bodies[number]
-            there = poses(carried.chain, carried.travel.drive, angle[here])
+            there = poses(carried.travel.chain, carried.travel.drive, angle[here])
             rotation[here], origin[here] = there.rotation, there.origin
         turned, away = (own[owner] for own in self._positions[side])
         return rotation @ turned, origin + (rotation @ away[:, :, None])[:, :, 0]

@@ -23,7 +23,7 @@ from ilmek.machines.weaver.case import ALUMINIUM
 from ilmek.machines.weaver.drive_parts import drive_front
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.tree import carriage_guide, drive_of
-from ilmek.part import catalogue
+from ilmek.part import guides
 from ilmek.part.folding import folded_section
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, placement
@@ -64,7 +64,7 @@ def guide_parts(loom: LoomDesign) -> Iterator[Occurrence]:
     row, wide = carriage_guide(loom.weaver), loom.task.rail_length
     spacer = box(row.block, RAIL_AXIS - row.height, wide)
     under = Part(part_id("guide-bar"), "bar under the heads' guide", "machined link", spacer, ALUMINIUM)
-    guide = catalogue.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, wide)
+    guide = guides.guide_rail(part_id("rail-guide"), "rail of the heads' guide", row, wide)
     yield Occurrence(under, (placement(-wide / 2, z=(row.height - RAIL_AXIS) / 2).after(ALONG_WIDTH),))
     yield Occurrence(guide, (placement(-wide / 2, z=row.height - RAIL_AXIS).after(ON_RAIL),))
     yield from rail_belt(loom.weaver, drive_of(loom.weaver), row.block / 2, loom.heads)

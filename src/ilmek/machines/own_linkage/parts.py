@@ -37,7 +37,7 @@ from ilmek.machines.own_linkage.shafts import (
     shoulder,
 )
 from ilmek.machines.own_linkage.sizes import StudSize, bush_wall
-from ilmek.part import catalogue
+from ilmek.part import catalogue, guides
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
@@ -97,11 +97,11 @@ class PartStock:
 
     def rail(self, row: LinearGuide, length: float) -> Part:
         """The rail of a guide."""
-        return self.part("rail", (row.name, length), lambda name: catalogue.guide_rail(name, "rail", row, length))
+        return self.part("rail", (row.name, length), lambda name: guides.guide_rail(name, "rail", row, length))
 
     def carriage(self, row: LinearGuide) -> Part:
         """The carriage of a guide."""
-        return self.part("carriage", (row.name,), lambda name: catalogue.guide_block(name, "carriage", row))
+        return self.part("carriage", (row.name,), lambda name: guides.guide_block(name, "carriage", row))
 
     def riser(self, row: LinearGuide, length: float, height: float) -> Part:
         """A plate between a carriage and its link."""

@@ -14,7 +14,7 @@ from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.machines.weaver.parts import BEARING_LIFE
 from ilmek.machines.weaver.tool_parts import part_id
 from ilmek.machines.weaver.widths import case_width
-from ilmek.part import catalogue
+from ilmek.part import guides
 from ilmek.part.placement import ALONG_WIDTH, placement
 from ilmek.part.tree import Occurrence
 from ilmek.report import Check, at_least
@@ -83,7 +83,7 @@ def life(weaver: Weaver, mass: float, row: LinearGuide) -> float:
 
 def guide_carriages(weaver: Weaver, row: LinearGuide) -> Occurrence:
     """The carriages on the head's bracket, side by side, in the axes of the head."""
-    part = catalogue.guide_block(GUIDE_CARRIAGE, "carriage of the head's guide", row)
+    part = guides.guide_block(GUIDE_CARRIAGE, "carriage of the head's guide", row)
     number, base = carriages(weaver, row), weaver.shape.front + row.height
     starts = (row.block_length * (k - number / 2) for k in range(number))
     return Occurrence(part, tuple(placement(x, weaver.shape.rail, base).after(ON_RAIL) for x in starts))

@@ -18,7 +18,7 @@ from ilmek.machines.weft.carriers import AXIS, BOX, BOX_MOTOR, CARRIAGE, MOTOR, 
 from ilmek.machines.weft.coupling import BOX_WALL, magnet_sides
 from ilmek.machines.weft.params import WeftParams
 from ilmek.machines.weft.shuttle import BOX_END, Shuttle
-from ilmek.part import catalogue
+from ilmek.part import catalogue, guides
 from ilmek.part.part import Bought, Part, bought_part
 from ilmek.part.placement import ALONG_WIDTH, Placement, placement
 from ilmek.part.profile import Profile
@@ -157,7 +157,7 @@ class ShuttleGuide:
         if params.nose > 0:
             places = (placement(x, z=self.back + BACK) for x in magnet_positions(params, made.bobbin))
             yield Occurrence(magnet(params, made.bobbin), tuple(places))
-        block = catalogue.guide_block(part_id("guide-carriage"), "carriage of the shuttle's guide", row)
+        block = guides.guide_block(part_id("guide-carriage"), "carriage of the shuttle's guide", row)
         end = carriage_length(params, made) / 2
         yield Occurrence(block, tuple(self._on_rail(x) for x in (-end, end - row.block_length)))
 
@@ -178,7 +178,7 @@ class ShuttleGuide:
             machined=True,
         )
         yield Occurrence(plate, (placement(y=-tall / 2, z=self.rear),))
-        rail = catalogue.guide_rail(part_id("rail"), "rail of the shuttle's guide", self.row, 2 * self.run)
+        rail = guides.guide_rail(part_id("rail"), "rail of the shuttle's guide", self.row, 2 * self.run)
         yield Occurrence(rail, (self._on_rail(-self.run),))
         yield Occurrence(self._belt(), (placement(y=self.pulley[1], z=self.front),))
         yield from self._drive()
