@@ -30,6 +30,8 @@ def test_motions_of_variants_are_those_one_by_one(cranks: list[float], rockers: 
     given = four_bar(0.3, 0.06, 0.2, 0.23, points={"coupler": {"P": 0.1 + 0.05j}})
     swept = given.vary(crank=np.array(cranks)[:, None], rocker=rockers).evaluate(37, want=want, speed=15.0)
     assert swept.closes.shape == (len(cranks), len(rockers))
+    alone = given.vary(crank=np.array(cranks)[:, None], rocker=rockers).evaluate(37, want=want[:1], speed=15.0)
+    np.testing.assert_array_equal(alone[want[0]], swept[want[0]])
     for place in np.ndindex(swept.closes.shape):
         crank, rocker = cranks[place[0]], rockers[place[1]]
         single = plan(four_bar(0.3, crank, 0.2, rocker, points={"coupler": {"P": 0.1 + 0.05j}}))
