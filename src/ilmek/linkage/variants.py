@@ -24,13 +24,14 @@ from ilmek.linkage.batch import sweep
 from ilmek.linkage.body_motion import BodyMotion
 from ilmek.linkage.groups.group import Columns, Group, Known, Step
 from ilmek.linkage.model import Body, Mechanism
-from ilmek.linkage.motion import Motion, data_frame
+from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import InputValues, drives_of
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan, plan
 from ilmek.linkage.tape import Dimensions
 from ilmek.linkage.transmission import transmission_angles
 from ilmek.records import record, with_fields
+from ilmek.report.framed import Framed
 from ilmek.units import turn as full_turn
 
 BLOCK = 16384
@@ -103,7 +104,7 @@ def with_points(mechanism: Mechanism, points: Mapping[tuple[str, str], ComplexFi
 
 
 @record
-class VariantResults:
+class VariantResults(Framed):
     """Results of variants by name: arrays of the variants' shape, with the samples along a last axis where they differ.
 
     given   what varies, by name [SI], broadcast      input    values of the input [rad; m], (samples,)
@@ -118,14 +119,9 @@ class VariantResults:
     def __getitem__(self, name: str) -> np.ndarray:
         return self.results[name]
 
-    def frame(self) -> Any:
-        """A DataFrame of pandas or polars with a row a variant, or a row a sample where a result has samples.
-
-        Raises MechanismError without either library.
-        """
-        shape = np.broadcast_shapes(
-            self.closes.shape, *(one.shape[: self.closes.ndim] for one in self.results.values())
-        )
+    def table(self) -> dict[str, np.ndarray]:
+        """Columns with a row a variant, or a row a sample where a result has samples; `frame`: as a DataFrame."""
+        shape = self.closes.shape
         sampled = any(one.ndim > len(shape) for one in self.results.values())
         whole = (*shape, len(self.input)) if sampled else shape
 
@@ -136,7 +132,7 @@ class VariantResults:
         columns = {name: column(values) for name, values in self.given.items()}
         if sampled:
             columns["input"] = np.broadcast_to(self.input, whole).ravel()
-        return data_frame(columns | {name: column(values) for name, values in self.results.items()})
+        return columns | {name: column(values) for name, values in self.results.items()}
 
 
 @record

@@ -27,6 +27,7 @@ from ilmek.jobs.study.targets import PLAYS, MachineTarget, StudyTarget, read_tar
 from ilmek.num.pareto import front
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.report.framed import Framed
 from ilmek.studies.allocation import Allocation, allocated, scaled
 from ilmek.studies.fronts import evolve
 from ilmek.studies.optimum import Optimum, optimum
@@ -44,7 +45,7 @@ BLOCK = 65_536
 
 
 @record
-class StudyResult:
+class StudyResult(Framed):
     """What a study found.
 
     rows        all designs               margins   of them, (designs, checks)
@@ -78,7 +79,7 @@ class StudyResult:
             return np.asarray(self.rows.results[:, self.results.index(name)])
         return np.asarray(self.rows.points[:, names.index(name)])
 
-    def columns(self) -> dict[str, FloatArray]:
+    def table(self) -> dict[str, FloatArray]:
         """All designs as columns [SI]: variables, results, failed checks, least margin."""
         names = [variable.name for variable in self.variables]
         heads = (*names, *(f"{name} (result)" if name in names else name for name in self.results))
