@@ -16,6 +16,7 @@ from ilmek.errors import MechanismError
 from ilmek.io.mechanism_file import mechanism_of_values
 from ilmek.linkage.structure import plan
 from ilmek.linkage.transmission import transmission_angles
+from ilmek.linkage.variants import with_points
 
 TURN = np.linspace(0.0, 2 * np.pi, 37)
 
@@ -30,6 +31,8 @@ def test_motions_of_variants_are_those_one_by_one(cranks: list[float], rockers: 
     given = four_bar(0.3, 0.06, 0.2, 0.23, points={"coupler": {"P": 0.1 + 0.05j}})
     swept = given.vary(crank=np.array(cranks)[:, None], rocker=rockers).evaluate(37, want=want, speed=15.0)
     assert swept.closes.shape == (len(cranks), len(rockers))
+    alone = given.vary(crank=np.array(cranks)[:, None], rocker=rockers).evaluate(37, want=want[:1], speed=15.0)
+    np.testing.assert_array_equal(alone[want[0]], swept[want[0]])
     for place in np.ndindex(swept.closes.shape):
         crank, rocker = cranks[place[0]], rockers[place[1]]
         single = plan(four_bar(0.3, crank, 0.2, rocker, points={"coupler": {"P": 0.1 + 0.05j}}))
@@ -76,6 +79,27 @@ def test_forces_of_a_files_values_are_those_one_by_one(cranks: list[float], mass
         pins = run.pin_forces_max
         expected = (run.drive_torque_max, run.drive_torque_rms, pins["B"], max(pins.values()), run.frame_force_max)
         np.testing.assert_allclose([swept[name][place] for name in want], expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["quick_return", "jansen_leg", "klann_leg", "stephenson_dwell", "peaucellier"])
+def test_other_groups_are_moved_as_one_by_one(name: str) -> None:
+    """A point of the first moving body with two is varied by a thousandth; the last one moves accordingly."""
+    mechanism = read_mechanism(f"examples/{name}.toml").mechanism
+    body = next(body for body in mechanism.bodies if body.name in mechanism.moving and len(body.points) > 1)
+    point = list(body.points)[1]
+    positions = body.points[point] * np.array([1.0, 1.001, 0.999])
+    end = mechanism.body(mechanism.moving[-1])
+    want = [f"{end.name}.{list(end.points)[-1]} ax", f"{end.name}.{list(end.points)[-1]} y"]
+    swept = mechanism.vary({f"{body.name}.{point}": positions}).evaluate(37, want=want, speed=5.0)
+    for number, position in enumerate(positions):
+        single = with_points(mechanism, {(body.name, point): complex(position)})
+        motion = solve(plan(single), TURN, speed=5.0)
+        usable = motion.status == 0
+        moved = motion.point(end.name, list(end.points)[-1])
+        assert swept.closes[number] == usable.mean()
+        for one, values in zip(want, (moved.acceleration.real, moved.position.imag), strict=True):
+            error = np.abs(swept[one][number] - values)[usable].max()
+            assert error <= 1e-12 * np.abs(values[usable]).max()
 
 
 def test_a_table_of_variants_has_a_row_a_sample() -> None:

@@ -6,15 +6,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.stats import norm
-from study_targets import FOUR_BAR
+from study_targets import ANGLES, FOUR_BAR, FunctionTarget
 
 from ilmek.errors import MechanismError, ParameterError
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.study.order import read_variable
 from ilmek.jobs.study.targets import read_target
 from ilmek.studies.allocation import allocated, scaled
+from ilmek.studies.outcome import Question
+from ilmek.studies.recorder import DesignRecorder
 from ilmek.studies.samples import correlation_of, sampled
+from ilmek.studies.store import StudyFile
+from ilmek.studies.tolerance import corners, spread_of, yield_of
 from ilmek.studies.variable import NORMAL, TRIANGULAR, UNIFORM, Variable
+from ilmek.studies.workers import Workers
 
 HALVES, SIGNS = np.array([0.3, 0.2, 0.1]), np.array([1.0, -1.0, -1.0])
 MIDDLES = np.array([10.2, 6.0, 4.0])
@@ -123,3 +128,27 @@ def test_play_of_a_pin_is_a_longer_link(tmp_path: Path) -> None:
         target.parameter("clearance.Q")
     with pytest.raises(ParameterError, match=r"clearance.B.*at least 0"):
         read_variable(target, "clearance.B", "-1mm..1mm")
+
+
+def test_the_thesis_dyad_under_a_twentieth_of_a_millimetre(tmp_path: Path) -> None:
+    """Links and pivot of the knotting dyad of 17.6 mm and 19.7 mm, +-0.05 mm each, against 10^6 brute samples."""
+    half = 0.05e-3
+    names = ("first", "second", "pivot x", "pivot y")
+    variables = tuple(Variable(name, "mm", -half, half, 0.0, spread=NORMAL) for name in names)
+    with (
+        StudyFile(tmp_path / "s.sqlite", {}, names, ("error",)) as file,
+        Workers(Question(FunctionTarget("dyad"), ("error",))) as workers,
+    ):
+        recorder = DesignRecorder(file, variables, workers, 1)
+        drawn, ends = recorder(sampled(variables, "sobol", 8192, 0)), recorder(corners(variables))
+    found = spread_of("error", variables, drawn.points, drawn.results[:, 0], ends.results[:, 0])
+    errors = np.random.default_rng(3).normal(0.0, half / 3, (BRUTE, 4))
+    turned = np.exp(1j * np.array(ANGLES))
+    moved = errors[:, :1] * turned[0] + errors[:, 1:2] * turned[1] + (errors[:, 2] + 1j * errors[:, 3])[:, None]
+    brute = np.abs(moved).max(axis=1)
+    assert found.mean == pytest.approx(float(brute.mean()), rel=5e-3)
+    assert found.deviation == pytest.approx(float(brute.std()), rel=1e-2)
+    assert found.high == pytest.approx(float(np.quantile(brute, 0.99865)), rel=3e-2)
+    assert found.worst_high >= brute[(np.abs(errors) <= half).all(axis=1)].max()
+    share = yield_of(drawn.feasible)
+    assert share.low <= np.mean(brute <= 0.08e-3) <= share.high

@@ -1,5 +1,6 @@
 """Functions with known indices, fronts and optima as targets of studies."""
 
+import cmath
 import math
 import os
 import time
@@ -81,6 +82,20 @@ def mw1_of(x: list[float]) -> Numbers:
     f, h = x[0], g * (1 - 0.85 * x[0] / g)
     wave = math.sin(2 * math.pi * (math.sqrt(2) * h - math.sqrt(2) * f)) ** 8
     return _of({"f": f, "g": h}, ("front", f + h - 1 - 0.5 * wave, 0.0))
+
+
+ANGLES = (0.49015573, 0.25282647, -0.08481436, -0.36314529), (-1.32567047, -1.34665426, -1.30359637, -1.15010036)
+"""Angles of both links of the thesis' knotting dyad at its four timed points [rad]."""
+
+
+def dyad_of(x: list[float]) -> Numbers:
+    """Greatest error of the end of a knotting dyad at its timed points, by errors of its links and its pivot [m]."""
+    ends = (
+        abs(x[0] * cmath.exp(1j * a) + x[1] * cmath.exp(1j * b) + complex(x[2], x[3]))
+        for a, b in zip(*ANGLES, strict=True)
+    )
+    error = max(ends)
+    return _of({"error": error}, ("error of the end", error, 0.08e-3))
 
 
 def truss_of(x: list[float]) -> Numbers:

@@ -11,7 +11,7 @@ the shape (variants, 1): every formula of a motion broadcasts over them.
 (array([70.7 , 66.49]), (2, 73))
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
@@ -53,19 +53,18 @@ class SweptGroup(Step):
 
     kind = "swept"
     bodies: tuple[str, ...] = ()
-    parents: tuple[str, ...] = ()
+    parents = ()
     description = ""
 
     def __init__(self, step: Step, located: Mapping[str, BodyMotion]) -> None:
-        self.bodies, self.parents, self.description = step.bodies, step.parents, step.description
-        self.located = {body: located[body] for body in step.bodies}
+        self.bodies, self.description, self.located = step.bodies, step.description, located
 
     @classmethod
     def recognise(cls, group: Group) -> None:
         """None."""
 
     def locate(self, known: Known, columns: Mapping[str, Columns]) -> Mapping[str, BodyMotion]:  # noqa: ARG002
-        """The motions."""
+        """The motions, also of other bodies."""
         return self.located
 
     def solve(self, *_: object) -> NoReturn:
@@ -76,20 +75,23 @@ class SweptGroup(Step):
 
 
 def variant_motion(
-    planned: Plan, dimensions: Dimensions, values: InputValues, speed: InputValues, acceleration: InputValues = 0.0
+    planned: Plan, dimensions: Dimensions, values: InputValues, speed: InputValues, bodies: Collection[str] = ()
 ) -> Motion:
-    """The motions of all variants, each field (variants, samples); arguments and errors as those of `batch.sweep`."""
+    """The motions of all variants, each field (variants, samples); arguments and errors as those of `batch.sweep`.
+
+    bodies  those that are wanted; default: all
+    """
     mechanism = planned.mechanism
-    ends = {body: str(anchor_name(mechanism, body)) for body in mechanism.moving}
-    swept = sweep(planned, dimensions, values, speed, acceleration, bodies=ends, points=ends.items())
+    ends = {body: str(anchor_name(mechanism, body)) for body in bodies or mechanism.moving}
+    swept = sweep(planned, dimensions, values, speed, bodies=ends, points=ends.items())
     varied = with_points(mechanism, {key: np.reshape(one, (-1, 1)) for key, one in dimensions.items()})
     located = {
         body: BodyMotion(swept.points[body, end], varied.point(body, end), one.direction, one.omega, one.alpha)
         for (body, end), one in zip(ends.items(), swept.bodies.values(), strict=True)
     }
     steps = tuple(SweptGroup(step, located) for step in planned.steps)
-    drives = drives_of(planned, values, speed, acceleration)
-    return Motion(Plan(varied, steps), drives, dict.fromkeys(located, ()), swept.status)
+    drives = drives_of(planned, values, speed, 0.0)
+    return Motion(Plan(varied, steps), drives, dict.fromkeys(mechanism.moving, ()), swept.status)
 
 
 def with_points(mechanism: Mechanism, points: Mapping[tuple[str, str], ComplexField]) -> Mechanism:
@@ -118,10 +120,8 @@ class VariantResults(Framed):
         return self.results[name]
 
     def table(self) -> dict[str, np.ndarray]:
-        """Columns with a row a variant, or a row a sample where a result has samples [SI]."""
-        shape = np.broadcast_shapes(
-            self.closes.shape, *(one.shape[: self.closes.ndim] for one in self.results.values())
-        )
+        """Columns with a row a variant, or a row a sample where a result has samples; `frame`: as a DataFrame."""
+        shape = self.closes.shape
         sampled = any(one.ndim > len(shape) for one in self.results.values())
         whole = (*shape, len(self.input)) if sampled else shape
 
@@ -161,10 +161,12 @@ class Variants:
         """
         samples = np.linspace(0.0, full_turn, turn) if values is None else np.atleast_1d(values).astype(float)
         check_result_names(want, result_names(self.plan.mechanism))
+        bodies = {name.rpartition(" ")[0].partition(".")[0] for name in want}
+        bodies = bodies if "" not in bodies else set()  # an angle of transmission needs all
 
         def results(part: slice) -> Iterator[np.ndarray]:
             dimensions = {key: one[part] for key, one in self.dimensions.items()}
-            motion = variant_motion(self.plan, dimensions, samples, speed)
+            motion = variant_motion(self.plan, dimensions, samples, speed, sorted(bodies))
             yield np.mean(motion.status == Status.OK, axis=-1)
             yield from (motion_result(motion, name) for name in want)
 

@@ -166,7 +166,7 @@ def read_yield(text: str) -> float:
         value = parse_quantity(text, "1")
     if not 0 < value < 1:
         raise ParameterError(f"--yield {text}", allowed="above 0 and below 100%")
-    return value
+    return float(value)
 
 
 def _choices(parameter: Parameter, name: str, text: str, nominal: Value) -> Variable:
@@ -245,6 +245,8 @@ def check_words(order: StudyOrder) -> None:
         raise ParameterError(
             f"--correlate, --yield and --cost with --method {order.method}", allowed="they are of --method tolerance"
         )
+    if not 0 <= order.yield_target < 1:
+        raise ParameterError(f"a yield of {order.yield_target:g}", allowed="above 0 and below 1")
     for name, cost in order.costs.items():
         if name not in order.vary or not cost > 0:
             near = did_you_mean(name, order.vary)
