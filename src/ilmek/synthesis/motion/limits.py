@@ -108,7 +108,7 @@ Stated = tuple[str, str, MotionLimits]
 
 
 @record
-class Limit(ABC):
+class MotionLimit(ABC):
     """A limit, by the name of its parameter; `Filters` judge those that they have themselves."""
 
     name: str
@@ -138,7 +138,7 @@ class Limit(ABC):
 
 
 @record
-class FlagLimit(Limit):
+class FlagLimit(MotionLimit):
     """A requirement that is dropped altogether."""
 
     def is_given(self, limits: MotionLimits) -> bool:
@@ -151,7 +151,7 @@ class FlagLimit(Limit):
 
 
 @record
-class GreatestLimit(Limit):
+class GreatestLimit(MotionLimit):
     """A greatest size or ratio; unit  in which it is shown, "" for a ratio."""
 
     unit: str = ""
@@ -174,7 +174,7 @@ class GreatestLimit(Limit):
 
 
 @record
-class TransmissionLimit(Limit):
+class TransmissionLimit(MotionLimit):
     """The least transmission angle."""
 
     def is_given(self, limits: MotionLimits) -> bool:
@@ -193,7 +193,7 @@ class TransmissionLimit(Limit):
 
 
 @record
-class PivotLimit(Limit):
+class PivotLimit(MotionLimit):
     """Bounds of both pivots along an axis: 0 for x, 1 for y."""
 
     axis: int = 0
@@ -215,7 +215,7 @@ class PivotLimit(Limit):
 
 
 @record
-class RegionLimit(Limit):
+class RegionLimit(MotionLimit):
     """The region of a pivot, with its box: 0 of the crank, 1 of the rocker."""
 
     pivot: int = 0
@@ -241,7 +241,7 @@ class RegionLimit(Limit):
 
 
 @record
-class SwingLimit(Limit):
+class SwingLimit(MotionLimit):
     """Bounds of a swing [rad]; measure  the swing of a candidate that reaches all poses on one circuit."""
 
     measure: Callable[[Candidate], float]
@@ -273,7 +273,7 @@ class SwingLimit(Limit):
 
 
 @record
-class ClearanceLimit(Limit):
+class ClearanceLimit(MotionLimit):
     """The region that no link may touch."""
 
     def is_given(self, limits: MotionLimits) -> bool:
@@ -343,7 +343,7 @@ def _scaled(corners: ComplexArray, factor: float) -> ComplexArray:
     return scaled
 
 
-LIMITS: tuple[Limit, ...] = (
+LIMITS: tuple[MotionLimit, ...] = (
     GreatestLimit("size_max", "mm"),
     GreatestLimit("link_ratio_max"),
     TransmissionLimit("transmission_min"),

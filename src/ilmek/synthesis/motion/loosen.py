@@ -13,7 +13,7 @@ from ilmek.arrays import ComplexArray
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
 from ilmek.synthesis.candidate import Candidate
-from ilmek.synthesis.motion.limits import LIMITS, FlagLimit, Limit, breaches
+from ilmek.synthesis.motion.limits import LIMITS, FlagLimit, MotionLimit, breaches
 from ilmek.synthesis.motion.search import MotionSpace, PairPool, PairSearch, feasible, reached, search_pairs
 
 FIRST, COARSEST, FINEST = 0.02, 1.1, 1.003
@@ -65,7 +65,7 @@ def cures(
 
 
 def _cure(
-    space: MotionSpace, judged: Callable[[ComplexArray], Candidate], limit: Limit, progress: Progress
+    space: MotionSpace, judged: Callable[[ComplexArray], Candidate], limit: MotionLimit, progress: Progress
 ) -> list[Cure]:
     """The cure by one limit; [] where none is found."""
     size = space.extent or space.frame.size
@@ -89,7 +89,7 @@ def _cure(
     return [] if least is None else _stated(space, judged, limit, least)
 
 
-def _least_share(space: MotionSpace, near: PairPool, limit: Limit, progress: Progress) -> float | None:
+def _least_share(space: MotionSpace, near: PairPool, limit: MotionLimit, progress: Progress) -> float | None:
     """The least share by which a limit must be loosened, followed down from the pairs found without it."""
     share, factor, reached_at = FIRST, 2.0, math.inf
     while factor > FINEST and share <= GREATEST:
@@ -111,7 +111,9 @@ def _least_share(space: MotionSpace, near: PairPool, limit: Limit, progress: Pro
     return None if math.isinf(reached_at) else reached_at
 
 
-def _stated(space: MotionSpace, judged: Callable[[ComplexArray], Candidate], limit: Limit, share: float) -> list[Cure]:
+def _stated(
+    space: MotionSpace, judged: Callable[[ComplexArray], Candidate], limit: MotionLimit, share: float
+) -> list[Cure]:
     """The cure with its value rounded to what can be typed, and the four-bars that it gives."""
     limits = limit.loosened(space.limits, share * 1.002 + 1e-4, space.extent or space.frame.size)
     setting, instead, limits = limit.stated(space.limits, limits, share)
