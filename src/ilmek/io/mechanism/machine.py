@@ -7,41 +7,17 @@ from ilmek.dynamics.own_machine import FlatMember, OwnMachine
 from ilmek.dynamics.springs import Spring, TorsionSpring
 from ilmek.errors import MechanismError
 from ilmek.io.declared import ChoiceEntry, ListEntry, QuantityEntry, TableEntry, TextEntry, keys, names
+from ilmek.io.mechanism import masses, tasks
 from ilmek.io.mechanism.couplings import COUPLING, coupling_data
 from ilmek.io.mechanism.cylinders import CYLINDER
 from ilmek.io.mechanism.frictions import FRICTION, friction_data, frictions_of
 from ilmek.io.mechanism.joints import JOINT, joint_data, members_of
 from ilmek.io.mechanism.loads import GRAVITY, LOAD, gravity_of, load_data, loads_of
-from ilmek.io.mechanism.masses import (
-    BODY,
-    PIN,
-    SECTION,
-    STATED,
-    body_data,
-    check_link,
-    flat_member,
-    inertia_of,
-    pin_members,
-    sections_of,
-    shapes_of,
-)
 from ilmek.io.mechanism.mechanism import mechanism_of
 from ilmek.io.mechanism.motions import MOTION, motion_data, motions_of
 from ilmek.io.mechanism.names import ANGLE, MOST_ENTRIES, XY, driven_body, parts_of, spot, unit_of, xy_of
 from ilmek.io.mechanism.points import LARGEST_RATIO, extreme_lengths
 from ilmek.io.mechanism.springs import DAMPER, SPRING, spring_data
-from ilmek.io.mechanism.tasks import (
-    FORWARD,
-    STUDY,
-    actuators_of,
-    effort_of,
-    forward_data,
-    forward_of,
-    paths_of,
-    servo_of,
-    study_of,
-    transmission_of,
-)
 from ilmek.io.schema import Measured, SourceText, Table
 from ilmek.linkage.model import GROUND, Mechanism
 from ilmek.records import JsonObject
@@ -54,7 +30,7 @@ FILE = TableEntry(
     "name has at most 100 characters, all printable.",
     {
         "bodies": names(
-            BODY,
+            masses.BODY,
             "name -> body; the body named ground is fixed and its frame is the world frame",
             refers="body",
             most=MOST_ENTRIES,
@@ -77,7 +53,7 @@ FILE = TableEntry(
         ),
         "values": names(QuantityEntry("", ()), "named values: quantities and expressions"),
         "gravity": GRAVITY,
-        "links": replace(SECTION, doc="section of every link without a section, a mass or shapes of its own"),
+        "links": replace(masses.SECTION, doc="section of every link without a section, a mass or shapes of its own"),
         "couplings": names(
             COUPLING, "name -> fixed ratio between two motions on one carrier", refers="coupling", most=MOST_ENTRIES
         ),
@@ -105,10 +81,10 @@ FILE = TableEntry(
         "springs": names(SPRING, "name -> spring between two bodies", most=MOST_ENTRIES),
         "dampers": names(DAMPER, "name -> damper between two bodies", most=MOST_ENTRIES),
         "friction": names(FRICTION, "joint -> friction in it", refers="joint"),
-        "pins": names(PIN, "joint -> its pin as a machine element", refers="joint"),
+        "pins": names(masses.PIN, "joint -> its pin as a machine element", refers="joint"),
         "motions": names(MOTION, "driven joint or body -> its motion over time", refers="input"),
-        "forward": FORWARD,
-        "study": STUDY,
+        "forward": tasks.FORWARD,
+        "study": tasks.STUDY,
         "servo": TextEntry("driven joint or body, or actuator, for which a servo motor is chosen", "input"),
         "actuators": names(
             ChoiceEntry("", ("torque", "force")),
@@ -134,11 +110,11 @@ def machine_of(data: Table, source: SourceText) -> OwnMachine:
     if len(mechanism.joints) > MOST_ENTRIES:
         given = f"{mechanism.name} has {len(mechanism.joints)} joints of two bodies"
         source.refuse(("joints",), MechanismError(given, allowed=f"at most {MOST_ENTRIES}"))
-    parts = parts_of(data["joints"], mechanism)
+    parts, bodies = parts_of(data["joints"], mechanism), data["bodies"]
     members, inertias = _masses(data, mechanism, source)
-    pins = pin_members(data.get("pins", {}), parts, source)
+    pins = masses.pin_members(data.get("pins", {}), parts, source)
     loads = loads_of(data, mechanism, source)
-    actuators = actuators_of(data.get("actuators", {}), parts, mechanism, source)
+    actuators = tasks.actuators_of(data.get("actuators", {}), parts, mechanism, source)
     return OwnMachine(
         mechanism,
         inertias,
@@ -148,13 +124,13 @@ def machine_of(data: Table, source: SourceText) -> OwnMachine:
         members,
         pins,
         motions_of(data.get("motions", {}), mechanism, source),
-        forward_of(data.get("forward"), mechanism, loads, source),
-        study_of(data.get("study"), mechanism, source),
-        servo_of(data.get("servo"), mechanism, actuators, source),
-        paths_of(data.get("paths", ()), mechanism, source),
-        transmission_of(data.get("transmission", ()), parts, source),
-        {name: shapes_of(table, mechanism.body(name)) for name, table in data["bodies"].items() if "shapes" in table},
-        frozenset(name for name, table in data["bodies"].items() if name != GROUND and not table.keys() & STATED),
+        tasks.forward_of(data.get("forward"), mechanism, loads, source),
+        tasks.study_of(data.get("study"), mechanism, source),
+        tasks.servo_of(data.get("servo"), mechanism, actuators, source),
+        tasks.paths_of(data.get("paths", ()), mechanism, source),
+        tasks.transmission_of(data.get("transmission", ()), parts, source),
+        {name: masses.shapes_of(table, mechanism.body(name)) for name, table in bodies.items() if "shapes" in table},
+        frozenset(name for name, table in bodies.items() if name != GROUND and not table.keys() & masses.STATED),
         actuators,
     )
 
@@ -163,15 +139,15 @@ def _masses(data: Table, mechanism: Mechanism, source: SourceText) -> tuple[dict
     """Sections and inertias of the bodies."""
     bodies = members_of(data["joints"])
     joints = {name: [joint for joint, own in bodies.items() if name in own] for name in data["bodies"]}
-    sections = sections_of(data["bodies"], data.get("links"), mechanism, joints)
+    sections = masses.sections_of(data["bodies"], data.get("links"), mechanism, joints)
     members, inertias = {}, {}
     for name, table in data["bodies"].items():
         with source.located(*(("links",) if "section" not in table and name in sections else ("bodies", name))):
             if name in sections:
-                members[name] = flat_member(sections[name])
-                check_link(mechanism.body(name), joints[name])
+                members[name] = masses.flat_member(sections[name])
+                masses.check_link(mechanism.body(name), joints[name])
         with source.located("bodies", name):
-            inertia = inertia_of(table, mechanism.body(name), members.get(name))
+            inertia = masses.inertia_of(table, mechanism.body(name), members.get(name))
             if inertia is not None:
                 inertias[name] = inertia
     return members, inertias
@@ -192,12 +168,12 @@ def machine_data(machine: OwnMachine) -> JsonObject:
         "confirm": ["lengths"] if _needs_confirmation(mechanism) else [],
         "gravity": xy_of(machine.gravity) if machine.gravity else None,
         "servo": machine.servo,
-        "actuators": {name: effort_of(mechanism.joint(name)) for name in machine.actuators},
+        "actuators": {name: tasks.effort_of(mechanism.joint(name)) for name in machine.actuators},
         "paths": [list(path) for path in machine.paths],
         "redundant": list(mechanism.redundant),
         "transmission": list(machine.transmission),
         "bodies": {
-            body.name: body_data(body, machine.inertias.get(body.name), machine.members.get(body.name))
+            body.name: masses.body_data(body, machine.inertias.get(body.name), machine.members.get(body.name))
             for body in mechanism.bodies
         },
         "joints": {joint.name: joint_data(joint) for joint in mechanism.joints},
@@ -208,9 +184,9 @@ def machine_data(machine: OwnMachine) -> JsonObject:
         "loads": {name: load_data(name, load, mechanism) for name, load in loads.items() if name not in springs},
         "springs": {name: spring_data(spring) for name, spring in springs.items()},
         "friction": {friction.joint: friction_data(friction) for friction in machine.frictions},
-        "pins": {joint: PIN.given(pin) for joint, pin in machine.pins.items()},
+        "pins": {joint: masses.PIN.given(pin) for joint, pin in machine.pins.items()},
         "motions": {name: motion_data(name, motion, units[name]) for name, motion in machine.motions.items()},
-        "forward": forward_data(machine.forward, driving) if machine.forward else {},
+        "forward": tasks.forward_data(machine.forward, driving) if machine.forward else {},
         "study": {"speeds": [Measured(speed, f"{driving}/s") for speed in machine.study.speeds]}
         if machine.study
         else {},
