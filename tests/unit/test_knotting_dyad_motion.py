@@ -252,10 +252,10 @@ def test_jaws_hold_the_yarn_open_within_their_time_and_stay_in_the_needles_strip
     """Judged by the finger's lever, and by the corners of its mesh: across the gap nothing is wider than the needle."""
     params, head, motion = made()
     jaws = motion.jaws
-    pressed = jaws.preload + jaws.rate * jaws.strokes["left"] * params.cloth.carpet_yarns.pressed / jaws.opening
+    pressed = jaws.preload + jaws.rate * jaws.strokes["left"] * params.pressed / jaws.opening
     pull = pressed * jaws.arm / jaws.tip * 2 * params.cloth.yarns.friction
     assert pull >= params.grip_safety * params.yarn_pull * (1 - 1e-9)
-    assert jaws.opening > params.cloth.carpet_yarns.pile.diameter
+    assert jaws.opening > params.yarn
     assert jaws.opens_in < params.release_time
     assert jaws.closes_in < params.grasp_time
     shape = finger_part(params, head, jaws, False).shape

@@ -147,7 +147,7 @@ def test_the_loom_hands_its_yarns_to_both() -> None:
         made = loom("symmetric", knotting, **{"yarns.pile_density": "0.5g/m", "yarns.warp_diameter": "0.9mm"})
         yarns = made.task.yarns
         assert made.weaver.params.yarn == yarns.pile.diameter
-        assert made.weaver.params.cloth.carpet_yarns.pressed == yarns.pressed
+        assert made.weaver.params.pressed == yarns.pressed
         assert made.weaver.params.warp == pytest.approx(0.9 * mm)
         if knotting == ARMS:
             section = made.machines["knotting-dyad"].design.head.section

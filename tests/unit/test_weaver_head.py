@@ -54,7 +54,7 @@ def test_grip_and_press() -> None:
     params = WeaverParams()
     force = grip_force(params.forces.grip_safety, params.friction, 2, params.forces.tightening)
     assert 2 * params.friction * force == pytest.approx(1.5 * 2 * params.forces.tightening)
-    touch = params.jaw - 2 * (params.yarn - params.cloth.carpet_yarns.pressed)
+    touch = params.jaw - 2 * (params.yarn - params.pressed)
     share = pressed(params, np.array([0.0, touch, (touch + params.jaw) / 2, params.jaw]), 2)
     assert share == pytest.approx([0.0, 0.0, 0.5, 1.0])
 

@@ -53,7 +53,7 @@ def fewer_in_words(loom: LoomDesign) -> str:
 
 def loom_pairs(woven: WeaveResult) -> list[tuple[str, str]]:
     """Weaving time, heads or weavers and choices of the loom; none where it cannot be designed."""
-    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.wishes.deadline
+    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
     time, cost, hand = woven.loomed.weaving_time, woven.making.cost, woven.loomed.hand
     driven = hand is None or hand.drive is not None
     if made is None or time is None or cost is None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ilmek.dynamics.forward import RunEvent, forward
 from ilmek.dynamics.forward_run import Drive, EndKind, ForwardRun, ForwardState
+from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.inverse_run import InverseRun, all_loads, greatest, inverse_run
 from ilmek.dynamics.own_machine import ForwardTask, MotorDrive, OwnMachine, StopEvent
 from ilmek.dynamics.reduced import reduce
@@ -42,12 +43,17 @@ class OwnForward:
     duration: float
 
     @property
+    def forces(self) -> Forces:
+        """Joint forces over the run, without the friction of joints."""
+        return self.inverse.forces
+
+    @property
     def effort_error(self) -> float:
         """Greatest difference between the drive's effort and the effort for the accelerations, relative [1].
 
         Relative to the greatest of that effort and of the effort J q'' of the inertia: a machine may coast.
         """
-        required = self.inverse.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
+        required = self.forces.effort(str(self.inverse.driving)) + self.wheel * self.run.acceleration
         inertia = self.run.reduced.terms(self.run.position).inertia
         size = np.fmax(greatest(required), greatest(inertia * self.run.acceleration))
         return greatest(required - self.run.effort) / float(size) if size > 0 else 0.0
@@ -73,7 +79,7 @@ class OwnForward:
     @property
     def turning(self) -> bool:
         """Whether the input turns."""
-        return isinstance(self.inverse.forces.mechanism.inputs[0], Rotation)
+        return isinstance(self.forces.mechanism.inputs[0], Rotation)
 
     def turned(self, unit: float, turning: bool) -> float | None:
         """Travel of an input of that kind over a unit [rad; m]; None for the other kind."""

@@ -71,7 +71,7 @@ def frame_frequencies(
     """
     slowness = _greatest(*_supported(nodes, members, supports, masses, modulus), count)
     # Eigenvalues differ in their last digits from machine to machine: ten digits are the same on every one.
-    return np.array([float(f"{one:.10g}") for one in 1 / np.sqrt(slowness) / (2 * math.pi)])
+    return np.array([float(f"{frequency:.10g}") for frequency in 1 / np.sqrt(slowness) / (2 * math.pi)])
 
 
 def vibrates_above(

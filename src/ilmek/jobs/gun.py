@@ -51,6 +51,11 @@ class GunResult:
         return (*self.tufted.checks, *kept_checks(self.charted.chart, self.charted.order.order))
 
     @property
+    def notes(self) -> tuple[str, ...]:
+        """What was changed of the picture."""
+        return self.charted.notes
+
+    @property
     def files(self) -> list[str]:
         """The paths of the files."""
         return [str(self.folder / name) for name in self.written]
@@ -124,6 +129,6 @@ def gun_json(result: GunResult) -> JsonObject:
         {**result.charted.order.as_dict(), "gun": result.order.params.as_dict(), "deadline": result.order.deadline},
         results,
         checks=result.checks,
-        notes=list(result.charted.notes),
+        notes=list(result.notes),
         files=result.files,
     )

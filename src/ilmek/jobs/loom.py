@@ -60,6 +60,11 @@ class LoomOrder:
     existing: ExistingLoom | None = None
     given: LoomKeys = field(default_factory=LoomKeys)
 
+    @property
+    def deadline(self) -> float | None:
+        """Time for the whole carpet [s]; None: any."""
+        return self.wishes.deadline
+
     def as_dict(self) -> dict[str, Json]:
         """The order as plain data, SI."""
         wishes = self.wishes
@@ -253,7 +258,7 @@ def make_loomed(
     report = with_nearest(report, params, progress.part(0.9, 1.0))
     require_price(loom_order.wishes, params, made, report, programme.duration)
     left = made.beat.row_pitch_left
-    checks = (*colours, *deadline_checks(loom_order.wishes.deadline, programme.duration))
+    checks = (*colours, *deadline_checks(loom_order.deadline, programme.duration))
     setup = loom_setup(made, carpet, programme)
     return LoomResult(report, checks, made, programme, setup, left, programme.duration)
 
@@ -290,13 +295,13 @@ def _on_existing(loom_order: LoomOrder, existing: ExistingLoom, charted: ChartRe
         return LoomResult(existing.report, checks, made, row_pitch_left=left)
     if made.weavers:
         time = made.head.least_time(chart.rows, chart.columns, made.weavers, made.times, made.bobbins)
-        checks = (*checks, *deadline_checks(loom_order.wishes.deadline, time))
+        checks = (*checks, *deadline_checks(loom_order.deadline, time))
         return LoomResult(existing.report, checks, made, row_pitch_left=left, weaving_time=time, notes=(NO_PROGRAMME,))
     notes = (f"{heads} of the loom's {made.heads} heads are used; the others are parked",) if heads < made.heads else ()
     carpet = CarpetPile(chart, knot_yarns(charted))
     bobbins = made.weft.bobbins_for(2 * chart.columns + made.params.selvedge_warps, yarns)
     programme = _programme(made, carpet, heads, bobbins, progress.part(0.0, 1.0, "programme"))
-    checks = (*checks, *deadline_checks(loom_order.wishes.deadline, programme.duration))
+    checks = (*checks, *deadline_checks(loom_order.deadline, programme.duration))
     setup = loom_setup(made, carpet, programme)
     return LoomResult(existing.report, checks, made, programme, setup, left, programme.duration, notes)
 

@@ -11,6 +11,7 @@ from ilmek.machines.automated_loom.carpet_cost import CarpetCost
 from ilmek.machines.automated_loom.making import MakingStep
 from ilmek.report import Json
 from ilmek.units import cm, format_number, format_quantity
+from ilmek.weaving.warping import Warping
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,11 @@ class Making:
         return None if self.woven is None else self.woven[1] - self.chart.size.length
 
     @property
+    def warping(self) -> Warping:
+        """Its warps."""
+        return self.params.dressing
+
+    @property
     def cost(self) -> CarpetCost | None:
         """The cost of the carpet, by the time in which it is woven; None without a loom or that time."""
         loom, time, chart = self.loomed.cost, self.loomed.weaving_time, self.chart
@@ -52,7 +58,7 @@ class Making:
             area=chart.size.area,
             time=time,
             energy=loom.energy * time / loom.time,
-            dressing=float(self.params.dressing.dressing_time),
+            dressing=float(self.warping.dressing_time),
         )
 
     @property

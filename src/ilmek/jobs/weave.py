@@ -162,7 +162,7 @@ def _write_loom(woven: WeaveResult, folder: Path, progress: Progress) -> tuple[s
     setup, programme, made = woven.loomed.setup, woven.loomed.programme, woven.loomed.made
     if not woven.weaves or made is None:
         return ()
-    write_drawing_in(folder / "drawing-in.csv", woven.making.params.dressing, made.warp_guide)
+    write_drawing_in(folder / "drawing-in.csv", woven.making.warping, made.warp_guide)
     if setup is None or programme is None:
         return ("drawing-in.csv",)
     write_programme(folder / "programme.ilmek", CompiledProgramme(setup, programme), progress=progress)
@@ -279,7 +279,7 @@ def _loom_page(woven: WeaveResult) -> LoomPage:
 
 def _loom_facts(woven: WeaveResult) -> tuple[Fact, ...]:
     """Heads or weavers, weaving time and deadline of the loom; none where it cannot be designed."""
-    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.wishes.deadline
+    made, programme, deadline = woven.loomed.made, woven.loomed.programme, woven.loom_order.deadline
     time = woven.loomed.weaving_time
     if made is None or time is None:
         return ()

@@ -82,8 +82,8 @@ def _pairs(
     """The pairs of pieces that come near; of bodies that move alike on each of several carriers those on the first."""
     known: set[tuple[object, ...]] = set()
     for first, other in ((carried[number], carried[beside]) for number, beside in _met(carried, horizon, some)):
-        shared = sum(1 for own, its in zip(first.travel.chain, other.travel.chain, strict=False) if own == its)
-        alike = shared, first.travel.chain[shared - 1].name, first.travel.chain[shared:], other.travel.chain[shared:]
+        shared = sum(1 for own, its in zip(first.chain, other.chain, strict=False) if own == its)
+        alike = shared, first.chain[shared - 1].name, first.chain[shared:], other.chain[shared:]
         if not shared or alike not in known:
             known.add(alike)
             yield from _near(first, other, shared, horizon, required)

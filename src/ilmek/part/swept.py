@@ -55,9 +55,14 @@ class SweptPieces:
     travelled: dict[int, Float[np.ndarray, "pieces angles"]] = field(default_factory=dict)
 
     @property
+    def chain(self) -> Chain:
+        """Its chain."""
+        return self.travel.chain
+
+    @property
     def body(self) -> str:
         """Id of the body."""
-        return self.travel.chain[-1].name
+        return self.chain[-1].name
 
     @cached_property
     def reaches(self) -> Float[np.ndarray, "pieces links"]:
@@ -87,10 +92,10 @@ class SweptPieces:
         return self.seen[shared]
 
     def _boxes(self, shared: int) -> Boxes:
-        chain, drive = self.travel.chain[shared:], self.travel.drive
+        chain, drive = self.chain[shared:], self.travel.drive
         size = len(self.pieces), len(self.ends), 2, 3
         if not any(self.travel.moves[shared:]):
-            resting = _at_rest(self.travel.chain[-1].body.occurrences, tuple((link.body, link.index) for link in chain))
+            resting = _at_rest(self.chain[-1].body.occurrences, tuple((link.body, link.index) for link in chain))
             return np.broadcast_to(resting[:, None], size)
         corners, at = np.stack([piece.corners for piece in self.pieces]), poses(chain, drive, self.ends.ravel())
         if any(link.turns(drive) for link in chain):

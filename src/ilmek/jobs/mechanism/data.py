@@ -75,7 +75,7 @@ def _force_histories(run: MechanismRun) -> JsonObject:
 
 def _forward(found: Analysis) -> dict[str, object]:
     assert found.forward is not None
-    run, forces = found.forward.run, found.forward.inverse.forces
+    run, forces = found.forward.run, found.forward.forces
     return {
         "time": run.time,
         "position": run.position,

@@ -165,11 +165,11 @@ def _forward_plots(forward: "OwnForward") -> Iterator[Figure]:
     run = forward.run
     time = Axis("time", "s")
     speed, effort = ("rpm", "N*m") if forward.turning else ("m/s", "N")
-    entry = forward.inverse.forces.mechanism.inputs[0].name
+    entry = forward.forces.mechanism.inputs[0].name
     yield from _groups("forward-speed", "Forward run: speed", time, Axis("speed", speed), run.time, {entry: run.speed})
     drive = {"drive": run.effort}
     yield from _groups("forward-drive", "Forward run: drive", time, Axis("effort", effort), run.time, drive)
-    pins = {name: np.abs(force) for name, force in forward.inverse.forces.reactions.items()}
+    pins = {name: np.abs(force) for name, force in forward.forces.reactions.items()}
     yield from _groups("forward-forces", "Forward run: forces of joints", time, Axis("force", "N"), run.time, pins)
 
 

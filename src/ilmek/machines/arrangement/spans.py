@@ -118,8 +118,8 @@ def shed_room(task: "LoomTask") -> ShedRoom:
     params, weft = task.params, task.weft
     spare, made = SPARE * params.clearance, task.compensator
     return ShedRoom(
-        carrier_depth=weft.carried.depth,
-        carrier_width=weft.carried.width,
+        carrier_depth=weft.carrier_depth,
+        carrier_width=weft.carrier_width,
         opening=params.open_share * params.lift,
         leaf_height=float(task.params.machines.of("hammer").get("leaf_height") or LEAF_HEIGHT),
         head=USUAL_HEAD,

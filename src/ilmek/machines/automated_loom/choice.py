@@ -29,6 +29,11 @@ class BeatOption:
     timing: RowTiming
 
     @property
+    def period(self) -> float:
+        """Time of a row's wefts and beats [s]."""
+        return self.task.period
+
+    @property
     def drive(self) -> BeatDrive:
         """Its drive at that period."""
         return _drive(self)
@@ -62,7 +67,7 @@ def beat_options(task: LoomTask, timed: Callable[[PlannedBeat], tuple[LoomTask, 
         plan: PlannedBeat = component.beat(task, kind)
         options.append(BeatOption(kind, plan, *timed(plan)))
     if len(options) > 1:
-        options.sort(key=lambda option: (option.price, option.task.period))
+        options.sort(key=lambda option: (option.price, option.period))
     return tuple(options)
 
 

@@ -71,7 +71,7 @@ def costs_by_number(
 
     def with_heads(number: int) -> CarpetCost:
         cost = with_control(without.plus(of_one.times(number)), listed.prices)
-        time = estimated_time(loom, number, None if beat is None else beat.task.period)
+        time = estimated_time(loom, number, None if beat is None else beat.period)
         rates = rates_of(loom, number if loom.weavers else 0)
         return replace(own, rates=rates, time=time, machine=cost)
 

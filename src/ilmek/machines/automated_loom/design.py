@@ -245,7 +245,7 @@ def with_beat(ready: ReadyLoom, option: BeatOption, journal: SearchJournal | Non
 
     Raises LoomError where more heads are given than fit.
     """
-    params, knotting, task, timing, period = ready.params, ready.head, option.task, option.timing, option.task.period
+    params, knotting, task, timing, period = ready.params, ready.head, option.task, option.timing, option.period
     machines, rows, columns, weft = dict(ready.machines), task.rows, task.columns, task.weft
     machines["shedding"] = _at_period(machines["shedding"], timing.turning * period)
     times = times_at(params, knotting, task.cloth.knot_pitch, period)

@@ -189,6 +189,10 @@ class LoomFrame:
         return of_columns if self.rail is None else (*of_columns, *rail_checks(self.guide[1], self.rail))
 
 
+_Columns: TypeAlias = tuple[int, HollowSquare]
+"""Number of columns of a side, and their section."""
+
+
 def frame_for(
     task: FrameTask,
     sway: Callable[["LoomFrame"], Iterable[Check]] = lambda _frame: (),
@@ -207,22 +211,22 @@ def frame_for(
     columns = [(number, section) for number in range(1, MOST_COLUMNS + 1) for section in narrow]
     rail, of_rail = (None, ()) if task.rail is None else rail_for(task.rail)
 
-    def framed(column: tuple[int, HollowSquare], *choices: Choice) -> LoomFrame:
+    def framed(column: _Columns, *choices: Choice) -> LoomFrame:
         number, section = column
         stress, bow = column_load(task, section, number)
         factor = number * euler(task.height, section) / task.force
         return LoomFrame(task, choices, section, rail, number, stress, bow, factor)
 
-    def strength(column: tuple[int, HollowSquare]) -> tuple[Check, ...]:
+    def strength(column: _Columns) -> tuple[Check, ...]:
         return column_checks(task, column[1], column[0])
 
-    def stiffness(column: tuple[int, HollowSquare]) -> Iterator[Check]:
+    def stiffness(column: _Columns) -> Iterator[Check]:
         own = strength(column)
         yield from own
         if all(check.ok for check in own):
             yield from sway(framed(column))
 
-    def lasts(column: tuple[int, HollowSquare]) -> bool:
+    def lasts(column: _Columns) -> bool:
         return all(check.ok for check in strength(column)) and not fails(framed(column))
 
     stiff = next((number for number, column in enumerate(columns) if lasts(column)), len(columns))
@@ -236,10 +240,6 @@ def rail_for(task: RailTask) -> tuple[HollowSquare, tuple[Choice, ...]]:
     high = [(1, square) for square in ascending() if square.side >= task.least]
     (_, rail), choice = _chosen("rail", (high, lambda column: rail_checks(task, column[1])))
     return rail, (choice,)
-
-
-_Columns: TypeAlias = tuple[int, HollowSquare]
-"""Number of columns of a side, and their section."""
 
 
 def _chosen(

@@ -164,15 +164,15 @@ def _lowest_sway(sway: _Sway) -> float:
 
 def _across(loom: LoomDesign, frame: LoomFrame) -> _Sway:
     """Both columns hinged at the floor, with the beams at the floor, behind the cams and under the back rest."""
-    made, floor = brackets_of(loom), loom.side.floor
+    brackets, floor = brackets_of(loom), loom.side.floor
     base = base_section(loom, frame)
     beams = {
         floor_top(loom, frame) - base.side / 2 - floor: base,
-        cam_beam(loom, frame, made).imag - floor: frame.column,
-        made.rest.imag - floor: made.beam,
+        cam_beam(loom, frame, brackets).imag - floor: frame.column,
+        brackets.rest.imag - floor: brackets.beam,
     }
     levels, carried = _levels(loom, beams)
-    half, number = sum(frame.beside(made.face)) / frame.number, len(levels)
+    half, number = sum(frame.beside(brackets.face)) / frame.number, len(levels)
     nodes = [complex(x, y) for x in (-half, half) for y in levels]
     members = [
         _member(begin + k, begin + k + 1, frame.column, frame.number)

@@ -98,6 +98,11 @@ class HeadBranch:
     head: MachineCost
     looms: Mapping[str, LoomDesign]
 
+    @property
+    def weft(self) -> str:
+        """The carrier of the weft; auto where the weft side chooses it."""
+        return self.ready.params.weft
+
 
 @lru_cache(maxsize=32)
 def machines_cost(loom: LoomDesign) -> MachineCost:
@@ -271,7 +276,7 @@ class Bounds:
         return time <= (self.params.deadline or math.inf) and price <= (math.inf if limit is None else limit)
 
     def _offers(self, branch: HeadBranch) -> Iterator[LoomOffer]:
-        ready, params, weft = branch.ready, self.params, branch.ready.params.weft
+        ready, params, weft = branch.ready, self.params, branch.weft
         grid, bobbins = (ready.task.rows, ready.task.columns), ready.weft.bobbins
         for option in ready.options:
             if option.kind == GUIDED and weft == SHUTTLE and params.weft == AUTO:  # no room for shuttles' carriages
@@ -343,6 +348,6 @@ def value_of(found: LoomAnalysis, aim: str) -> float:
 def _least_times(ready: ReadyLoom, option: BeatOption, cycle: float) -> Times:
     """The least times of the acts with a time of the knot [s]; the step to the next knot may take longer."""
     head, params, task = ready.head.weaver, ready.params, ready.task
-    times = times_at(params, ready.head, task.cloth.knot_pitch, option.task.period)
+    times = times_at(params, ready.head, task.cloth.knot_pitch, option.period)
     tied = replace(times, knot=cycle * (head.cycle / head.params.cycle if head else 1))
     return with_changes(tied, params.changes_per_knot)

@@ -110,9 +110,7 @@ def _begun(
     """The search with the bounds by the loom that seems the best of some branches; None where none has its parts."""
     prices = read_prices(params.prices)
     for branch, loom in ((one, loom) for one in first for loom in one.looms.values()):
-        offer = LoomOffer(
-            branch.kind, branch.cycles[0], branch.ready.params.weft, loom.params.beat, loom.knotters, 0.0, 0.0, 0.0
-        )
+        offer = LoomOffer(branch.kind, branch.cycles[0], branch.weft, loom.params.beat, loom.knotters, 0.0, 0.0, 0.0)
         with contextlib.suppress(ParameterError):
             rest = bare_rest(offer, loom)
             search = _Search(Bounds(params, prices, rest.frame, {offer.key: rest}), refused, journal)
@@ -205,7 +203,7 @@ class _Search:
         """
         offers: list[LoomOffer] = []
         for branch in first:
-            self.branches[branch.kind, branch.ready.params.weft] = branch
+            self.branches[branch.kind, branch.weft] = branch
             failed = self._failed(branch)
             offers += [offer for offer in self.bounds.offers(branch) if not failed[offer.beat]]
         best = min(offers, key=lambda offer: (offer.value, offer.price), default=simplest)

@@ -24,7 +24,7 @@ from ilmek.machines.linkage_strength import (
     strength_checks,
 )
 from ilmek.records import computed, group, record, value_record
-from ilmek.report import Check, at_least
+from ilmek.report import Check, Choice, at_least
 from ilmek.units import turn
 
 WIDER = "set wider or thicker links, a shorter ground, or a lower speed"
@@ -58,6 +58,11 @@ class BeatUpStrength:
     coupler_buckling = computed(
         "1", "safety of the coupler against buckling", lambda it: it.found.links["coupler"].buckling, least=0.0
     )
+
+    @property
+    def choices(self) -> tuple[Choice, ...]:
+        """The choice of the pins."""
+        return self.found.choices
 
 
 def beat_up_strength(

@@ -84,4 +84,4 @@ def use_checks(use: BeatUpUse) -> tuple[Check, ...]:
 def use_choices(design: BeatUp) -> tuple[Choice, ...]:
     """What was chosen of pins, start and stop."""
     use = in_use(design)
-    return (*use.strength.found.choices, *use.start.choices, use.beam.choice)
+    return (*use.strength.choices, *use.start.choices, use.beam.choice)

@@ -135,7 +135,7 @@ def chosen_linkage(
     index, choice = choose("crank-rockers", candidates)
     option, linkage = made[index]
     found = (choice,) if len(options) > 1 else ()
-    return option, linkage, (*found, *linkage.strength.found.choices, *linkage.start.choices)
+    return option, linkage, (*found, *linkage.strength.choices, *linkage.start.choices)
 
 
 def _named(params: HammerParams) -> str:

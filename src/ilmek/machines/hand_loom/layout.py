@@ -19,7 +19,7 @@ from ilmek.machines.automated_loom.feet import FOOT
 from ilmek.machines.automated_loom.frame import ROOM, FrameTask, column_checks
 from ilmek.machines.automated_loom.joints import Seam
 from ilmek.machines.automated_loom.supports import within
-from ilmek.machines.bearing_seats import BRACKET, least_height
+from ilmek.machines.bearing_seats import BRACKET, BearingSeat, least_height
 from ilmek.machines.hand_shed import HandShed
 from ilmek.machines.warp_tension import WarpTensionDesign
 from ilmek.machines.warp_tension.cylinders import Cylinder, cylinders, spacer_tube
@@ -59,7 +59,7 @@ class CylinderBracket:
     def stress(self) -> float:
         """Greatest stress at the column, or beside the slot [Pa]."""
         at_column = 6 * self.moment[0] / (BRACKET * self.height**2) + 6 * self.moment[1] / (self.height * BRACKET**2)
-        return max(at_column, arm_stress(self.cylinder.seat, self.height / 2))
+        return max(at_column, arm_stress(self.seat, self.height / 2))
 
     def seam(self, column: HollowSquare) -> Seam:
         """Its weld to a column, or to the spacer between."""
@@ -71,6 +71,11 @@ class CylinderBracket:
     def outer(self) -> float:
         """Outer face from the middle of the width [m]."""
         return self.inner + BRACKET
+
+    @property
+    def seat(self) -> BearingSeat:
+        """The bearing on it."""
+        return self.cylinder.seat
 
 
 @record

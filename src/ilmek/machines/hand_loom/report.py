@@ -263,7 +263,7 @@ def _bracket_checks(own: CylinderBracket, column: HollowSquare, limit: float) ->
     part, cure = part_id(f"{own.cylinder.name}-bracket"), "set a lower tension, or a narrower carpet"
     title, source = f"bracket of the {own.cylinder.name} cylinder", "yield of S235 over column_safety"
     stress = at_most(f"frame: stress of the {title}", own.stress, limit, "MPa", source).with_cure(cure, part)
-    return stress, own.seam(column).check, own.cylinder.seat.check(f"frame: bearing on the {title}", cure, part)
+    return stress, own.seam(column).check, own.seat.check(f"frame: bearing on the {title}", cure, part)
 
 
 def beam_stress(loom: HandLoom) -> float:

@@ -151,9 +151,14 @@ class HandShed:
         return max(STRING, 2 * warps + 2 * self.params.clearance)
 
     @property
+    def width(self) -> float:
+        """Of the warps [m]."""
+        return self.params.cloth.width
+
+    @property
     def length(self) -> float:
         """Of rod and heddle bar between their supports [m]."""
-        return self.params.cloth.width + 2 * BESIDE
+        return self.width + 2 * BESIDE
 
     @property
     def bar_limit(self) -> float:

@@ -102,7 +102,7 @@ def layout(shed: HandShed) -> ShedLayout:
 
 def half_width(shed: HandShed) -> float:
     """Inner face of the side plates from the middle [m]."""
-    return shed.params.cloth.width / 2 + BESIDE + 2 * PLATE + GAP
+    return shed.width / 2 + BESIDE + 2 * PLATE + GAP
 
 
 def tree(shed: HandShed, behind: float = -BEHIND, face: float | None = None) -> Tree:

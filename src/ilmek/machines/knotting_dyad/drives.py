@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray
-from ilmek.dynamics.inverse import inverse
+from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce
 from ilmek.elements.motors import Motor, Reducer, smallest_motor
 from ilmek.elements.reducers import RATIOS
@@ -40,6 +40,11 @@ class ArmForces:
 
     torque: Float[np.ndarray, "samples 2"]
     loaded: LoadedArm
+
+    @property
+    def forces(self) -> Forces:
+        """The forces in its joints."""
+        return self.loaded.forces
 
 
 @record
@@ -104,7 +109,7 @@ class HeadMotion:
     @property
     def power_error(self) -> float:
         """Greatest power residual of the torques, over the powers' size."""
-        return max(arm.loaded.forces.power_error for arm in self.arms.values())
+        return max(arm.forces.power_error for arm in self.arms.values())
 
 
 @lru_cache(maxsize=4)

@@ -126,7 +126,7 @@ def buckling_load(params: KnottingDyadParams, section: WarpSection) -> float:
 
 def yarn_of(params: KnottingDyadParams, section: WarpSection, arm: SwivelledArm) -> float:
     """Pile yarn that the arms need for a knot [m], both tails held included."""
-    rest, radius = complex(arm.tip(np.array([0.0]))[0]), (section.warp + params.cloth.carpet_yarns.pile.diameter) / 2
+    rest, radius = complex(arm.tip(np.array([0.0]))[0]), (section.warp + params.yarn) / 2
     apart = 2 * (section.middle - rest.real)
     # The other arm, at rest, is the mirror image; the yarn goes from it to the first warp of the pair, and behind.
     other = complex(2 * section.middle - rest.conjugate())

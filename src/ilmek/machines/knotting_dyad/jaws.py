@@ -172,7 +172,7 @@ def jaws_of(params: KnottingDyadParams, head: Head, hole: float) -> Jaws:
     friction = max(params.cloth.yarns.friction, LEAST_FRICTION)
     grip = grip_force(params.grip_safety, friction, 1, params.yarn_pull)
     at_rod, stroke, travel = grip * tip / arm, arm * opening / tip, max(arm, crank) * opening / tip
-    held = stroke * min(params.cloth.carpet_yarns.pressed / opening, 1.0)  # of the rod, with a yarn between the jaws
+    held = stroke * min(params.pressed / opening, 1.0)  # of the rod, with a yarn between the jaws
     for steeper in STEEPER:
         rate = steeper * at_rod / stroke
         preload = max(at_rod - rate * held, 0.0)
@@ -213,7 +213,7 @@ def depth_of(params: KnottingDyadParams) -> float:
 
 def _opening(params: KnottingDyadParams) -> float:
     """Opening of the jaws [m]: for a pile yarn, with the clearance on both sides."""
-    return params.cloth.carpet_yarns.pile.diameter + 2 * params.clearance
+    return params.yarn + 2 * params.clearance
 
 
 def jaw_checks(params: KnottingDyadParams, head: Head, jaws: Jaws, cycle: KnotCycle) -> Iterator[Check]:

@@ -135,6 +135,16 @@ class KnottingDyadParams(Params):
         """Diameter of a warp [m]."""
         return self.cloth.carpet_yarns.warp.diameter
 
+    @property
+    def yarn(self) -> float:
+        """Diameter of the pile yarn [m]."""
+        return self.cloth.carpet_yarns.pile.diameter
+
+    @property
+    def pressed(self) -> float:
+        """Thickness of the pile yarn pressed beside a needle [m]."""
+        return self.cloth.carpet_yarns.pressed
+
     def _check_section(self) -> None:
         least = (self.warp + self.needle_diameter) / 2
         if self.leg < least + self.clearance:

@@ -122,7 +122,7 @@ class WarpSection:
 
 def section_of(params: KnottingDyadParams) -> WarpSection:
     """The section of the parameters; gaps left open are chosen for needle and yarn, the depth for the clearance."""
-    content = params.needle_diameter + max(params.cloth.carpet_yarns.pressed, 2 * params.clearance)
+    content = params.needle_diameter + max(params.pressed, 2 * params.clearance)
     pitch, room = params.cloth.warp_pitch, params.warp + content
     pair = params.pair_opened or max(pitch, room)
     outer = max(pitch, _gap(room, pair, params.depth)) if params.opening is None else pitch + params.opening
@@ -136,7 +136,7 @@ def section_of(params: KnottingDyadParams) -> WarpSection:
         params.leg,
         params.link_width,
         params.clearance,
-        params.cloth.carpet_yarns.pressed,
+        params.pressed,
     )
 
 

@@ -76,7 +76,7 @@ def tool_force(head: HeadForces, name: str, angle: FloatArray) -> FloatArray:
 
 def pressed(params: WeaverParams, position: FloatArray, ends: int) -> FloatArray:
     """Share of the jaws' full force at their positions [m]: from the first touch to the pressed yarns."""
-    travel = min(ends * max(params.yarn - params.cloth.carpet_yarns.pressed, 0.0), params.jaw)
+    travel = min(ends * max(params.yarn - params.pressed, 0.0), params.jaw)
     if travel <= 0:
         return np.asarray(position >= params.jaw, float)
     return np.asarray(np.clip(1 - (params.jaw - position) / travel, 0.0, 1.0))

@@ -223,6 +223,11 @@ class WeaverParams(Params):
         return self.cloth.carpet_yarns.pile.diameter
 
     @property
+    def pressed(self) -> float:
+        """Thickness of the pile yarn pressed between jaws [m]."""
+        return self.cloth.carpet_yarns.pressed
+
+    @property
     def strength(self) -> float:
         """Breaking force of all fibres of the pile yarn together [N]."""
         return self.cloth.carpet_yarns.pile.breaking_force

@@ -81,6 +81,16 @@ class Weft:
         return (2 if self.passage.back else 1) * once
 
     @property
+    def carrier_depth(self) -> float:
+        """Size of the carrier across the shed [m]."""
+        return self.carried.depth
+
+    @property
+    def carrier_width(self) -> float:
+        """Size of the carrier along the warps [m]."""
+        return self.carried.width
+
+    @property
     def resisting(self) -> float:
         """Friction of the carrier and tension of its weft [N]."""
         return _friction(self.params, self.carried) + max(self.tension.values())

@@ -96,8 +96,8 @@ def view(request: CyclogramRequest, context: Context) -> Binary:
 def _packed(cyclogram: Cyclogram, rows: TrackCurves) -> bytes:
     """Angle, position, velocity, acceleration and jerk over time, as 32-bit floats."""
     w = cyclogram.speed
-    found = (rows.angle, rows.position, rows.slope * w, rows.bend * w**2, rows.jolt * w**3)
-    return np.stack(found).astype("<f4").tobytes()
+    quantities = (rows.angle, rows.position, rows.slope * w, rows.bend * w**2, rows.jolt * w**3)
+    return np.stack(quantities).astype("<f4").tobytes()
 
 
 def _track(cyclogram: Cyclogram, track: Track, rows: TrackCurves) -> ShownTrack:
@@ -168,11 +168,11 @@ def _exclusion(cyclogram: Cyclogram, exclusion: Exclusion) -> ShownExclusion:
     )
 
 
-def _presence(cyclogram: Cyclogram, one: Presence) -> ShownPresence:
-    windows = _spans(present(cyclogram, one))
-    if isinstance(one, Spans):
-        return ShownPresence("", one.name, windows)
-    return ShownPresence(one.track, one.label(cyclogram.units), windows, one.low, one.high)
+def _presence(cyclogram: Cyclogram, presence: Presence) -> ShownPresence:
+    windows = _spans(present(cyclogram, presence))
+    if isinstance(presence, Spans):
+        return ShownPresence("", presence.name, windows)
+    return ShownPresence(presence.track, presence.label(cyclogram.units), windows, presence.low, presence.high)
 
 
 def _spans(windows: Windows) -> list[list[float]]:
@@ -192,8 +192,8 @@ def solved(request: SolveRequest, context: Context) -> CyclogramSolution:
         shown_unit=solution.unit,
         factor=from_si(1.0, solution.unit),
         binding=tuple(
-            ShownBinding(one.label, one.kind, binding_cost(one, solution), one.share, one.cost)
-            for one in solution.binding
+            ShownBinding(binding.label, binding.kind, binding_cost(binding, solution), binding.share, binding.cost)
+            for binding in solution.binding
         ),
     )
 
@@ -203,7 +203,7 @@ def of_machine(request: MachineCyclogramRequest, context: Context) -> MachineCyc
     if not request.machine:
         return MachineCyclograms(tuple(timed()))
     cyclograms = cyclograms_of(request.machine, request.settings, context.progress.part(0.0, 1.0, "design"))
-    found = tuple(
+    named = tuple(
         NamedCyclogram(cyclogram.name, cyclogram_data(cyclogram), cyclogram_toml(cyclogram)) for cyclogram in cyclograms
     )
-    return MachineCyclograms(tuple(timed()), found)
+    return MachineCyclograms(tuple(timed()), named)

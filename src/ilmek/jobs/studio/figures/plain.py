@@ -87,10 +87,10 @@ def rounded_numbers(values: FloatArray) -> Numbers:
     decade = np.floor(np.log10(np.where(size > 0, size, 1.0)))
     shift = DIGITS - 1 - decade
     up, down = 10.0 ** np.maximum(shift, 0.0), 10.0 ** np.maximum(-shift, 0.0)
-    made: Numbers = (np.rint(flat * up / down) * down / up + 0.0).tolist()
+    rounded: Numbers = (np.rint(flat * up / down) * down / up + 0.0).tolist()
     for gap in np.flatnonzero(~finite).tolist():
-        made[gap] = None
-    return made
+        rounded[gap] = None
+    return rounded
 
 
 def interleaved(points: ComplexArray) -> Numbers:
@@ -103,11 +103,11 @@ def interleaved(points: ComplexArray) -> Numbers:
 
 
 def _plot(plot: Plot, looks: Mapping[str, int]) -> ShownPlot:
-    numbers = numbered([one.label for one in plot.series], looks)
+    numbers = numbered([series.label for series in plot.series], looks)
     curves = []
-    for one, look in zip(plot.series, numbers, strict=True):
-        x, y = thinned_curve(np.asarray(one.x, float), np.asarray(one.y, float))
-        curves.append(ShownCurve(one.label, look, one.dashed, rounded_numbers(x), rounded_numbers(y)))
+    for series, look in zip(plot.series, numbers, strict=True):
+        x, y = thinned_curve(np.asarray(series.x, float), np.asarray(series.y, float))
+        curves.append(ShownCurve(series.label, look, series.dashed, rounded_numbers(x), rounded_numbers(y)))
     return ShownPlot(ShownAxis(plot.x.label, plot.x.unit), ShownAxis(plot.y.label, plot.y.unit), curves, plot.marks)
 
 
@@ -115,8 +115,8 @@ def _coloured(strokes: Iterable[Stroke | MovingStroke], looks: Mapping[str, int]
     """The look of each stroke; -1 of those whose role has a colour of its own."""
     strokes = tuple(strokes)
     order = [index for role in COLOURED for index, stroke in enumerate(strokes) if stroke.role == role]
-    found = dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
-    return [found.get(index, -1) for index in range(len(strokes))]
+    look = dict(zip(order, numbered([strokes[index].label for index in order], looks), strict=True))
+    return [look.get(index, -1) for index in range(len(strokes))]
 
 
 def _drawing(drawing: Drawing, numbers: list[int]) -> ShownDrawing:
@@ -125,10 +125,8 @@ def _drawing(drawing: Drawing, numbers: list[int]) -> ShownDrawing:
     wide = max(np.ptp(everything.real), np.ptp(everything.imag), 1e-9) if len(everything) else 1.0
     scale = FINE / float(wide)
     strokes = [
-        ShownStroke(
-            interleaved(thinned_line(one.points * scale) / scale), one.role, one.label, one.closed, one.filled, look
-        )
-        for one, look in zip(drawing.strokes, numbers, strict=True)
+        alike(ShownStroke, stroke, points=interleaved(thinned_line(stroke.points * scale) / scale), look=look)
+        for stroke, look in zip(drawing.strokes, numbers, strict=True)
     ]
     dots = [ShownDot((dot.at.real, dot.at.imag), dot.label, dot.role) for dot in drawing.dots]
     return ShownDrawing(strokes, dots, drawing.unit)
@@ -138,14 +136,14 @@ class _Tracks:
     """Positions of points over the frames, each once."""
 
     def __init__(self) -> None:
-        self.found: list[Numbers] = []
+        self.positions: list[Numbers] = []
         self._known: dict[bytes, int] = {}
 
     def number(self, points: ComplexArray) -> int:
         key = np.ascontiguousarray(points).tobytes()
         if key not in self._known:
-            self._known[key] = len(self.found)
-            self.found.append(interleaved(points))
+            self._known[key] = len(self.positions)
+            self.positions.append(interleaved(points))
         return self._known[key]
 
 
@@ -158,7 +156,7 @@ def _animation(animation: Animation, looks: Mapping[str, int]) -> ShownAnimation
         still=_drawing(animation.still, numbers[:still]),
         drive=ShownAxis(animation.drive.label, animation.drive.unit),
         at=rounded_numbers(animation.at),
-        tracks=tracks.found,
+        tracks=tracks.positions,
         shapes=shapes,
         points=[
             MovingPoint(

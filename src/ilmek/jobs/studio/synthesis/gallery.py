@@ -72,27 +72,27 @@ def gallery(design: FourBarDesign) -> tuple[ShownFourBar, ...]:
 
 
 def _shown(number: int, option: FourBarOption, *, task_only: bool) -> ShownFourBar:
-    one, details = option.candidate, option.details
+    candidate, details = option.candidate, option.details
     active = details.get("active")
     return alike(
         ShownFourBar,
-        one,
+        candidate,
         number=number,
-        pins=pins(one.four_bar),
-        links=one.four_bar.lengths._asdict(),
-        class_name=one.grashof.kind,
-        branch=one.four_bar.branch,
-        positions=tuple(alike(ShownPosition, met) for met in one.positions),
-        transmission=one.transmission_over(task_only=task_only),
+        pins=pins(candidate.four_bar),
+        links=candidate.four_bar.lengths._asdict(),
+        class_name=candidate.grashof.kind,
+        branch=candidate.four_bar.branch,
+        positions=tuple(alike(ShownPosition, met) for met in candidate.positions),
+        transmission=candidate.transmission_over(task_only=task_only),
         merit=None if option.merit is None else _merit(option.merit),
-        error_max=_error_max(one, details),
+        error_max=_error_max(candidate, details),
         error_rms=finite(details.get("error_rms")),
         apart=option.apart,
         certified=option.certified or details.get("proven") is True,
         made=option.made,
         active=tuple(str(limit) for limit in active) if isinstance(active, list) else (),
-        motion=_motion(one),
-        curve=_whole_curve(one),
+        motion=_motion(candidate),
+        curve=_whole_curve(candidate),
     )
 
 
@@ -123,11 +123,12 @@ def _merit(merit: Merit) -> ShownMerit:
     return ShownMerit(merit.value, terms, factors, merit.point_shift, merit.angle_shift)
 
 
-def _motion(one: Candidate) -> ShownMotion:
+def _motion(candidate: Candidate) -> ShownMotion:
     """The turn of a crank that turns fully, or the motion from the first to the last position."""
-    closed = one.crank_turns or not one.one_branch
-    moved = one.motion(POSITIONS) if one.one_branch else _loop(one, turn * np.arange(POSITIONS) / POSITIONS)
-    tracer = moved.tracer if one.four_bar.tracer is not None else NO_POINTS
+    closed = candidate.crank_turns or not candidate.one_branch
+    angles = turn * np.arange(POSITIONS) / POSITIONS
+    moved = candidate.motion(POSITIONS) if candidate.one_branch else _loop(candidate, angles)
+    tracer = moved.tracer if candidate.four_bar.tracer is not None else NO_POINTS
     return ShownMotion(flat(moved.a), flat(moved.b), flat(tracer), closed)
 
 
@@ -154,28 +155,29 @@ def _loop(candidate: Candidate, u: FloatArray) -> LoopConfigurations:
 def flat(points: ComplexArray) -> list[float]:
     """Points as x, y, x, y, … [m], rounded to `DIGITS` decimals."""
     rows = np.stack([points.real, points.imag], axis=-1).round(DIGITS)
-    found: list[float] = rows.ravel().tolist()
-    return found
+    interleaved: list[float] = rows.ravel().tolist()
+    return interleaved
 
 
-def _generated(found: FunctionApproximation) -> GeneratedFunction:
-    curve = found.curve
+def _generated(approximation: FunctionApproximation) -> GeneratedFunction:
+    curve = approximation.curve
     rows = (curve.x, curve.required, curve.generated, curve.error)
     x, required, generated, error = (np.asarray(row).round(9).tolist() for row in rows)
-    return GeneratedFunction(x, required, generated, error, np.asarray(found.at).tolist(), float(found.drawn_at))
+    extremes = np.asarray(approximation.at).tolist()
+    return GeneratedFunction(x, required, generated, error, extremes, float(approximation.drawn_at))
 
 
 def reasons(choice: FourBarSelection) -> tuple[LeftOutReason, ...]:
     """The limits that four-bars miss, the most frequent first."""
     counts: Mapping[str, int] = choice.left_out
-    ordered = sorted(counts.items(), key=lambda one: -one[1])
+    ordered = sorted(counts.items(), key=lambda reason: -reason[1])
     return tuple(LeftOutReason(name, REASONS.get(name, name), count) for name, count in ordered)
 
 
 def left_out(choice: FourBarSelection) -> tuple[LeftOutFourBar, ...]:
     """The first four-bars that were left out, each with its reasons; those with the fewest reasons first."""
-    ordered = sorted(choice.removed, key=lambda one: len(one[1]))[:LISTED]
-    return tuple(LeftOutFourBar(pins(one.candidate.four_bar), one.made, dict(why)) for one, why in ordered)
+    ordered = sorted(choice.removed, key=lambda removed: len(removed[1]))[:LISTED]
+    return tuple(LeftOutFourBar(pins(removed.candidate.four_bar), removed.made, dict(why)) for removed, why in ordered)
 
 
 def loosened(cures: Sequence[str]) -> tuple[LoosenedLimit, ...]:
@@ -184,8 +186,8 @@ def loosened(cures: Sequence[str]) -> tuple[LoosenedLimit, ...]:
     >>> loosened(["size_max=210mm instead of 200 mm gives 3"])[0].value
     '210mm'
     """
-    found = [(words, _SETTING.match(words)) for words in cures]
-    return tuple(LoosenedLimit(words, *(known.groups() if known else ())) for words, known in found)
+    cures_read = [(words, _SETTING.match(words)) for words in cures]
+    return tuple(LoosenedLimit(words, *(known.groups() if known else ())) for words, known in cures_read)
 
 
 def pivot_curves(design: FourBarDesign) -> PivotCurves | None:
