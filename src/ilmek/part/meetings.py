@@ -166,6 +166,7 @@ class GuideSeat:
     slides: bool = False
 
 
+@lru_cache(maxsize=8)
 def slide_seats(tree: Tree) -> tuple[GuideSeat, ...]:
     """The faces on which made parts of different bodies slide on each other at rest, each once."""
     stands, seats = _made_once(tree), dict[tuple[str, ...], GuideSeat]()

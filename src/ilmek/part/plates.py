@@ -51,7 +51,7 @@ def of_tree(made: View, tree: object) -> View:
         return made
     own_part = made.part
     part, number = _parts(tree).get(own_part.id, (own_part, made.number))
-    made = replace(made, number=number)
+    made = replace(made, number=number, tree=tree)
     if part is own_part or own_part.drawing is not None:
         return made
     own = _plate(part, made.number, tree) if isinstance(made, Plate) else _piece(part, made.number, tree)
@@ -59,8 +59,8 @@ def of_tree(made: View, tree: object) -> View:
 
 
 _HOLED: dict[type, tuple[str, ...]] = {
-    Plate: ("outline", "holes", "cutouts", "area", "solid", "part", "tree"),
-    WorkPiece: ("shape", "volume", "part", "tree"),
+    Plate: ("outline", "holes", "cutouts", "area", "solid", "part"),
+    WorkPiece: ("shape", "volume", "part"),
 }
 """What a part with holes has otherwise."""
 

@@ -181,7 +181,7 @@ def _shims(design: SheddingDesign, index: int, radius: float, thickness: float, 
     kit = ", ".join(f"{size / mm:g}" for size in SHIMS if size <= thickness + 1e-9)
     note = Sentence("sheet.shims", kit=kit, most=in_mm(2 * thickness), step=in_mm(STEP))
     for pile in _discs(design, index, ("shims", "shims of the cams"), radius, thickness, x):
-        yield replace(pile, part=replace(pile.part, notes=(note,)))
+        yield replace(pile, part=replace(pile.part, notes=(note,), yarns=False))
 
 
 def _discs(  # noqa: PLR0917

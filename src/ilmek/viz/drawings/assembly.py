@@ -67,8 +67,8 @@ HEADER = tuple(
          "sheet.mass"),
     )
 )  # fmt: skip
-WIDTHS = {"A3": (9.0, 11.0, 52.0, 42.0, 52.0, 14.0)}
-WIDE = (10.0, 12.0, 73.0, 61.0, 58.0, 16.0)
+WIDTHS = {"A3": (9.0, 11.0, 50.0, 42.0, 51.0, 17.0)}
+WIDE = (10.0, 12.0, 71.0, 61.0, 58.0, 18.0)
 """Widths of the columns of the list [mm], on A3 and on larger papers."""
 
 VIEW_SIDES = {"front": ("left", "top"), "right": ("top", "right"), "below": ("left", "bottom", "right")}

@@ -8,7 +8,9 @@ from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from typing import cast
 
-from ilmek.part.shapes import Prism, Shape, Turned, shape_box
+import numpy as np
+
+from ilmek.part.shapes import Prism, Shape, Sum, Turned, shape_box
 from ilmek.part.specification import YARN_ROUGH
 from ilmek.part.tolerances import FeatureKind, FitDuty
 from ilmek.plane.contours import bounds
@@ -135,19 +137,21 @@ def _radii_sheet(part: DrawnPart, issue: Issue) -> DrawingSheet:
 def composed(part: DrawnPart, issue: Issue, project: Projector | None) -> DrawingSheet | None:
     """The sheet of a part; None: the kernel is needed for it, and missing."""
     project = None if project is None else lru_cache(maxsize=8)(project)  # the same at every scale
+    needed = _joined_extent(part.shape)
     drawn = cache(lambda scale: arranged(part, 1e3 / scale, project))  # the same on every paper
     for paper in PAPERS:
         for scale in SCALES:
             most = _CLEARED if paper not in _SMALL and _is_crowded(drawn) else MOST_ENLARGED
-            arrangement = drawn(scale) if _may_fit(part, paper, scale, most) else None
+            arrangement = drawn(scale) if _may_fit(part, needed, paper, scale, most) else None
             if arrangement is None:
                 continue
+            body = arrangement.views["front"].body
+            if scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0):
+                break  # it is smaller still at all further scales
             laid = _laid(arrangement, part, paper)
             if laid is None:
                 continue
-            body = arrangement.views["front"].body
-            small = scale > 1 and max(body[2] - body[0], body[3] - body[1]) < LEAST_SIZE.get(paper, 0.0)
-            if small or (arrangement.crowded and paper in _SMALL):
+            if arrangement.crowded and paper in _SMALL:
                 break
             return _sheet(part, issue, paper, scale, laid)
     if project is None and arranged(part, 1.0, None) is None:
@@ -161,15 +165,25 @@ def _is_crowded(drawn: Callable[[float], Arrangement | None]) -> bool:
     return arrangement is not None and arrangement.crowded
 
 
-def _may_fit(part: DrawnPart, paper: str, scale: float, most: float) -> bool:
-    """Whether a part's section could have room: a quick look, before anything is drawn.
+def _may_fit(part: DrawnPart, needed: complex, paper: str, scale: float, most: float) -> bool:
+    """Whether a part's views could have room: a quick look, before anything is drawn.
 
+    needed  least extent of all its views [m]
     most  extent on the paper if enlarged [mm]
     """
     size, (low_x, low_y, high_x, high_y) = _extent(part.shape) * 1e3 / scale, _area(paper)
     if scale < 1 and max(size.real, size.imag) > most:
         return False
+    size = max(size.real, needed.real * 1e3 / scale) + 1j * max(size.imag, needed.imag * 1e3 / scale)
     return size.real < high_x - low_x + _SPARE and size.imag < high_y - low_y + _SPARE
+
+
+def _joined_extent(shape: object) -> complex:
+    """Width and height that the views of a sum take at least [m], without the room between them; else 0."""
+    if not isinstance(shape, Sum) or coaxial(tuple(members_of(shape))) is not None:
+        return 0j
+    wide, tall, deep = np.ptp(shape_box(shape), axis=0).tolist()
+    return complex(wide + deep, tall + deep)
 
 
 def _extent(shape: object) -> complex:

@@ -48,6 +48,10 @@ def spread(positions: np.ndarray, least: float) -> np.ndarray:
     return np.asarray(level + least * np.arange(len(positions)))
 
 
+_ALONG = np.linspace(0.0, 1.0, 25)
+"""Shares of a leader at which it must be free."""
+
+
 @dataclass(frozen=True, eq=False)
 class TakenRoom:
     """What a text must keep off: boxes of others, and points of lines in the order of their x."""
@@ -69,7 +73,7 @@ class TakenRoom:
         fault += float(np.count_nonzero((heights > box[1] - 0.5) & (heights < box[3] + 0.5)))
         if tip != elbow and fault < least:
             shelf = complex(box[2] if elbow.real < box[2] else box[0], elbow.imag)
-            path = np.concatenate([np.linspace(tip, elbow, 25), np.linspace(elbow, shelf, 13)])[:, None]
+            path = np.concatenate([tip + (elbow - tip) * _ALONG, elbow + (shelf - elbow) * _ALONG[::2]])[:, None]
             beside = (path.real > low_x - 0.4) & (path.real < high_x + 0.4)
             inside = beside & (path.imag > low_y - 0.4) & (path.imag < high_y + 0.4)
             fault += 1000.0 * np.count_nonzero(inside.any(axis=0))

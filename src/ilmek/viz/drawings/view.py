@@ -363,7 +363,7 @@ class DrawnView:
         total = float(steps.sum())
         count = max(2, int(total / _STEP) + 1)
         if total > 0 and len(points) == 2:
-            self._samples.append(np.linspace(points[0], points[1], count))
+            self._samples.append(points[0] + (points[1] - points[0]) * (np.arange(count) / (count - 1)))
         elif total > 0:
             length = np.concatenate([[0.0], np.cumsum(steps)])
             marks = np.linspace(0.0, total, count)
