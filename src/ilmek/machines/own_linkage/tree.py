@@ -120,7 +120,9 @@ def _pin(built: Construction, stock: PartStock, axis: PinAxis) -> Iterator[Place
         lies = _on(axis, fixed, begin).after(placement(about=(1.0, 0.0, 0.0), angle=math.pi))
         ring = end - stud.ring.thickness
     else:
-        begin, seat, end = built.bottoms[fixed], built.bottoms[running[0]], built.end(axis, running[-1]) + PLAY
+        plated = any(line.body == fixed and built.riser(line)[1] for line in built.lines)
+        begin, seat = built.bottoms[fixed] + PLAY * plated, built.bottoms[running[0]]
+        end = built.end(axis, running[-1]) + PLAY
         lies, ring = _on(axis, fixed, begin), end
     yield PlacedPart(fixed, stock.pin(stud, abs(foot - begin), abs(seat - foot), abs(end - seat)), lies)
     yield PlacedPart(fixed, stock.ring(stud.ring), _on(axis, fixed, ring))
