@@ -13,7 +13,6 @@ from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import FLANGE_HOLES, STEPPER, Motor
 from ilmek.elements.parallel_keys import KeyedEnd
 from ilmek.elements.reducers import Reducer, flange_for
-from ilmek.elements.retaining_rings import RetainingRing
 from ilmek.elements.springs import CompressionSpring
 from ilmek.part.part import CLAMP, SET_SCREW, Bought, HolePattern, Part, Seat, bought_part
 from ilmek.part.placement import Placement, placement
@@ -317,12 +316,6 @@ def keys(name: str, title: str, end: KeyedEnd, *positions: Placement) -> Occurre
     part = Part(name, title, "fastener", shape=Sum((Placed(block, (middle,)),)), purchase=bought)
     turned = [placement(about=(0.0, 0.0, 1.0), angle=2 * math.pi * k / end.number) for k in range(end.number)]
     return Occurrence(part, tuple(position.after(one) for position in positions for one in turned))
-
-
-def retaining_ring(name: str, row: RetainingRing) -> Part:
-    """A retaining ring about z from z = 0, as it lies in its groove."""
-    shape = tube(row.outer, (row.outer - row.groove) / 2, row.thickness)
-    return bought_part(name, "retaining ring", "fastener", shape, Bought(row.designation, shape.volume * STEEL.density))
 
 
 def locked(name: str, title: str, row: Locknut, *, washer: bool = False) -> Part:

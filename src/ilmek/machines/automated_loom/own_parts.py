@@ -17,14 +17,13 @@ from ilmek.machines.automated_loom.brackets import brackets_of
 from ilmek.machines.automated_loom.cabinet import ControlNeeds
 from ilmek.machines.automated_loom.cyclogram import HEADS
 from ilmek.machines.automated_loom.design import LoomDesign
-from ilmek.machines.automated_loom.frame import BEYOND, CARRIED, ROOM, LoomFrame, member, part_id
+from ilmek.machines.automated_loom.frame import BEYOND, CARRIAGE, ROOM, LoomFrame, member, part_id
 from ilmek.machines.automated_loom.joints import seams, with_throats
 from ilmek.machines.automated_loom.on_rail import guide_parts, trough
 from ilmek.machines.automated_loom.rail_supports import (
     RailSupport,
     rail_brackets,
     rail_supports,
-    retreat_rooms,
 )
 from ilmek.machines.automated_loom.standing_frame import standing_frame
 from ilmek.machines.automated_loom.supports import post_depth, rail_middle, supports
@@ -83,9 +82,7 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     with its cargo and, where the n heads stand at the beginnings of their shares, (n + 1) / 2 of them.
     """
     row, held = loom.row_cyclogram, rail_supports(loom, frame)
-    heads, room, by_cranks = row.track(HEADS), RAIL_ROOM / 2, bool(loom.beat.crank_rockers)
-    up, down = retreat_rooms(frame.guide[0].side)  # of the rail's plates before the motors at one end
-    up, low = (max(up, room), heads.stroke + room) if by_cranks else (room, heads.stroke + down)
+    heads, room = row.track(HEADS), RAIL_ROOM / 2  # the axes carry the rail beyond both ends of its run
     mass = ((loom.heads + 1) * head_mass(loom.weaver) + mass_of_rail(loom, frame)) / 2
     moved = mass * (peak_acceleration(heads, row.period) - GRAVITY * RETREAT.imag)
     torque, turning = moved * PULLEY, peak_speed(heads, row.period) / PULLEY
@@ -96,14 +93,15 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     brake = catalogue.holding_brake(
         RETREAT_BRAKE, "brake of the rail's retreat", motor, -mass * GRAVITY * RETREAT.imag * PULLEY
     )
-    aside = max((catalogue.face_of(motor) - RAIL_AXIS) / 2 - CARRIED, 0.0)  # a large one keeps off the rail's run
-    if not by_cranks:
+    aside = _aside(catalogue.face_of(motor))
+    low = heads.stroke + room
+    if not loom.beat.crank_rockers:
         low = _before_posts(loom, frame, held[0], (motor, brake), low)
     axis = bought_part(
         part_id("retreat-axis"),
         "axis of the rail's retreat",
         "linear axis",
-        box(RAIL_AXIS, RAIL_AXIS, low + up),
+        box(RAIL_AXIS, RAIL_AXIS, low + room),
         Bought(
             "belt drive",
             length=heads.stroke,
@@ -111,14 +109,14 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
         ),
         size="belt drive, one at each support of the rail",
     )
-    slope, upper = -cmath.phase(RETREAT), placement(z=-up)
+    slope, upper = -cmath.phase(RETREAT), placement(z=-room)
     stations = [
         placement(x, own.axis.imag, own.axis.real, about=(1.0, 0.0, 0.0), angle=slope)
         for own in held
         for x in own.stations
     ]
     # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
-    flange = upper if by_cranks else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
+    flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     ends = zip(stations[: len(held[0].stations)], (placement(aside), placement(-aside)), strict=True)
     title, at_ends = "adapter of the rail's retreat", tuple(end.after(out).after(flange) for end, out in ends)
     adapters, flanges = catalogue.adapted(RETREAT_ADAPTER, title, motor, RAIL_AXIS, at_ends)
@@ -130,6 +128,11 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     return RigidBody(part_id("retreat"), parts)
 
 
+def _aside(face: float) -> float:
+    """From an axis of the retreat to that of a motor with a face [m]: a large one keeps off the rail's plate."""
+    return max((face - RAIL_AXIS) / 2 - CARRIAGE[2] + BEYOND, 0.0)
+
+
 def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, drive: tuple[Part, Part], low: float) -> float:
     """Lower end of the axes of the retreat [m], at least `low`: motors and brakes there lie before the posts beside."""
     face = catalogue.face_of(drive[0])
@@ -138,7 +141,7 @@ def _before_posts(loom: LoomDesign, frame: LoomFrame, held: RailSupport, drive: 
     aside, beat = -face / 2 * RETREAT.imag, supports(loom, frame).post.side / 2
     front = aside + (adapter - rear_end) * RETREAT.real
     posts = [(post_depth(loom, frame) - held.axis.real, beat)]
-    if max((face - RAIL_AXIS) / 2, face - RAIL_AXIS - CARRIED) > held.reach - ROOM:
+    if (face - RAIL_AXIS) / 2 + _aside(face) > held.reach - ROOM:
         posts.append((held.depth - held.axis.real, held.post.side / 2))
     for depth, half in sorted(posts):
         begin = low * RETREAT.real

@@ -297,12 +297,6 @@ def _plate_outline(side: float) -> ComplexArray:
     return hull(np.concatenate([carriage, rectangle(side, side).points + 0.5j * side] if side else [carriage]))
 
 
-def retreat_rooms(side: float) -> tuple[float, float]:
-    """Room of the plate at the end of a rail of a side along its axis, up and down from the middle of that [m]."""
-    along = (_plate_outline(side) / _UP_AND_FRONT).real
-    return BEYOND - float(along.min()), BEYOND + float(along.max())
-
-
 @lru_cache(maxsize=1)
 def _carriage() -> Part:
     """The carriage of an axis along x, on it at z = 0."""

@@ -41,6 +41,7 @@ from ilmek.part import catalogue, guides
 from ilmek.part.part import Part, Seat
 from ilmek.part.placement import placement
 from ilmek.part.profile import Profile, drilled
+from ilmek.part.ring_parts import retaining_ring
 from ilmek.part.shapes import Placed, Prism, Shape, Sum, Turned, rectangle, stepped, tube
 from ilmek.plane.contours import circle, keyed_bore, polygon
 from ilmek.report import Contour, Hole
@@ -89,7 +90,7 @@ class PartStock:
 
     def ring(self, row: RetainingRing) -> Part:
         """A retaining ring, as it lies in its groove."""
-        return self.part("ring", (row.shaft,), lambda name: catalogue.retaining_ring(name, row))
+        return self.part("ring", (row.shaft,), lambda name: retaining_ring(name, row))
 
     def bearing(self, row: RollingBearing) -> Part:
         """A rolling bearing."""

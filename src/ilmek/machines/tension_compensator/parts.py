@@ -24,6 +24,7 @@ from ilmek.part import catalogue
 from ilmek.part.part import Part
 from ilmek.part.placement import IDENTITY, Placement, placement
 from ilmek.part.profile import Profile, drilled
+from ilmek.part.ring_parts import retaining_ring
 from ilmek.part.shapes import Prism, Shape, bar, square_tube, stepped, tube
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
 from ilmek.plane.contours import circle, polygon, rounded_hull, strip
@@ -87,7 +88,7 @@ def parts_of(params: TensionCompensatorParams, sprung: SprungLever, members: Mem
             stepped(*reversed(ring.steps), (members.spring_pin, supports.springs_wide), *ring.steps),
             TOUGH,
         ),
-        spring_ring=catalogue.retaining_ring(part_id("spring-ring"), ring),
+        spring_ring=retaining_ring(part_id("spring-ring"), ring),
         struts=strut_parts(supports),
         beam=_made("beam", "beam of the compensator", "welded frame", _beam(params, members)),
         pivot_lug=_made("pivot-lug", "lug of a pivot", CUT, _lug(pin, supports.clear, thick)),
