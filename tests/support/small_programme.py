@@ -13,6 +13,7 @@ from ilmek.loom.operations import LoomSetup, OperationTimes, RowOperations
 from ilmek.loom.programme import Programme, make_programme
 from ilmek.loom.times import Times
 from ilmek.loom.tube_plan import YarnSupply
+from ilmek.timing.cyclogram import Cyclogram
 
 TIMES = OperationTimes(2.0, 0.47, 0.016, (18.0, 30.0, 51.0, 62.0, 69.8), 60.0)
 
@@ -28,6 +29,7 @@ def small_programme(
     tubes: int | None = None,
     package: float = 1000.0,
     loom_times: OperationTimes = TIMES,
+    cyclograms: tuple[Cyclogram, ...] = (),
 ) -> CompiledProgramme:
     """A carpet of patches of random colours, with changes of the bobbins of weft.
 
@@ -61,6 +63,7 @@ def small_programme(
         packages=programme.tubes.packages,
         knot_yarn=supply.knot_yarn,
         wefts=wefts,
+        cyclograms=cyclograms,
     )
     return CompiledProgramme(setup, programme)
 

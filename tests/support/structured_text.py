@@ -664,6 +664,8 @@ class Machine:
             return self.call(unit.name, *([by_name[name] for name in inputs] if by_name else values))
         block = self._value(instance, target)
         inputs_given = {name: self._value(instance, one) for name, sign, one in arguments if sign == ":="}
+        shared = {one.name for one in block.unit.variables if one.section == "VAR_IN_OUT"}
+        block.values.update({name: inputs_given.pop(name) for name in shared})  # not copied
         self.run(block, **inputs_given)
         for name, sign, one in arguments:
             if sign == "=>":

@@ -19,6 +19,7 @@ _KINDS = {"FUNCTION": "function", "FUNCTION_BLOCK": "functionBlock", "PROGRAM": 
 _SECTIONS = {
     "VAR_INPUT": ("inputVars", {}),
     "VAR_OUTPUT": ("outputVars", {}),
+    "VAR_IN_OUT": ("inOutVars", {}),
     "VAR": ("localVars", {}),
     "VAR RETAIN": ("localVars", {"retain": "true"}),
 }

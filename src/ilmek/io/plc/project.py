@@ -6,6 +6,8 @@ from itertools import pairwise
 from ilmek.errors import LoomError
 from ilmek.io.plc.cam_function import cam_tables, cam_units
 from ilmek.io.plc.interlock_logic import interlock_unit
+from ilmek.io.plc.motion_blocks import axis_structure
+from ilmek.io.plc.row_drive import drive_units
 from ilmek.io.plc.sequence_logic import sequence_units
 from ilmek.io.plc.sequence_variables import PlcSize, ScanLimits, structures
 from ilmek.io.plc.state_model import state_units
@@ -38,13 +40,16 @@ def plc_project(programme: LoomProgramme, cycle: float = CYCLE) -> PlcProject:
     if setup.columns > MOST_COLUMNS:
         raise LoomError(f"a row of {setup.columns} knots", allowed=f"at most {MOST_COLUMNS} for a PLC")
     size = size_of(programme, cycle)
+    drives = drive_units(setup, cycle)
+    records = (*structures(size), *([axis_structure()] if drives else []))
     units = (
         *state_units(),
         *cam_units(cam_tables(setup.cyclograms)),
+        *drives,
         interlock_unit(setup.heads, usual_limits(setup.warp_pitch)),
         *sequence_units(size),
     )
-    return PlcProject("loom", structures(size), units, cycle, _remarks(setup, programme.digest))
+    return PlcProject("loom", records, units, cycle, _remarks(setup, programme.digest))
 
 
 def size_of(programme: LoomProgramme, cycle: float = CYCLE) -> PlcSize:
