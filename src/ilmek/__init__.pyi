@@ -1,4 +1,12 @@
+from ilmek import cams as cams
+from ilmek import carpet as carpet
+from ilmek import dynamics as dynamics
+from ilmek import linkage as linkage
+from ilmek import loom as loom
+from ilmek import synthesis as synthesis
+from ilmek import timing as timing
 from ilmek import units as units
+from ilmek import weaving as weaving
 from ilmek.api.cams import cam_programme as cam_programme
 from ilmek.api.cams import dwell as dwell
 from ilmek.api.cams import fall as fall
@@ -19,6 +27,10 @@ from ilmek.api.four_bars import crank_rocker as crank_rocker
 from ilmek.api.four_bars import function_four_bars as function_four_bars
 from ilmek.api.four_bars import motion_four_bars as motion_four_bars
 from ilmek.api.four_bars import path_four_bars as path_four_bars
+from ilmek.api.judgements import judged as judged
+from ilmek.api.knots import call as call
+from ilmek.api.knots import cyclogram as cyclogram
+from ilmek.api.knots import knot as knot
 from ilmek.api.machine_runs import run_machine as run_machine
 from ilmek.api.masses import bar as bar
 from ilmek.api.masses import bar_mass as bar_mass
@@ -31,6 +43,13 @@ from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
+from ilmek.api.programmes import check as check
+from ilmek.api.programmes import convert as convert
+from ilmek.api.programmes import inspect as inspect
+from ilmek.api.programmes import plan as plan
+from ilmek.api.programmes import plc as plc
+from ilmek.api.programmes import run_loom as run_loom
+from ilmek.api.programmes import simulate_loom as simulate_loom
 from ilmek.api.studies import study as study
 from ilmek.api.tufted import compare as compare
 from ilmek.api.tufted import tuft as tuft

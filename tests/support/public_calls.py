@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from small_programme import small_programme
 
 import ilmek
 from ilmek.carpet.quality import parse_quality
@@ -18,8 +19,10 @@ from ilmek.carpet.sizes import parse_size
 from ilmek.carpet.yarn import Yarn
 from ilmek.dynamics.joint_friction import PinFriction
 from ilmek.dynamics.own_machine import NamedLoad
+from ilmek.io.programme_file import write_programme
 
 ROOT = Path(__file__).parents[2]
+ORDERS, LOOMS = ROOT / "examples" / "orders.toml", ROOT / "examples" / "looms.toml"
 MEDALLION, JANSEN = ROOT / "examples" / "medallion.png", ROOT / "examples" / "jansen_leg.toml"
 
 
@@ -103,6 +106,8 @@ class Call:
     long: bool = False
 
 
+NAMESPACES = ("cams", "carpet", "dynamics", "linkage", "loom", "synthesis", "timing", "weaving")
+
 BUILT = {
     "Motion": "built by solve; its methods are called below",
     "Forces": "built by inverse_dynamics; its methods are called below",
@@ -112,6 +117,7 @@ BUILT = {
     "Cancelled": "an exception without arguments of its own",
     "IlmekError": "an exception of texts",
     "Load": "a protocol",
+    **dict.fromkeys(NAMESPACES, "a package of public names"),
 }
 """Public names that nobody calls with values of his own, and why."""
 
@@ -191,6 +197,25 @@ WRONG_KNOTS = (
     "x",
 )
 PAIR = (("a",), "ab", ("a", 1), 3)
+
+
+@cache
+def programme_file() -> Path:
+    """A programme of a small carpet."""
+    path = Path(tempfile.mkdtemp()) / "programme.ilmek"
+    write_programme(path, small_programme())
+    return path
+
+
+def of_programme(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The function with the file in the place of the word."""
+    return lambda file, *more, **named: function(programme_file() if file == "programme" else file, *more, **named)
+
+
+PROGRAMME = Other("programme", wrong=("no.ilmek", ".", str(JANSEN), "a\0b", "", 3))
+NO_SETTINGS = ({"x": 1}, {1: 1}, 3)
+NO_LOCKED = ({"rocker": 1.0}, {"crank": 1.0}, {1: 1.0}, 3)
+TURKISH = PointsOf(tuple(0.001 * point for point in (1 + 3j, 1 - 2j, -1 - 2j, -1 + 2j, 3 + 2j, 3 - 2j, 1 - 2j, 1 + 3j)))
 
 
 @cache
@@ -523,6 +548,93 @@ CALLS: dict[str, Call] = {
             within=Other(0.5, True, ("x", "1kg", -1.0, np.nan)),
             progress=Other(ilmek.Progress()),
         ),
+        long=True,
+    ),
+    "judged": Call(
+        ilmek.judged,
+        (Other(four_bar()),),
+        dict(by=Other("crank", True, ("rocker", "", 3)), locked=Other({}, wrong=NO_LOCKED)),
+    ),
+    "Motion.plot": Call(
+        lambda name, over: motion().plot(name, over=over), (Named("rocker angle"), Other("crank", True, ("x", "", 3)))
+    ),
+    "Motion.save": Call(
+        lambda name: motion().save(new_path(name)), (Other("a.csv", wrong=("a.txt", "a", "a/b.csv", "")),)
+    ),
+    "Report.number": Call(lambda name: report().number(name), (Named("prime_radius"),)),
+    "Report.figure": Call(lambda name: report().figure(name), (Named("cam"),)),
+    "knot": Call(
+        ilmek.knot,
+        (TURKISH,),
+        dict(
+            pitch=length(0.002),
+            warps=Count(12),
+            first=PointOf(0j),
+            keep_out=Quantity(0.0, "m", 0.0),
+            smooth=Other(False, wrong=("no", 2)),
+            closed=Other(False, wrong=("no", 2)),
+        ),
+        long=True,
+    ),
+    "cyclogram": Call(
+        ilmek.cyclogram,
+        (Named("weaver"),),
+        dict(
+            settings=Other({}, wrong=NO_SETTINGS),
+            goal=Other(None, True, ("x", 3)),
+            progress=Other(ilmek.Progress()),
+        ),
+        long=True,
+    ),
+    "call": Call(ilmek.call, (Other(chart()), Count(1)), dict(by=Named("runs"), direction=Named("right"))),
+    "check": Call(
+        of_programme(ilmek.check),
+        (PROGRAMME,),
+        dict(loom=Other(None, True, ("no.json", 3)), progress=Other(ilmek.Progress())),
+        long=True,
+    ),
+    "inspect": Call(
+        of_programme(ilmek.inspect),
+        (PROGRAMME,),
+        dict(row=Other(1, True, ("x", 0, 99, 1.5)), progress=Other(ilmek.Progress())),
+        long=True,
+    ),
+    "convert": Call(
+        lambda file, name, **more: of_programme(ilmek.convert)(file, new_path(name), **more),
+        (PROGRAMME, Other("a.txt", wrong=("a.png", "a/b.txt", ""))),
+        dict(force=Other(False, wrong=("no", 3)), progress=Other(ilmek.Progress())),
+        long=True,
+    ),
+    "simulate_loom": Call(
+        of_programme(ilmek.simulate_loom),
+        (PROGRAMME,),
+        dict(
+            settings=Other({}, wrong=NO_SETTINGS),
+            seed=Count(3),
+            seeds=Count(0),
+            deadline=Other(None, True, ("x", 3)),
+            progress=Other(ilmek.Progress()),
+        ),
+        long=True,
+    ),
+    "run_loom": Call(
+        lambda file, **more: of_programme(ilmek.run_loom)(file, journal=new_path("journal"), **more),
+        (PROGRAMME,),
+        dict(
+            new=Other(False, wrong=("no", 3)), faults=Other(7, True, ("x", -1, 1.5)), rates=Other({}, wrong=NO_SETTINGS)
+        ),
+        long=True,
+    ),
+    "plc": Call(
+        lambda file, out, **more: of_programme(ilmek.plc)(file, new_path(out), **more),
+        (PROGRAMME, Other("new", wrong=("a\0b", 3))),
+        dict(target=Named("openplc"), force=Other(False, wrong=("no", 3)), progress=Other(ilmek.Progress())),
+        long=True,
+    ),
+    "plan": Call(
+        ilmek.plan,
+        (Other(ORDERS, wrong=("no.toml", 3, str(JANSEN))), Other(LOOMS, wrong=("no.toml", 3, str(JANSEN)))),
+        dict(time_limit=Quantity(1.0, "s"), progress=Other(ilmek.Progress())),
         long=True,
     ),
     "list_machines": Call(ilmek.list_machines),

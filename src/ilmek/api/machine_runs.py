@@ -22,6 +22,7 @@ from ilmek.linkage.model import Mechanism
 from ilmek.linkage.motion import Motion
 from ilmek.records import record
 from ilmek.report import Report
+from ilmek.report.framed import Framed
 
 Runnable = OwnMachine | MechanismFile | Mechanism | str | Path
 """A machine, a mechanism, or the file of one."""
@@ -31,7 +32,7 @@ MOST_STEPS = 10**7
 
 
 @record
-class MachineRun:
+class MachineRun(Framed):
     """An own machine in motion: what `ilmek mechanism` reports of it.
 
     analysis  motion, forces, strength, servo, study and forward run, as far as the machine states them
@@ -52,7 +53,6 @@ class MachineRun:
         forces = self.analysis.run.forces
         return None if forces is None else forces.forces
 
-    @property
     def table(self) -> dict[str, FloatArray]:
         """All columns of `--csv` by heading, SI and radians."""
         return columns(self.analysis)

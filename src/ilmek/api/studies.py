@@ -42,8 +42,8 @@ def study(
     sampling  sobol, latin, grid                             samples  number of designs; default: by the method
     file      results file (SQLite); designs that it has are not computed again; default: none is kept
     workers   processes                                      cluster  address of a Dask scheduler
-    The results are arrays: `values(name)`, `columns()`, `rows.feasible`, `front`. Raises ParameterError for words that
-    cannot be read, and for a file of another study; errors of the target; OutputError; Cancelled.
+    The results are arrays: `values(name)`, `table()`, `frame()`, `rows.feasible`, `front`. Raises ParameterError for
+    words that cannot be read, and for a file of another study; errors of the target; OutputError; Cancelled.
 
     >>> found = study("beat-up", {"swing": "25deg..35deg"}, goals=["drive_torque_max"], samples=4)
     >>> len(found.values("swing")), bool(found.rows.feasible.any())

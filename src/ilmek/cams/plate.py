@@ -17,11 +17,12 @@ from ilmek.cams.programme import CamProgramme, FollowerMotion
 from ilmek.cams.trace import CamCurves, CamTrace, trace_of_point
 from ilmek.errors import ParameterError
 from ilmek.records import value_record
+from ilmek.report.shown import Shown
 from ilmek.units import format_quantity
 
 
 @value_record
-class PlateCam(CamCurves):
+class PlateCam(CamCurves, Shown):
     """A plate cam with a translating roller or knife-edge follower; lengths in m, frame and signs as in `profile`.
 
     prime_radius   distance of the roller's centre from the axis where the displacement is 0

@@ -25,6 +25,7 @@ from ilmek.arrays import FloatArray
 from ilmek.cams.segments import CamSegment, OpenSegment, blend, bounds, dwell, even, fall, free, rise
 from ilmek.errors import ParameterError
 from ilmek.records import value_record
+from ilmek.report.shown import Shown
 from ilmek.units import deg, format_quantity
 
 __all__ = [
@@ -87,7 +88,7 @@ class Jump:
 
 
 @value_record
-class CamProgramme:
+class CamProgramme(Shown):
     """Segments that fill one turn and return to the initial displacement.
 
     start     cam angle [rad] where the first segment begins

@@ -40,6 +40,7 @@ from ilmek.elements.knot_kinds import parse_knot
 from ilmek.errors import CarpetError, PictureError
 from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
+from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
 from ilmek.units import counted
 
@@ -87,7 +88,7 @@ class ChartReading:
 
 
 @record
-class Chart:
+class Chart(Shown):
     """A knot chart; what is given is checked, and converted where nothing is lost.
 
     knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture. Any integers,

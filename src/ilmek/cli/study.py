@@ -89,7 +89,7 @@ def command(
         found = study(order, out, replace=not resume, workers=workers, cluster=cluster, progress=call.progress)
         report = study_report(found)
         call.give_page("--report", report)
-        call.give("--csv", lambda: csv_text(found.columns(), call.progress.part(0.0, 1.0, "table")))
+        call.give("--csv", lambda: csv_text(found.table(), call.progress.part(0.0, 1.0, "table")))
         call.give_json(report.as_json)
     if call.quiet:
         note_verdict(report.all_checks)

@@ -11,9 +11,11 @@ from ilmek.arguments import Arguments
 from ilmek.dynamics.events import EventRecord
 from ilmek.dynamics.reduced import ReducedMechanism, Samples
 from ilmek.errors import MechanismError
+from ilmek.linkage.model import Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.solve import solve
 from ilmek.records import record
+from ilmek.report.framed import Framed
 from ilmek.units import turn
 
 Drive: TypeAlias = Callable[[float, float, float], float]
@@ -63,7 +65,7 @@ class RunEnd:
 
 
 @record
-class ForwardRun:
+class ForwardRun(Framed):
     """A forward run, one value per sample; the last sample is the end.
 
     time                           [s]
@@ -94,6 +96,22 @@ class ForwardRun:
     end: RunEnd
     events: tuple[EventRecord[ForwardState], ...]
     table_error: float | None
+
+    def table(self) -> dict[str, Samples]:
+        """Columns by heading: time, motion of the input, effort, energies and work; SI and radians."""
+        turning = isinstance(self.reduced.plan.mechanism.inputs[0], Rotation)
+        unit, effort = ("rad", "N*m") if turning else ("m", "N")
+        return {
+            "time [s]": self.time,
+            f"position [{unit}]": self.position,
+            f"speed [{unit}/s]": self.speed,
+            f"acceleration [{unit}/s^2]": self.acceleration,
+            f"effort [{effort}]": self.effort,
+            "kinetic energy [J]": self.kinetic,
+            "potential energy [J]": self.potential,
+            "work of the drive [J]": self.drive_work,
+            "work of the loads [J]": self.load_work,
+        }
 
     @property
     def energy_residual(self) -> Samples:

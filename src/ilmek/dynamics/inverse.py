@@ -28,6 +28,7 @@ from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.status import Status
 from ilmek.plane.vectors import cross, dot
 from ilmek.records import record
+from ilmek.report.framed import Framed
 from ilmek.units import counted, format_quantity
 
 _GIVEN = Arguments("", MechanismError)
@@ -43,7 +44,7 @@ class WholeForce(NamedTuple):
 
 
 @record
-class Forces:
+class Forces(Framed):
     """Forces over a motion, one value per sample; NaN where the motion does not close or is at a dead centre.
 
     motion        the given motion
@@ -124,6 +125,20 @@ class Forces:
         Along the line of action, at the pressure angle; NaN for a belt. Raises MechanismError for an unknown coupling.
         """
         return self.reactions[_GIVEN.one_of("coupling", coupling, (mesh.name for mesh in self.mechanism.couplings))]
+
+    def table(self) -> dict[str, FloatArray]:
+        """Columns by heading: the inputs, force and couple of each joint, effort of each drive; SI and radians."""
+        table: dict[str, FloatArray] = {}
+        for entry in self.mechanism.inputs:
+            heading = f"{entry.name} [{'rad' if isinstance(entry, Rotation) else 'm'}]"
+            table[heading] = np.broadcast_to(self.motion.drives[entry.name].value, self.status.shape)
+        for name, force in self.reactions.items():
+            table[f"{name} Fx [N]"], table[f"{name} Fy [N]"] = force.real, force.imag
+            if name in self.couples:
+                table[f"{name} couple [N*m]"] = self.couples[name]
+        for name, effort in self.efforts.items():
+            table[f"{name} drive {'torque [N*m]' if self.turning(name) else 'force [N]'}"] = effort
+        return table
 
     def effort(self, entry: str) -> FloatArray:
         """Torque [N m] or force [N] on the driven body, one value per sample.

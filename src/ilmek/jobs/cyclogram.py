@@ -23,7 +23,7 @@ GOALS = {"acceleration": least_acceleration, "period": least_period}
 """Goals that a cyclogram can be solved for."""
 
 
-def find(name: str, settings: Mapping[str, str]) -> Cyclogram:
+def find(name: str, settings: Mapping[str, Setting]) -> Cyclogram:
     """The cyclogram of a file or of a machine of the catalogue, given as MACHINE or MACHINE:CYCLOGRAM.
 
     settings  parameters of the machine by name, with units

@@ -26,6 +26,7 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject
 from ilmek.report import NEAREST, Check, Json, Report, declared_results, must, verdict_json
 from ilmek.report.left_out import made_or_left_out
+from ilmek.report.shown import Shown
 from ilmek.units import counted, format_quantity, hour
 from ilmek.viz.carpet_page import CarpetPage, carpet_page
 from ilmek.viz.carpet_picture import DrawnCarpet
@@ -34,7 +35,7 @@ from ilmek.viz.page_parts import Fact, FileNote
 
 
 @dataclass(frozen=True, slots=True)
-class WeaveResult:
+class WeaveResult(Shown):
     """Results of the job, and the folder of its files.
 
     written   names of the files in the folder; there is no programme where the loom cannot weave the carpet

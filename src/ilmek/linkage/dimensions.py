@@ -5,6 +5,7 @@ a point moved by d in its body's frame is a body shifted by d. So the derivative
 derivative by a pose, and needs no formula of its own. [derived here; see `sensitivity`]
 """
 
+from cmath import phase
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
@@ -113,6 +114,29 @@ def dimensions(mechanism: Mechanism) -> tuple[Dimension, ...]:
     ]
     slides = [joint.name for joint in mechanism.joints if isinstance(joint, Slide)]
     return (*coordinates, *(kind(slide) for slide in slides for kind in (LineDirection, FixedAngle)))
+
+
+def link_dimensions(mechanism: Mechanism) -> tuple[Dimension, ...]:
+    """The dimensions as on a drawing, none of which only moves a body's frame.
+
+    Of each body the distance of its second point from its first, the datum, and of every further point the coordinates
+    along that line and across it; of each slide its direction and its fixed angle.
+
+    >>> from ilmek.linkage.fourbar import four_bar
+    >>> [(entry.body, entry.point) for entry in link_dimensions(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))]
+    [('ground', 'B0'), ('crank', 'A'), ('coupler', 'B'), ('rocker', 'B')]
+    """
+    lengths: list[Dimension] = []
+    joints = {joint.name for joint in mechanism.joints}
+    for body in mechanism.bodies:
+        names = sorted(body.points, key=lambda name: name not in joints)  # joints first, in the body's order
+        others = [name for name in names if body.points[name] != body.points[names[0]]]
+        if others:
+            along = phase(body.points[others[0]] - body.points[names[0]])
+            lengths.append(BodyPoint(body.name, others[0], along))
+            lengths += [BodyPoint(body.name, name, along + turn) for name in others[1:] for turn in (0.0, QUARTER)]
+    slides = [joint.name for joint in mechanism.joints if isinstance(joint, Slide)]
+    return (*lengths, *(kind(slide) for slide in slides for kind in (LineDirection, FixedAngle)))
 
 
 QUARTER = 1.5707963267948966

@@ -93,6 +93,32 @@ def slider_crank(
     )
 
 
+def link_lengths(mechanism: Mechanism) -> dict[str, float] | None:
+    """Lengths [m] of a four-bar by link: ground, crank (turned by the input), coupler, rocker; None of any other.
+
+    >>> link_lengths(four_bar(0.300, 0.060, 0.200, 0.230, branch=+1))
+    {'ground': 0.3, 'crank': 0.06, 'coupler': 0.2, 'rocker': 0.23}
+    """
+    pins = [joint for joint in mechanism.joints if isinstance(joint, Pin)]
+    if not len(mechanism.bodies) == len(mechanism.joints) == len(pins) == 4 or len(mechanism.inputs) != 1:
+        return None
+    loop, joint = [GROUND], mechanism.inputs[0].joint
+    first = joint
+    lengths: dict[str, float] = {}
+    for link in ("crank", "coupler", "rocker", "ground"):
+        pin = mechanism.joint(joint)
+        if loop[-1] not in pin.bodies:
+            return None
+        (body,) = (name for name in pin.bodies if name != loop[-1])
+        following = [other.name for other in pins if body in other.bodies and other.name != joint]
+        if len(following) != 1 or (body in loop and link != "ground"):
+            return None
+        lengths[link] = abs(mechanism.point(body, following[0]) - mechanism.point(body, joint))
+        loop.append(body)
+        joint = following[0]
+    return {link: lengths[link] for link in ("ground", "crank", "coupler", "rocker")} if joint == first else None
+
+
 def lengths(mechanism: str, **named: float) -> None:
     """Raise MechanismError unless every length is finite and above zero."""
     for name, length in named.items():

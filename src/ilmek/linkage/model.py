@@ -22,6 +22,7 @@ from ilmek.errors import MechanismError, did_you_mean
 from ilmek.linkage.joints import GROUND, Body, Displacement, Pin, Rotation, Slide, about, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.records import brief, shown_value
+from ilmek.report.shown import Shown
 from ilmek.units import deg
 
 __all__ = [
@@ -172,7 +173,7 @@ Named = TypeVar("Named", Body, Pin | Slide)
 
 
 @dataclass(frozen=True, slots=True)
-class Mechanism:
+class Mechanism(Shown):
     """Bodies, joints, inputs, and the assembly branch of each group.
 
     branches  free pin's (or slide's) name -> +1 or -1. A group of two links between known pins has two branches; see

@@ -1,8 +1,6 @@
 """The result of `solve`: the motion of every body at each sample, and the status of the sample."""
 
 from collections.abc import Mapping
-from contextlib import suppress
-from importlib import import_module
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -19,6 +17,7 @@ from ilmek.linkage.model import GROUND, Mechanism, Pin, Rotation
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
 from ilmek.records import record
+from ilmek.report.framed import Framed
 from ilmek.units import turn
 
 __all__ = ["Motion", "Status"]
@@ -28,7 +27,7 @@ Points: TypeAlias = Complex[np.ndarray, " samples"]
 
 
 @record
-class Motion:
+class Motion(Framed):
     """The motion of a mechanism over a batch of samples.
 
     Only directions and rates are kept; points and origins are computed on request. Every result is an array over the
@@ -165,13 +164,6 @@ class Motion:
                 columns[f"{body}.{point} {rate}x [{unit}]"] = np.real(vector)
                 columns[f"{body}.{point} {rate}y [{unit}]"] = np.imag(vector)
         return columns
-
-    def frame(self) -> Any:
-        """`table` as a DataFrame of pandas or polars, whichever is installed. Raises MechanismError without either."""
-        for library in ("pandas", "polars"):
-            with suppress(ImportError):
-                return import_module(library).DataFrame(self.table())
-        raise MechanismError("a DataFrame needs pandas or polars", do="install one, or use Motion.table()")
 
     def require(self) -> "Motion":
         """The motion itself, if every sample is solved.

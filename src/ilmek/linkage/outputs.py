@@ -13,13 +13,14 @@ methods apply.
 array([ 0. , -0.1])
 """
 
+import math
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from ilmek.arrays import Float
-from ilmek.errors import MechanismError
+from ilmek.errors import MechanismError, did_you_mean
 from ilmek.linkage.displacements import at_origins, contracted
 from ilmek.linkage.equations import Equation, Row, displacement_equation
 from ilmek.linkage.groups.group import InputMotion, Known
@@ -99,6 +100,33 @@ class Travel:
         if not isinstance(joint, Slide):
             raise MechanismError(f"{self.slide!r} is not a slide", allowed="a travel is that of a slide")
         return displacement_equation(mechanism, joint, InputMotion(0.0, 0.0, 0.0), bodies)
+
+
+AXES = {"x": 0.0, "y": math.pi / 2}
+"""Directions of the coordinates of a point [rad]."""
+
+
+def output_named(mechanism: Mechanism, name: str) -> Output:
+    """The output of a name: "rocker" the angle of a body, "coupler.P.x" a coordinate of a point, "S" a slide's travel.
+
+    Raises MechanismError, with the nearest, for a name of none.
+
+    >>> from ilmek.linkage.fourbar import slider_crank
+    >>> press = slider_crank(0.1, 0.3, branch=+1)
+    >>> [type(output_named(press, name)).__name__ for name in ("rod", "rod.B.y", "line")]
+    ['RelativeAngle', 'Coordinate', 'Travel']
+    """
+    named: dict[str, Output] = {
+        joint.name: Travel(joint.name) for joint in mechanism.joints if isinstance(joint, Slide)
+    }
+    named |= {body: RelativeAngle(body) for body in mechanism.moving}
+    for body in mechanism.moving:
+        for point in mechanism.body(body).points:
+            named |= {f"{body}.{point}.{axis}": Coordinate(body, point, along) for axis, along in AXES.items()}
+    if name not in named:
+        hint = did_you_mean(name, named, otherwise=f"one of {', '.join(list(named)[:12])}, ...")
+        raise MechanismError(f"{mechanism.name} has no output {name!r}", do=hint)
+    return named[name]
 
 
 @record

@@ -12,6 +12,7 @@ from ilmek.report.choice import Choice
 from ilmek.report.figure import Figure
 from ilmek.report.json import Json, plain
 from ilmek.report.results import Result
+from ilmek.report.shown import Shown
 from ilmek.report.table import Table
 from ilmek.report.verdict import reasons, verdict_json
 from ilmek.report.workshop import CamTable, Plate, WorkPiece
@@ -32,7 +33,7 @@ class UnknownResult(ParameterError, KeyError):
 
 
 @record
-class Report:
+class Report(Shown):
     """What a design reports; `children` are the reports of the machines in it.
 
     `results`, `checks`, `warnings`, `plates` and `cam_tables` are its own; those of the whole tree carry the name of
@@ -157,6 +158,30 @@ class Report:
                 return result.value
         hint = did_you_mean(name, self.names(), otherwise="its names() lists them")
         raise UnknownResult(f"{self.machine} has no result {name!r}", do=hint)
+
+    def number(self, name: str) -> float:
+        """The value of a result [SI], as `report[name]`. Raises UnknownResult for one that is no number."""
+        value = self[name]
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            raise UnknownResult(
+                f"{name} of {self.machine} is {shown_value(value)}", allowed="a result that is a number"
+            )
+        return float(value)
+
+    def figure(self, name: str) -> Figure:
+        """A figure by its name, of a machine in it by a dotted name; a notebook shows it, `save` writes it.
+
+        Raises UnknownResult, naming the nearest, for any other.
+        """
+        drawn = dict(self._figures())
+        if not isinstance(name, str) or name not in drawn:
+            hint = did_you_mean(str(name), drawn, otherwise=f"it has {', '.join(drawn)}" if drawn else "")
+            raise UnknownResult(f"{self.machine} has no figure {shown_value(name)}", do=hint)
+        return drawn[name]
+
+    def _figures(self) -> Iterator[tuple[str, Figure]]:
+        yield from ((drawn.name, drawn) for drawn in self.figures)
+        yield from ((f"{child.key}.{name}", drawn) for child in self.children for name, drawn in child._figures())
 
     def names(self) -> Iterator[str]:
         """The names of all results, dotted for the machines in it."""

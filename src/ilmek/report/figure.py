@@ -5,6 +5,7 @@ from typing import TypeAlias
 
 from ilmek.arrays import ComplexArray, FloatArray, IntArray
 from ilmek.records import record
+from ilmek.report.shown import Shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,7 +35,7 @@ class Mark:
 
 
 @record
-class Plot:
+class Plot(Shown):
     """Curves over one axis; plots, animations and cyclograms over a quantity of the same label share a cursor."""
 
     name: str
@@ -71,7 +72,7 @@ class Dot:
 
 
 @record
-class Drawing:
+class Drawing(Shown):
     """A drawing to scale: strokes and dots [m], shown in `unit`."""
 
     name: str
@@ -120,7 +121,7 @@ class Reading:
 
 
 @record
-class Animation:
+class Animation(Shown):
     """A machine in motion, to scale: what stands still, and what moves over the frames of one run.
 
     still    name, title, and all that does not move: ground, pivots, traced paths
@@ -220,7 +221,7 @@ class Link:
 
 
 @record
-class Timing:
+class Timing(Shown):
     """A cyclogram to draw: lanes over one turn of the master shaft, which takes `period` [s].
 
     laws    of the lanes' moves      links  between instants of the lanes
@@ -248,7 +249,7 @@ class GanttLane:
 
 
 @record
-class Gantt:
+class Gantt(Shown):
     """What lanes are busy with over time, in spans.
 
     kinds  names of the kinds of spans; those that no lane has are left out of the legend
@@ -265,7 +266,7 @@ class Gantt:
 
 
 @record
-class StackedBars:
+class StackedBars(Shown):
     """Horizontal bars, each of parts side by side, one for each kind; SI values, (bars, kinds)."""
 
     name: str

@@ -114,13 +114,7 @@ def _force_columns(run: MechanismRun) -> dict[str, FloatArray]:
     if run.forces is None:
         return {}
     found, forces = run.forces, run.forces.forces
-    table: dict[str, FloatArray] = {}
-    for name, force in forces.reactions.items():
-        table[f"{name} Fx [N]"], table[f"{name} Fy [N]"] = force.real, force.imag
-        if name in forces.couples:
-            table[f"{name} couple [N*m]"] = forces.couples[name]
-    for name, effort in forces.efforts.items():
-        table[f"{name} drive {'torque [N*m]' if forces.turning(name) else 'force [N]'}"] = effort
+    table = dict(list(forces.table().items())[len(forces.mechanism.inputs) :])  # the inputs stand before
     table["shaking Fx [N]"], table["shaking Fy [N]"] = found.shaking.force.real, found.shaking.force.imag
     table["shaking moment [N*m]"] = found.shaking.moment
     table["frame Fx [N]"], table["frame Fy [N]"] = found.frame.force.real, found.frame.force.imag

@@ -16,6 +16,7 @@ from ilmek.jobs.study.targets import MachineTarget, StudyTarget, read_target
 from ilmek.num.pareto import front
 from ilmek.progress import SILENT, Progress
 from ilmek.records import record
+from ilmek.report.framed import Framed
 from ilmek.studies.fronts import evolve
 from ilmek.studies.optimum import Optimum, optimum
 from ilmek.studies.outcome import Hold, Numbers, Question
@@ -32,7 +33,7 @@ BLOCK = 65_536
 
 
 @record
-class StudyResult:
+class StudyResult(Framed):
     """What a study found.
 
     rows        all designs               margins   of them, (designs, checks)
@@ -65,7 +66,7 @@ class StudyResult:
             return np.asarray(self.rows.results[:, self.results.index(name)])
         return np.asarray(self.rows.points[:, names.index(name)])
 
-    def columns(self) -> dict[str, FloatArray]:
+    def table(self) -> dict[str, FloatArray]:
         """All designs as columns [SI]: variables, results, failed checks, least margin."""
         names = [variable.name for variable in self.variables]
         heads = (*names, *(f"{name} (result)" if name in names else name for name in self.results))

@@ -41,7 +41,7 @@ _WRITES: Mapping[str, Snippet] = {
         ("from ilmek.io.json_file import json_text", "from ilmek.jobs.mechanism.data import as_json"),
         (_TEXT % "json_text(as_json(run.analysis, report))",),
     ),
-    "linkage table": Snippet(("from ilmek.io.table_csv import csv_text",), (_TEXT % "csv_text(run.table)",)),
+    "linkage table": Snippet(("from ilmek.io.table_csv import csv_text",), (_TEXT % "csv_text(run.table())",)),
     "cyclogram table": Snippet(
         ("from ilmek.io.table_csv import csv_text",), (_TEXT % "csv_text(cyclogram.columns(given, 360))",)
     ),
