@@ -44,9 +44,13 @@ def checks_of_light(_: Light) -> tuple[Check, ...]:
 
 PLAIN = Component(name="lamp", title="", params=LampParams, design=Lamp, analysis=itself, checks=checks_of_lamp)
 ANALYSED = Component(name="lamp", title="", params=LampParams, design=Lamp, analysis=Light, checks=checks_of_light)
-assert_type(PLAIN, Component[LampParams, Lamp, Lamp])
-assert_type(ANALYSED, Component[LampParams, Lamp, Light])
-assert_type(LOOM.designed(AutomatedLoomParams()), LoomDesign)
+
+
+def inferred() -> None:
+    """Components of a design, of an analysis, and a real one; never called: only the types count."""
+    assert_type(PLAIN, Component[LampParams, Lamp, Lamp])
+    assert_type(ANALYSED, Component[LampParams, Lamp, Light])
+    assert_type(LOOM.designed(AutomatedLoomParams()), LoomDesign)
 
 
 def mistakes() -> None:

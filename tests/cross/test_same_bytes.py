@@ -22,7 +22,8 @@ def digest(data):
 def reported(machine):  # without figures and parts in space: those of the files have them
     return machine.report(machine.design(machine.params.read({})), illustrated=False, assembled=False).as_json()
 
-made = {name: digest(json.dumps(reported(MACHINES[name])).encode()) for name in some(MACHINES, 6)}
+machines = [*MACHINES][number(1, 0) :]  # the loom is that of the carpet below; its own choice of a beat in a campaign
+made = {name: digest(json.dumps(reported(MACHINES[name])).encode()) for name in some(machines, 5)}
 for call in (
     "design cam --workshop cam",
     "chart ../noise.png --size 50x50cm --quality 25x25/dm --out chart",

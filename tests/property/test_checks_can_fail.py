@@ -18,8 +18,9 @@ from ilmek.errors import IlmekError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.report import Check, Report, at_most, must
 
-NUMBER, SLOW = number(12, 24), ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar")
-"""Designs of each machine, a quarter of those that take seconds each."""
+NUMBER = number(12, 24)
+SLOW = ("automated-loom", "knotting-dyad", "path-four-bar", "motion-four-bar", "tufting-machine", "weaver")
+"""Designs of each machine, a quarter of those that take seconds each or whose witnesses move nearly all checks."""
 
 LOOMS = ("automated-loom", "hand-loom")
 
@@ -79,6 +80,7 @@ WITNESSES: Mapping[str, tuple[dict[str, str], ...]] = {
     ),
     "tufting": ({"entry": "200deg", "exit": "300deg"}, {"speed": "20000rpm"}),
     "tufting-machine": (
+        {"gauge": "2mm"},
         {"looper.late": "60deg"},
         {"looper.transmission": "85deg"},
         {"looper.strength.pin_diameter": "30mm"},

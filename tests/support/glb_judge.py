@@ -15,14 +15,15 @@ from typing import Any
 import fcl
 import numpy as np
 from manifold3d import Error, Manifold, Mesh
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial.transform import Rotation
 
 TYPES = {5126: "<f4", 5125: "<u4", 5123: "<u2", 5121: "u1"}
 COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
 GAP, VOLUME, DEPTH = 1e-4, 5e-8, 1e-4
 """Distance of what touches [m]; volume in common [m³], and its mean depth [m], of what is through each other."""
+
+Pair = tuple[int, int, bytes]
+"""Two meshes, and the second's place as the first sees it: instances of one pair are judged once."""
 
 Channels = dict[tuple[int, str], tuple[np.ndarray, np.ndarray]]
 
@@ -43,6 +44,7 @@ class GlbJudge:
         (size,) = struct.unpack_from("<I", content, 12)
         self._document, self._binary = json.loads(content[20 : 20 + size]), content[28 + size :]
         self.meshes = [self._mesh(mesh) for mesh in self._document["meshes"]]
+        self._common: dict[Pair, float] = {}
 
     def _array(self, number: int) -> np.ndarray:
         accessor = self._document["accessors"][number]
@@ -110,11 +112,14 @@ class GlbJudge:
                 models[instance.mesh].addSubModel(corners, faces)
                 models[instance.mesh].endModel()
         bodies = [fcl.CollisionObject(models[one.mesh], fcl.Transform(*_parted(one.place))) for one in instances]
-        pairs = [pair for pair in self._near(instances, GAP) if fcl.distance(*(bodies[k] for k in pair)) <= GAP]
-        links = np.array(pairs, dtype=int).reshape(-1, 2)
-        graph = coo_array((np.ones(len(links)), links.T), shape=(len(bodies), len(bodies)))
-        number, labels = connected_components(graph, directed=False)
-        found = [Counter(instances[k].name for k in np.flatnonzero(labels == group)) for group in range(number)]
+        labels, touch = np.arange(len(bodies)), dict[Pair, bool]()
+        for first, other in self._near(instances, GAP):
+            if labels[first] != labels[other]:
+                if (pair := _pair(instances[first], instances[other])[0]) not in touch:
+                    touch[pair] = fcl.distance(bodies[first], bodies[other]) <= GAP
+                if touch[pair]:
+                    labels[labels == labels[other]] = labels[first]
+        found = [Counter(instances[k].name for k in np.flatnonzero(labels == group)) for group in np.unique(labels)]
         return sorted(found, key=lambda group: -group.total())
 
     def overlaps(self, motion: str = "", share: float = 0.0) -> dict[tuple[str, str], float]:
@@ -124,12 +129,20 @@ class GlbJudge:
             one, its = instances[first], instances[other]
             if one.name == its.name:
                 continue
-            common = self._solids[one.mesh].transform(one.place[:3]) ^ self._solids[its.mesh].transform(its.place[:3])
-            volume = abs(common.volume())
-            if volume > VOLUME and 2 * volume > DEPTH * common.surface_area():
+            if (volume := self._in_common(one, its)) > 0.0:
                 low, high = sorted((one.name, its.name))
                 volumes[low, high] = max(volumes.get((low, high), 0.0), volume)
         return volumes
+
+    def _in_common(self, one: Instance, its: Instance) -> float:
+        """Volume of two instances through each other, else 0 [m³]; once for each pair."""
+        pair, relative = _pair(one, its)
+        if pair not in self._common:
+            common = self._solids[one.mesh] ^ self._solids[its.mesh].transform(relative)
+            volume = abs(common.volume())
+            deep = volume > VOLUME and 2 * volume > DEPTH * common.surface_area()
+            self._common[pair] = volume if deep else 0.0
+        return self._common[pair]
 
     def open_meshes(self) -> set[str]:
         """Names of what encloses no volume."""
@@ -143,6 +156,11 @@ class GlbJudge:
         for first in range(1, len(instances)):
             near = (low[:first] <= high[first] + gap) & (high[:first] >= low[first] - gap)
             yield from ((first, other) for other in np.flatnonzero(near.all(axis=1)).tolist())
+
+
+def _pair(one: Instance, its: Instance) -> tuple[Pair, np.ndarray]:
+    relative = np.linalg.solve(one.place, its.place)[:3]
+    return (one.mesh, its.mesh, (relative.round(9) + 0.0).tobytes()), relative
 
 
 def _parted(place: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

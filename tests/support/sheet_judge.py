@@ -66,12 +66,13 @@ class ReadSheet(NamedTuple):
 
 def made_parts(machine: str, **values: str) -> Iterator[tuple[DrawnPart, Part]]:
     """The made parts of a design as they are drawn, with their holes for screws, and what they are drawn of."""
-    report = find_machine(machine).report_for(values)
+    own, params = find_machine(machine).ordered(values)
+    report = own.report(own.design(params), illustrated=False, assembled=False)
     every = *report.all_plates, *report.all_pieces
     trees = [made.tree for made in every if isinstance(made.tree, Tree)]
     whole = bolted(max(trees, key=lambda tree: len(tree.bodies))) if trees else None
-    for own, draw in ((report.all_plates, drawn_plate), (report.all_pieces, drawn_piece)):
-        for name, each in _own_names([tolerated(of_tree(made, whole)) for made in own]).items():
+    for listed, draw in ((report.all_plates, drawn_plate), (report.all_pieces, drawn_piece)):
+        for name, each in _own_names([tolerated(of_tree(made, whole)) for made in listed]).items():
             if isinstance(each.part, Part):
                 yield draw(each, report.machine, name), each.part  # type: ignore[operator]
 

@@ -265,7 +265,7 @@ def test_weave_writes_a_programme_for_the_loom_of_a_folder(
     make_weaving(monkeypatch)
     first, second = tmp_path / "first", tmp_path / "second"
     carpet = ("--quality", QUALITY, "--no-pdf")
-    comb = ("--loom", "beat=comb")
+    comb = ("--loom", "beat=comb", "--loom", "knotting=cams")
     assert run("weave", str(picture), "--size", SIZE, *carpet, *comb, "--out", str(first)).exit_code == 0
     loom = str(first / "machine.json")
     result = run("weave", str(picture), "--size", "40x50cm", *carpet, "--loom", loom, "--out", str(second))
@@ -384,14 +384,15 @@ def test_a_programme_states_its_loom_and_its_yarns(loom_file: Path, picture: Pat
 def test_a_loom_with_fewer_tubes_than_colours_changes_packages(picture: Path) -> None:
     order = read_order(picture, size=SIZE, quality=QUALITY)
     charted = make_charted(order)
-    few = make_loomed(read_loom_order(order, heads=1, loom={"beat": "comb", "tubes": "1"}), charted)
+    given = {"beat": "comb", "knotting": "cams", "tubes": "1"}  # nothing is left open, and no choice is claimed
+    few = make_loomed(read_loom_order(order, heads=1, aim="price", loom=given), charted)
     assert failed(few) == {"colours"}
     assert few.programme is None
     assert "take a loom with 2 tubes" in few.checks[0].cure
     knots = charted.chart.knots.copy()
     knots[:, :] = np.arange(len(knots))[:, None] // 10 % 2  # bands of one colour each
     banded = replace(charted, chart=replace(charted.chart, knots=knots))
-    found = make_loomed(read_loom_order(order, heads=1, loom={"beat": "comb", "tubes": "1"}), banded)
+    found = make_loomed(read_loom_order(order, heads=1, aim="price", loom=given), banded)
     assert failed(found) == set()
     assert found.programme is not None
     changes = len(found.programme.tubes.changes)

@@ -80,6 +80,7 @@ def test_a_part_is_welded_to_what_it_states() -> None:
     assert sum(len(own) for own in welds_of(tree).values()) == 1
 
 
+@pytest.mark.matrix(light=1)
 @pytest.mark.parametrize("settings", [{}, {"weft": "rapier", "heads": "2"}])
 def test_a_loom_with_heads_on_cams_is_fastened_by_welds_that_can_be_made(settings: dict[str, str]) -> None:
     """Each part is held; each weld keeps both bounds of its throat, or is preheated, as hard steels are."""
