@@ -13,7 +13,7 @@ from ilmek.jobs.check import CheckResult, check_programme
 from ilmek.jobs.convert import convert_programme
 from ilmek.jobs.inspect import InspectionResult, inspect_programme
 from ilmek.jobs.plan import LEAST_LIMIT, MOST_LIMIT, PlanResult, plan_factory
-from ilmek.jobs.plc import PlcResult, write_plc
+from ilmek.jobs.plc.program import PlcResult, write_plc
 from ilmek.jobs.run.loom_run import LoomRun
 from ilmek.jobs.run.order import read_run_order
 from ilmek.jobs.run.result import RunResult

@@ -132,7 +132,7 @@ _CONTROL = (
               "check the loom's clock; the order of records does not depend on it", Reaction.NONE),
     AlarmKind(405, ControlFault.NO_SENSORS, 800, "the loom has not reported its sensors",
               "check the connection to the loom; then unhold", Reaction.HOLD),
-    AlarmKind(406, ControlFault.NO_HOST, 800, "the host was silent, or has not given a row or carpet that was requested",
+    AlarmKind(406, ControlFault.NO_HOST, 800, "the host was silent, or has not given a requested row or carpet",
               "check the host and the connection to it; then unhold", Reaction.HOLD),
     AlarmKind(407, ControlFault.NOT_HOME, 800, "an axis was not at its switch after homing, or could not be homed",
               "free the axis, in manual mode by jogs, check its switch, then acknowledge and reset", Reaction.STOP),
