@@ -1,7 +1,6 @@
 """Host and simulated loom beside a PLC over OPC UA: asyncua's server before the interpreter of the program."""
 
 import threading
-import time
 from pathlib import Path
 
 import pytest
@@ -71,8 +70,8 @@ def test_a_carpet_is_woven_by_the_plc_between_host_and_loom(
 
         def cut() -> None:
             for knots in (4, 10):
-                while plc.read("KnotsDone") < knots and not line.stop.is_set():
-                    time.sleep(0.05)
+                while plc.read("KnotsDone") < knots and not line.stop.wait(0.05):
+                    pass
                 plc.power_cut()
 
         cutter = threading.Thread(target=cut)
