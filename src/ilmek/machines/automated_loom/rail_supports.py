@@ -73,6 +73,9 @@ _FILLED = 0.5
 _FOR_WELDS = 30 * mm
 """Least distance of two beams beside each other, for the welds at their ends [m]; assumed by this project."""
 
+LEAST_ARM = 2 * END_PLATE
+"""Least length of an arm with the plate at its end [m]: in a narrow loom its post stands that far aside."""
+
 ARM_WALLS = (3 * mm, 4 * mm, 5 * mm)
 """Walls of the arms, as wide as their axes [m]: of EN 10219-2."""
 
@@ -145,8 +148,8 @@ def _at_ends(loom: LoomDesign, frame: LoomFrame) -> RailSupport:
             name="rail-post",
             arm_name="rail-arm",
             height=axis.imag - bottom,
-            lever=beside - task.width / 2,
-            reach=beside - post.side / 2 - near,
+            lever=max(beside, near + LEAST_ARM + post.side / 2) - task.width / 2,
+            reach=max(beside - post.side / 2 - near, LEAST_ARM),
             load=load + push * -RETREAT.imag,
             push=push * RETREAT.real,
             post=post,
@@ -216,7 +219,7 @@ def _lightest(
     """
     arms = [HollowSquare(RAIL_AXIS, wall) for wall in ARM_WALLS]
     posts = [square for square in ascending() if RAIL_AXIS <= square.side <= most]
-    posts = [square for square in posts if chosen(square, arms[0]).reach > 2 * END_PLATE] or posts[:1]
+    posts = [square for square in posts if chosen(square, arms[0]).reach > LEAST_ARM] or posts[:1]
     post = stiff(one for one in posts if all(c.ok for c in _post_checks(chosen(one, arms[0])))) or posts[-1]
     arm = next((one for one in arms if all(c.ok for c in _arm_checks(chosen(post, one)))), arms[-1])
     return chosen(post, arm)
@@ -253,7 +256,9 @@ def support_parts(loom: LoomDesign, frame: LoomFrame) -> Iterator[Occurrence]:
         ends, title = own.name == "rail-post", "post of the rail's axes"
         long = own.height + (own.arm.side / 2 if ends else 0.0)  # all round the end of its arm
         post = member(own.name, title if ends else f"{title} between its ends", own.post, long)
-        aside = frame.beside(brackets_of(loom).face)[0] if ends else (RAIL_AXIS + own.post.side) / 2
+        aside = (
+            own.stations[0] + own.reach + (RAIL_AXIS + own.post.side) / 2 if ends else (RAIL_AXIS + own.post.side) / 2
+        )
         places = (-aside, aside) if ends else [x + aside for x in own.stations]
         yield Occurrence(post, tuple(placement(x, bottom, own.depth).after(UPRIGHT) for x in places))
         if ends:
