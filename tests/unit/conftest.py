@@ -3,14 +3,12 @@
 import os
 import tempfile
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from default_machines import out_of_space
 from PIL import Image
 
-from ilmek.machines.automated_loom import MACHINE
 from ilmek.viz.carpet_picture import WHOLE, DrawnCarpet
 
 
@@ -37,7 +35,7 @@ def plain_page(monkeypatch: pytest.MonkeyPatch, not_in_space: None) -> None:
     """Pages without figures, a small picture of the carpet, no loom in space: the true ones have tests of their own."""
     for name in ("carpet_page", "loom_page"):
         monkeypatch.setattr(f"ilmek.jobs.weave.{name}", lambda page, *_: page.title)
-    monkeypatch.setattr("ilmek.jobs.loom.MACHINE", replace(MACHINE, figures=lambda _: ()))
+    monkeypatch.setattr("ilmek.machines.component.made_figures", lambda *_: ())
     monkeypatch.setattr("ilmek.jobs.chart.draw_carpet", lambda *_, **__: DrawnCarpet(Image.new("RGB", (2, 2)), WHOLE))
 
 

@@ -265,7 +265,7 @@ def test_weave_writes_a_programme_for_the_loom_of_a_folder(
     make_weaving(monkeypatch)
     first, second = tmp_path / "first", tmp_path / "second"
     carpet = ("--quality", QUALITY, "--no-pdf")
-    comb = ("--loom", "beat=comb", "--loom", "knotting=cams")
+    comb = ("--loom", "beat=comb")
     assert run("weave", str(picture), "--size", SIZE, *carpet, *comb, "--out", str(first)).exit_code == 0
     loom = str(first / "machine.json")
     result = run("weave", str(picture), "--size", "40x50cm", *carpet, "--loom", loom, "--out", str(second))
