@@ -866,7 +866,7 @@ def test_the_manual_has_every_part_once_and_each_can_reach_its_seat() -> None:
         name: pytest.approx(torque, rel=0.01) for name, torque in screws.items()
     }
     joins = {row["designation"] for row in listed("fasteners") if row["joins"]}
-    assert joins == {name for row in rows if row[7] for name in re.findall(r"× ([^,;]+)", str(row[6]))}
+    assert joins == {name for row in rows if row[7] for name in re.findall(r"× ([^,;]+)", str(row[6]))} - turned
 
 
 def of_pieces(steps: Iterable[Insertion]) -> Counter[tuple[str, tuple[float, ...]]]:
