@@ -4,6 +4,8 @@ import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from ilmek.records import value_record
+
 NOT_WEIGHED = math.nan
 
 
@@ -32,7 +34,7 @@ class Joints(NamedTuple):
     contacts: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@value_record
 class BillLine:
     """A line of a parts list.
 

@@ -102,6 +102,7 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
     names = [f"{body_id('tufting', 'needle')} {drive + 1}" for drive in range(params.drives)]
     length = params.width / made.pieces
     heights = needle_heights(params, machine.carpet.needles)
+    bars_by_bores: dict[tuple[float, ...], Part] = {}
     for piece in range(made.pieces):
         # The piece hangs on the first needle that it has; in the frame of this z = 0 is the lowest plane of its drive.
         low = piece * length
@@ -109,7 +110,8 @@ def _needles(laid: TuftingLayout) -> tuple[Tree, tuple[Closure, ...]]:
         under = tuple(placement(y=-params.needle_bar.height, z=float(place.origin[2]) - low) for place in own)
         inset = (length - catalogue_length(made.bar)) / 2
         rods = [laid.needle_level + drive * laid.pitch - laid.left - low - inset for drive in range(params.drives)]
-        bored = _bored_bar(machine, tuple(round(z, 9) for z in rods if 0 < z < length))
+        pattern = tuple(round(z, 9) for z in rods if 0 < z < length)
+        bored = bars_by_bores.setdefault(pattern, _bored_bar(machine, pattern, len(bars_by_bores)))
         parts = (Occurrence(bored, (placement(z=inset),)), Occurrence(made.needle, under))
         at = placement(y=-_rod_length(machine), z=laid.left)
         name = NEEDLE_BAR if made.pieces == 1 else f"{NEEDLE_BAR} {piece + 1}"
@@ -146,15 +148,19 @@ def _headed_rod(machine: TuftingMachine) -> Part:
 
 
 @lru_cache(maxsize=8)
-def _bored_bar(machine: TuftingMachine, rods: tuple[float, ...]) -> Part:
-    """A piece of the needle bar with the bores in which push rods are pressed, at their distances from its end [m]."""
+def _bored_bar(machine: TuftingMachine, rods: tuple[float, ...], before: int) -> Part:
+    """A piece of the needle bar with the bores in which push rods are pressed, at their distances from its end [m].
+
+    before  number of pieces bored otherwise, each a part of its own
+    """
     given, plain = machine.params.needle_bar, needle_parts(machine.params).bar
     assert isinstance(plain.shape, Sum)
     (lies,) = plain.shape.members
     mouths = (placement(y=given.height / 2, z=z).after(DOWN) for z in rods)
     holes = tuple(Drilling(mouth, ((given.rod, given.height / 2),)) for mouth in mouths)
     assert isinstance(lies.shape, Prism)
-    return replace(plain, shape=Sum((replace(lies, shape=replace(lies.shape, drilled=holes)),)))
+    name = f"{plain.id}-{before + 1}" if before else plain.id
+    return replace(plain, id=name, shape=Sum((replace(lies, shape=replace(lies.shape, drilled=holes)),)))
 
 
 def _loopers(laid: TuftingLayout) -> tuple[list[RigidBody], list[Closure]]:
