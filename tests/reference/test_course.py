@@ -201,6 +201,10 @@ def test_burmester():
     assert found["radii of three [mm]"] == pytest.approx(np.abs(pins - complex(*pivot)), abs=1e-8)
     assert found["links of the curve"] > 30
     assert found["miss of the curve [mm]"] < 1e-9
+    points = A + (120 + 60j) * turned
+    for fixed, moving in found["some pivots and pins [mm]"]:
+        circle = np.abs(points + (moving - points[0]) * turned / turned[0] - fixed)[:4]
+        assert circle == pytest.approx([abs(moving - fixed)] * 4, rel=1e-9)
     for known in (0, 300):
         assert min(abs(complex(*other) - known) for other in found["pivots of five [mm]"]) < 1e-8
     assert found["four-bars"] >= 1
