@@ -150,6 +150,7 @@ def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
 CHOICES: dict[str, dict[str, str]] = {
     "knotting-four-bar": {"sides": "2"},
     "warp-tension": {"winding": "hand"},
+    "weft": {"carrier": "rapier"},
     "hammer": {"drive": "linkage"},
     "knotting-dyad": {"needle_breadth": "3mm"},
 }
