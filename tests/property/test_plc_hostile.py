@@ -91,7 +91,13 @@ def test_what_a_station_does_wrong_holds_the_loom_and_is_asked_for(act: Act, ala
 
 @pytest.mark.parametrize(
     "act",
-    [Act(silent=True), Act(tied=False), Act(fault=ALARMS[Fault.TIMEOUT].number), Act(early=True), Act(hasty=True)],
+    [
+        Act(silent=True),
+        Act(tied=False),
+        Act(fault=ALARMS[Fault.TIMEOUT].number),
+        Act(tied=False, early=True),
+        Act(hasty=True),
+    ],
 )
 def test_an_axis_that_is_not_homed_as_ordered_stops_the_loom_and_is_homed_again(act: Act) -> None:
     """After a power cut among the warps: grippers and heads are not at home, and a drive may state that they are."""

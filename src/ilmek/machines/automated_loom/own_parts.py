@@ -41,7 +41,8 @@ from ilmek.units import in_mm
 RAIL = "heads' rail"
 """Id of the body that carries the heads."""
 
-RETREAT_MOTOR, RETREAT_BRAKE, RETREAT_ADAPTER = (part_id(f"retreat-{name}") for name in ("motor", "brake", "adapter"))
+RETREAT_MOTOR, RETREAT_BRAKE = part_id("retreat-motor"), part_id("retreat-brake")
+RETREAT_ADAPTERS = part_id("retreat-adapter-right"), part_id("retreat-adapter-left")
 
 
 def carried_tree(loom: LoomDesign, frame: LoomFrame) -> Tree:
@@ -118,11 +119,16 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
     flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     ends = zip(stations[: len(held[0].stations)], (placement(aside), placement(-aside)), strict=True)
-    title, at_ends = "adapter of the rail's retreat", tuple(end.after(out).after(flange) for end, out in ends)
-    adapters, flanges = catalogue.adapted(RETREAT_ADAPTER, title, motor, RAIL_AXIS, at_ends)
+    # Each end has an adapter of its own: its axis is aside of the motor to the other side.
+    sides = zip(RETREAT_ADAPTERS, ("right", "left"), (end.after(out).after(flange) for end, out in ends), strict=True)
+    adapters = [
+        catalogue.adapted(name, f"{side} adapter of the rail's retreat", motor, RAIL_AXIS, (end,))
+        for name, side, end in sides
+    ]
+    flanges = tuple(flange for _, own in adapters for flange in own)
     parts = (
         Occurrence(axis, tuple(station.after(upper) for station in stations)),
-        *adapters,
+        *(adapter for own, _ in adapters for adapter in own),
         *(Occurrence(part, flanges) for part in (motor, brake)),
     )
     return RigidBody(part_id("retreat"), parts)

@@ -43,7 +43,7 @@ def standing(loom: LoomDesign) -> tuple[MachineTree, ...]:
     beside = tuple(body for body in warps if body not in turned)
     return (
         MachineTree("automated-loom", frame_tree(loom, listed.frame, needs_of(loom, listed.parts), retreat)),
-        MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(COARSE,)),
+        MachineTree("automated-loom", carried_tree(loom, listed.frame), deviations=(FINE, COARSE)),
         MachineTree("warp-tension", Tree(winding), deviations=(FINE, COARSE)),
         MachineTree("warp-tension", Tree(slotted), deviations=(COARSE,)),
         MachineTree("warp-tension", Tree(beside)),  # finer: screws in their holes
