@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from default_machines import default_design
 
@@ -12,6 +13,7 @@ from ilmek.jobs.mechanism.making import made_mechanism
 from ilmek.jobs.mechanism.request import MotionRequest
 from ilmek.jobs.mechanism.run import run
 from ilmek.machines.automated_loom import MACHINE
+from ilmek.machines.automated_loom.equipment.guards import GUARDS
 from ilmek.machines.automated_loom.in_space.scene import loom_tree
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.tree_manual import UP, assembly_check, fastening_check, weld_check
@@ -81,7 +83,7 @@ def test_a_part_is_welded_to_what_it_states() -> None:
 
 
 @pytest.mark.matrix(light=1)
-@pytest.mark.parametrize("settings", [{}, {"weft": "rapier", "heads": "2"}])
+@pytest.mark.parametrize("settings", [{}, {"weft": "rapier", "heads": "2"}, {"width": "4m"}])
 def test_a_loom_with_heads_on_cams_is_fastened_by_welds_that_can_be_made(settings: dict[str, str]) -> None:
     """Each part is held; each weld keeps both bounds of its throat, or is preheated, as hard steels are."""
     tree = bolted(loom_tree(MACHINE.designed(MACHINE.params.read(settings))))
@@ -118,6 +120,26 @@ def test_feet_have_threads_and_what_stands_beside_the_loom_is_anchored() -> None
         assert frozenset((f"automated-loom/{inner}", f"automated-loom/{bore}")) in bores
 
 
+def test_a_plate_of_the_guards_runs_under_no_other_post_or_plate() -> None:
+    """By the corners of their meshes; feet of three columns a side stand near the cabinet, beside which posts stand."""
+    tree = loom_tree(MACHINE.designed(MACHINE.params.read({"width": "2m", "heads": "10"})))
+    (guards,) = (body for body in tree.bodies if body.id == GUARDS[0])
+    named = {own.part.id.partition("/")[2]: own for own in guards.occurrences}
+    corners = {
+        name: [position.points(own.part.shape.mesh(1e-4).points) for position in own.positions]
+        for name, own in named.items()
+        if name in {"guard-plate", "guard-post"} and own.part.shape is not None
+    }
+    flat = {name: [(np.min(own, 0)[::2], np.max(own, 0)[::2]) for own in pieces] for name, pieces in corners.items()}
+    plates, posts = flat["guard-plate"], flat["guard-post"]
+    assert len(plates) == len(posts) > 10
+    for number, (low, high) in enumerate(plates):
+        under = [k for k, (begin, end) in enumerate(posts) if ((begin < high - 1e-6) & (low < end - 1e-6)).all()]
+        assert len(under) == 1  # its own
+        for begin, end in plates[:number]:
+            assert not ((begin < high - 1e-6) & (low < end - 1e-6)).all()
+
+
 def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
     post, arm = (Part(f"test/{name}", name, "welded frame", square_tube(0.05, 0.005, 0.4), STEEL) for name in "ab")
     lies = placement(0.05, 0.05)
@@ -128,6 +150,7 @@ def test_a_part_that_touches_along_an_edge_is_not_welded_there() -> None:
 CHOICES: dict[str, dict[str, str]] = {
     "knotting-four-bar": {"sides": "2"},
     "warp-tension": {"winding": "hand"},
+    "weft": {"carrier": "rapier"},
     "hammer": {"drive": "linkage"},
     "knotting-dyad": {"needle_breadth": "3mm"},
 }

@@ -36,7 +36,7 @@ from ilmek.machines.weft.tree import DRAGGING
 from ilmek.part.bolting import bolted
 from ilmek.part.part import Part
 from ilmek.part.seat_faces import prism_of
-from ilmek.part.tree import Tree
+from ilmek.part.tree import GROUND, Tree
 from ilmek.plane.solids import bounds, is_closed, volume
 from ilmek.report.scene import Scene
 from ilmek.units import mm
@@ -99,7 +99,7 @@ def test_every_line_of_a_head_is_a_part_of_its_tree_and_back(settings: dict[str,
 @given(_WEFTS)
 def test_every_line_of_a_weft_is_a_part_of_its_tree_and_back(settings: dict[str, Any]) -> None:
     made = WEFT.design(WeftParams(**settings))
-    _kept(WEFT, made, made.bodies.tree)
+    _kept(WEFT, made, made.bodies.tree.carrying(GROUND, made.bodies.stand))
 
 
 @cache

@@ -82,16 +82,17 @@ def _members(name: Callable[[str], str], shafts: Sequence[CarriedShaft]) -> Iter
         part = Part(name(f"{shaft.key}-bracket"), title, LASER_CUT, own, STEEL, machined=True)
         yield Occurrence(part, (placement(0.0, height, shaft.face), placement(0.0, height, -shaft.face - BRACKET)))
     upright = placement(about=(1.0, 0.0, 0.0), angle=-turn / 4)
-    column = _stock(name("side-column"), "column of the stand", section, high - low)
+    column = stock(name("side-column"), "column of the stand", section, high - low)
     yield Occurrence(column, tuple(placement(axis, low, z).after(upright) for z in (-inner - half, inner + half)))
     along = placement(about=(0.0, 1.0, 0.0), angle=turn / 4)
-    foot, start = _stock(name("side-foot"), "foot of the stand", section, 2 * behind + section.side), axis - behind
+    foot, start = stock(name("side-foot"), "foot of the stand", section, 2 * behind + section.side), axis - behind
     yield Occurrence(foot, tuple(placement(start, low - half, z).after(along) for z in (-inner - half, inner + half)))
-    across = _stock(name("side-member"), "member across the stand", section, 2 * inner)
+    across = stock(name("side-member"), "member across the stand", section, 2 * inner)
     yield Occurrence(across, tuple(placement(axis, y, -inner) for y in (low + half, high - half)))
 
 
-def _stock(name: str, title: str, section: HollowSquare, length: float) -> Part:
+def stock(name: str, title: str, section: HollowSquare, length: float) -> Part:
+    """A member of a welded stand: a square tube along z [m]."""
     return Part(name, title, WELDED, square_tube(section.side, section.wall, length), STEEL)
 
 

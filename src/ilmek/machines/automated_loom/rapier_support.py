@@ -20,7 +20,7 @@ from ilmek.machines.automated_loom.frame import EAR, END_PLATE, end_plate, membe
 from ilmek.machines.beat import GUIDED
 from ilmek.machines.shedding.tree import reducer
 from ilmek.machines.weft.carriers import AXIS
-from ilmek.machines.weft.rapier_tree import SIDE, RapierSide
+from ilmek.machines.weft.rapier_tree import POST_INSET, SIDE, RapierSide
 from ilmek.part import catalogue
 from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, placement
 from ilmek.part.tree import Occurrence
@@ -39,9 +39,6 @@ BUCKLING = 3.0
 
 SOLE = (150 * mm, 10 * mm)
 """Side and thickness of the post's plate on the floor [m]: assumed by this project."""
-
-POST_INSET = 0.15
-"""Of the post from the far end of the axis, clear of its drive [m]: assumed by this project."""
 
 
 @record

@@ -46,12 +46,15 @@ class SteadyPost:
 
 
 def cam_beam(loom: LoomDesign, frame: LoomFrame, made: Brackets) -> complex:
-    """Axis of the beam behind the cams in the side view: between spacer and lowest cam bracket, behind all cams [m]."""
+    """Axis of the beam behind the cams in the side view: between spacer and lowest cam bracket, behind all cams [m].
+
+    It is in the columns or behind them, but under the posts of steadies it is as near to these as it has room.
+    """
     side, half, (highest, lowest) = loom.side, cam_beam_section(frame, made).side / 2, _between(made)
     height = (highest + lowest) / 2
     behind = min(cam.at.real - cam.guide_radius for cam in side.cams) - ROOM - half
     rears = [rear - half - ROOM for rear, *_ in _held(loom)]
-    return complex(min(side.column, behind, *rears), height)
+    return complex(min(behind, *(rears or [side.column])), height)
 
 
 def cam_beam_section(frame: LoomFrame, made: Brackets) -> HollowSquare:

@@ -31,6 +31,7 @@ MACHINE = Component(
     figures=figures,
     warnings=warnings,
     tree=lambda made: made.bodies.tree,
+    stand=lambda made: made.bodies.stand,
     work=work,
     choices=lambda made: made.choices,
     fit=fit,

@@ -7,8 +7,10 @@ the rapier's path carries what cuts, tucks in and offers the wefts, side by side
 import math
 from collections.abc import Iterator
 
+from ilmek.elements.columns import HollowSquare
 from ilmek.elements.materials import MATERIALS
 from ilmek.elements.motors import STEPPER, smallest_motor
+from ilmek.machines.shaft_stand import stock
 from ilmek.machines.weft.axis import BeltAxis
 from ilmek.machines.weft.carriers import (
     AXIS,
@@ -26,7 +28,7 @@ from ilmek.machines.weft.passage import WeftPassage
 from ilmek.machines.weft.rapier import CLAMP, Rapier
 from ilmek.part import catalogue
 from ilmek.part.part import LASER_CUT, Bought, Part, bought_part
-from ilmek.part.placement import UPRIGHT, Placement, placement
+from ilmek.part.placement import ALONG_WIDTH, UPRIGHT, Placement, placement
 from ilmek.part.profile import Profile
 from ilmek.part.shapes import Prism, box, rectangle
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody
@@ -51,6 +53,9 @@ SIDE = 40 * mm
 PITCH = 50 * mm
 """Distance of the devices of an edge along the width [m]."""
 
+_WIDE = 3 * PITCH + SIDE
+"""Width of an edge's plate [m]."""
+
 PLATE, BEFORE_WAY = 6 * mm, 3 * mm
 """Thickness of an edge's plate and of the consoles on it, and its distance from the path of rapier and carriage [m];
 assumed by this project.
@@ -58,6 +63,15 @@ assumed by this project.
 
 BOSS = 24 * mm
 """Bore of a console about the boss of its motor, of 22 mm [NEMA ICS 16], and the hub on its shaft [m]."""
+
+POST_INSET = 0.15
+"""From the far end of the axis to what carries it there, clear of its drive [m]: assumed by this project."""
+
+_HEIGHT, _FOOT = 0.8, 0.6
+"""Height of the axis over the floor where the machine is alone, and length of its feet [m]; assumed by this project."""
+
+_STAND = HollowSquare(SIDE, 3 * mm)
+"""Section of the stand of the machine alone: EN 10219-2."""
 
 EDGE_PLATE = part_id("edge-plate")
 """Id of the plate at an edge."""
@@ -127,6 +141,32 @@ class RapierSide:
         yield RigidBody(part_id("belt axis"), tuple(self._axis()))
         yield from self._devices()
         yield RigidBody(part_id("devices at the edges"), (*self._standing(), *self._plates()))
+
+    def stand(self) -> RigidBody:
+        """What carries the machine alone, where a loom's frame does else: beams on posts, on a rail with two feet.
+
+        The axis lies on the left beam; the plates of the edges are on the fronts of both.
+        """
+        z, inner, outer = self.plate_back - SIDE / 2, self.edge - SIDE / 2, self.edge - SIDE / 2 + _WIDE
+        far, floor, top = min(self.run[0] + POST_INSET, -outer), self.low - _HEIGHT, self.low - SIDE
+        levels = (
+            ("left-beam", "beam of the axis", far, -inner, top),
+            ("right-beam", "beam of the plate at the right edge", inner, outer, top),
+            ("rail", "rail at the floor", far, outer, floor + SIDE),
+        )
+        parts = [
+            Occurrence(
+                stock(part_id(f"stand-{key}"), f"{title} of the stand", _STAND, end - begin),
+                (placement(begin, low + SIDE / 2, z).after(ALONG_WIDTH),),
+            )
+            for key, title, begin, end, low in levels
+        ]
+        post = stock(part_id("stand-post"), "post of the stand", _STAND, top - floor - 2 * SIDE)
+        ends = far + SIDE / 2, outer - SIDE / 2
+        posts = tuple(_upright(x, floor + 2 * SIDE, z) for x in (ends[0], -inner - SIDE / 2, ends[1]))
+        foot = stock(part_id("stand-foot"), "foot of the stand", _STAND, _FOOT)
+        feet = tuple(placement(x, floor + SIDE / 2, z - _FOOT / 2) for x in ends)
+        return RigidBody(part_id("stand"), (*parts, Occurrence(post, posts), Occurrence(foot, feet)))
 
     def _axis(self) -> Iterator[Occurrence]:
         """The belt axis, and its drive upright below its far end."""
@@ -201,12 +241,11 @@ class RapierSide:
     def _plates(self) -> Iterator[Occurrence]:
         """The plates, from below the axis to the devices."""
         low, high = self.low - SIDE, SIDE / 2
-        wide = 3 * PITCH + SIDE
         title = "plate of the devices at an edge"
-        shape = box(wide, high - low, PLATE)
+        shape = box(_WIDE, high - low, PLATE)
         steel = MATERIALS["structural steel"]
         part = Part(EDGE_PLATE, title, LASER_CUT, shape, steel, machined=True)
-        x = self.edge - SIDE / 2 + wide / 2
+        x = self.edge - SIDE / 2 + _WIDE / 2
         yield Occurrence(part, tuple(placement(side * x, (low + high) / 2, self.plate_back) for side in (-1, 1)))
 
 

@@ -52,6 +52,11 @@ class WeftBodies:
         """The bodies."""
         return _tree(self)
 
+    @property
+    def stand(self) -> Tree:
+        """What carries a rapier's side where the machine is alone; the guide of shuttles is one piece."""
+        return Tree() if isinstance(self.carried, Shuttle) else Tree((self.rapier.stand(),))
+
     def bodies(self) -> Iterator[RigidBody]:
         """Each body."""
         if isinstance(self.carried, Shuttle):

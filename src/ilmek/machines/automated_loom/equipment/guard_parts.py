@@ -33,6 +33,7 @@ from ilmek.machines.automated_loom.equipment.guards import (
     GUARDS,
     MESH,
     PANEL,
+    PLATE,
     POST,
     WIRE,
     Fence,
@@ -59,7 +60,7 @@ _FRAME = HollowSquare(20 * mm, 2 * mm)
 _CLAMP = (5 * mm, 30 * mm)
 """Width and height of the clamps of a panel [m]: the width is the gap of the panel between its posts."""
 
-_PLATE, _FAR = (140 * mm, POST, 8 * mm), 45 * mm
+_PLATE, _FAR = (PLATE, POST, 8 * mm), 45 * mm
 """Sides and thickness of the plate under a post, and its second anchor from the middle, where the first is [m]."""
 
 _BEFORE_LATCH = 15 * mm

@@ -38,6 +38,9 @@ GUARDS = part_id("guards"), part_id("doors")
 POST = 40 * mm
 """Side of a fence's posts [m]."""
 
+PLATE = 140 * mm
+"""Length of the plate under a post [m]."""
+
 MESH, WIRE = 40 * mm, 3 * mm
 """Pitch and thickness of the wires of the mesh [m]: EN 10223-8, welded mesh panels."""
 
@@ -133,11 +136,11 @@ def side_posts(fence: Fence) -> tuple[float, ...]:
 
 
 def rear_feet(near: Surroundings) -> tuple[float, ...]:
-    """Middles of the rear feet at whose ends posts stand, those beside the cabinet left out [m]."""
+    """Middles of the rear feet at whose ends posts stand, clear of the plates of the posts beside the cabinet [m]."""
     (control,) = near.of(CONTROL)
-    feet = near.of(part_id("rear-foot"))
-    clear = (foot for foot in feet if foot.high[0] <= control.low[0] - POST or foot.low[0] >= control.high[0] + POST)
-    return tuple(float(one.low[0] + one.high[0]) / 2 for one in clear)
+    begin, end = float(control.low[0]) - PLATE, float(control.high[0]) + PLATE
+    middles = (float(foot.low[0] + foot.high[0]) / 2 for foot in near.of(part_id("rear-foot")))
+    return tuple(x for x in middles if x + POST / 2 <= begin or x - POST / 2 >= end)
 
 
 def guard_checks(site: LoomSite) -> tuple[Check, ...]:
