@@ -187,7 +187,7 @@ def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArr
     return (hull(flat[:, 0] + 1j * flat[:, 1]),)
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=2048)  # a loom has about a thousand
 def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
     """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
     turned = np.frombuffer(rotation).reshape(3, 3)
@@ -225,7 +225,7 @@ def _outer(section: CrossSection) -> Iterator[ComplexArray]:
     return (curve for curve in curves if _area(curve) > 0)
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=512)  # all parts of a loom: each view goes through them in the same order
 def _mesh(part: Part) -> Solid:
     assert part.shape is not None
     return part.shape.mesh(COARSE)
