@@ -249,19 +249,21 @@ def _covered(part: Part, position: Placement, guide: Part, at: Placement) -> Ite
     """Where a face of a guide lies on one of a part, in the part's axes: the middle and length of what both cover."""
     if part.shape is None or guide.shape is None:
         return
-    others = tuple(faces_of(guide.shape, position.inverse.after(at)))
-    for own in faces_of(part.shape):
-        for other in others:
-            apart = (other.corners[0] - own.corners[0]) @ own.normal
-            if own.normal @ other.normal > SAME - 1 or abs(apart) > _FLUSH:
-                continue
-            across = own.corners[1] - own.corners[0]
-            axes = np.stack([across / np.linalg.norm(across), np.cross(own.normal, across / np.linalg.norm(across))])
-            low = np.maximum((own.corners @ axes.T).min(0), (other.corners @ axes.T).min(0))
-            high = np.minimum((own.corners @ axes.T).max(0), (other.corners @ axes.T).max(0))
-            if (high - low).min() > _COVERED:
-                middle = (low + high) / 2 @ axes + own.corners[0] @ own.normal * own.normal
-                yield Placement(middle, np.stack([*axes, own.normal], axis=1)), float((high - low).max())
+    faces, others = tuple(faces_of(part.shape)), tuple(faces_of(guide.shape, position.inverse.after(at)))
+    if not faces or not others:
+        return
+    normals, its = np.array([own.normal for own in faces]), np.array([other.normal for other in others])
+    levels = np.einsum("ki,ki->k", normals, [own.corners[0] for own in faces])
+    apart = normals @ np.array([other.corners[0] for other in others]).T - levels[:, None]
+    for k, j in np.argwhere((normals @ its.T <= SAME - 1) & (abs(apart) <= _FLUSH)).tolist():
+        own, other = faces[k], others[j]
+        across = own.corners[1] - own.corners[0]
+        axes = np.stack([across / np.linalg.norm(across), np.cross(own.normal, across / np.linalg.norm(across))])
+        low = np.maximum((own.corners @ axes.T).min(0), (other.corners @ axes.T).min(0))
+        high = np.minimum((own.corners @ axes.T).max(0), (other.corners @ axes.T).max(0))
+        if (high - low).min() > _COVERED:
+            middle = (low + high) / 2 @ axes + own.corners[0] @ own.normal * own.normal
+            yield Placement(middle, np.stack([*axes, own.normal], axis=1)), float((high - low).max())
 
 
 _FLUSH, _COVERED = 10 * um, 1e-3

@@ -8,6 +8,7 @@ from manifold3d import Manifold, Mesh64
 from ilmek.arrays import ComplexArray, IntArray
 from ilmek.part.convex import prism_corners, ring_corners
 from ilmek.plane.triangulation import triangles
+from ilmek.plane.vectors import following
 from ilmek.report.scene import Solid
 
 
@@ -22,15 +23,15 @@ def extruded(loops: Sequence[ComplexArray], length: float) -> Solid:
     sides, begin = [], 0
     for loop in loops:
         corner = np.arange(begin, begin + len(loop))
-        sides.append(_quads(corner, np.roll(corner, -1), number))
+        sides.append(_quads(corner, following(corner), number))
         begin += len(loop)
     return Solid(prism_corners(section, length), np.concatenate([faces[:, ::-1], faces + number, *sides]))
 
 
-def _quads(corner: IntArray, following: IntArray, above: int) -> IntArray:
+def _quads(corner: IntArray, after: IntArray, above: int) -> IntArray:
     """The sides between corners, those that follow, and both `above` further: two triangles each, seen from outside."""
-    first = np.stack([corner, following, following + above], axis=1)
-    return np.concatenate([first, np.stack([corner, following + above, corner + above], axis=1)])
+    first = np.stack([corner, after, after + above], axis=1)
+    return np.concatenate([first, np.stack([corner, after + above, corner + above], axis=1)])
 
 
 def revolved(loops: Sequence[ComplexArray], deviation: float) -> Solid:
@@ -55,13 +56,13 @@ def _surface(loop: ComplexArray, number: int) -> Solid:
     rings = [
         begin + (around if size > 1 else np.zeros(number, dtype=int)) for begin, size in zip(begins, sizes, strict=True)
     ]
-    faces = []
+    faces, after = [], [following(ring) for ring in rings]
     for k, ring in enumerate(rings):
-        other = rings[(k + 1) % len(rings)]
+        other = (k + 1) % len(rings)
         if sizes[k] > 1:
-            faces.append(np.stack([ring, other, np.roll(ring, -1)], axis=1))
-        if sizes[(k + 1) % len(rings)] > 1:
-            faces.append(np.stack([other, np.roll(other, -1), np.roll(ring, -1)], axis=1))
+            faces.append(np.stack([ring, rings[other], after[k]], axis=1))
+        if sizes[other] > 1:
+            faces.append(np.stack([rings[other], after[other], after[k]], axis=1))
     return Solid(points, np.concatenate(faces))
 
 

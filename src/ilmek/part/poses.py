@@ -105,7 +105,7 @@ def poses(chain: Chain, drive: str, angle: FloatArray) -> Poses:
         rotation = rotation @ link.position.rotation
         motion = link.body.joint.motion
         if motion is not None:
-            shift, turned = _moved(motion, angle if motion.drive == drive else _START)
+            shift, turned = _moved(motion, angle) if motion.drive == drive else _at_start(motion)
             if shift.any():
                 origin = origin + (rotation @ shift[:, :, None])[:, :, 0]
             if turned.any():
@@ -129,6 +129,11 @@ def moments_at_rest(tree: Tree, left_out: frozenset[str] = frozenset()) -> Momen
         if chain[-1].name not in left_out
         for here in [poses(chain, "", _START)]
     )
+
+
+@lru_cache(maxsize=1024)
+def _at_start(motion: SceneMotion) -> tuple[Float[np.ndarray, "1 3"], FloatArray]:
+    return _moved(motion, _START)
 
 
 def _moved(motion: SceneMotion, angle: FloatArray) -> tuple[Float[np.ndarray, "n 3"], FloatArray]:

@@ -24,6 +24,7 @@ from ilmek.part.shapes import Turned
 from ilmek.part.tree import Tree
 from ilmek.plane.contours import along, circle
 from ilmek.plane.curves import hull
+from ilmek.plane.vectors import following
 from ilmek.records import record
 from ilmek.report.scene import Solid
 from ilmek.units import mm, turn
@@ -187,7 +188,7 @@ def _curves(piece: _Piece, turned: Float[np.ndarray, "3 3"]) -> tuple[ComplexArr
     return (hull(flat[:, 0] + 1j * flat[:, 1]),)
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=2048)  # a loom has about a thousand
 def _projected(part: Part, rotation: bytes) -> tuple[tuple[ComplexArray, ...], float]:
     """Outer curves of a part turned about its origin [m], and its nearest distance towards the eye [m]."""
     turned = np.frombuffer(rotation).reshape(3, 3)
@@ -211,9 +212,9 @@ def _turned_body(shape: Turned, axis: Float[np.ndarray, "3"]) -> tuple[tuple[Com
         return (along(circle(0j, shape.outer_radius), COARSE / 2),), float((profile.real * axis[2]).max())
     if abs(axis[2]) > _SAME:
         return None
-    following = np.roll(profile, -1)
-    ahead = profile.real < following.real
-    left, right = np.where(ahead, profile, following), np.where(ahead, following, profile)
+    after = following(profile)
+    ahead = profile.real < after.real
+    left, right = np.where(ahead, profile, after), np.where(ahead, after, profile)
     frustums = np.stack([left.conj(), right.conj(), right, left], axis=1)[left.real < right.real]
     together = CrossSection(list(np.stack([frustums.real, frustums.imag], axis=-1)), FillRule.NonZero)
     return tuple(complex(axis[0], axis[1]) * curve for curve in _outer(together)), shape.outer_radius
@@ -225,14 +226,14 @@ def _outer(section: CrossSection) -> Iterator[ComplexArray]:
     return (curve for curve in curves if _area(curve) > 0)
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=512)  # all parts of a loom: each view goes through them in the same order
 def _mesh(part: Part) -> Solid:
     assert part.shape is not None
     return part.shape.mesh(COARSE)
 
 
 def _area(curve: ComplexArray) -> float:
-    return float((np.conj(curve) * np.roll(curve, -1)).imag.sum()) / 2
+    return float((np.conj(curve) * following(curve)).imag.sum()) / 2
 
 
 @lru_cache(maxsize=512)

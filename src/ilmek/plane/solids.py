@@ -48,5 +48,5 @@ def is_closed(solid: Solid) -> bool:
     """Whether each edge of a triangle is that of exactly one other, which runs along it the other sense."""
     edges = np.concatenate([solid.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     number = len(solid.points)
-    there, back = edges[:, 0] * number + edges[:, 1], edges[:, 1] * number + edges[:, 0]
-    return len(np.unique(there)) == len(there) and np.array_equal(np.sort(there), np.sort(back))
+    there, back = np.sort(edges[:, 0] * number + edges[:, 1]), np.sort(edges[:, 1] * number + edges[:, 0])
+    return bool((there[1:] > there[:-1]).all()) and np.array_equal(there, back)

@@ -12,7 +12,7 @@ from mapbox_earcut import triangulate_float64
 
 from ilmek.arrays import Complex, ComplexArray, Int, IntArray
 from ilmek.errors import IlmekError
-from ilmek.plane.vectors import cross
+from ilmek.plane.vectors import cross, following
 
 _SAME = 1e-6
 """Difference of areas that counts as rounding, over the area."""
@@ -39,14 +39,14 @@ def triangles(
     ends = np.cumsum([len(ring) for ring in rings])
     clipped = triangulate_float64(np.stack([points.real, points.imag], axis=1), ends.astype(np.uint32))
     faces = clipped.reshape(-1, 3).astype(np.int64)
-    within = sum(float(np.sum(cross(ring, np.roll(ring, -1)))) for ring in rings)
+    within = sum(float(np.sum(cross(ring, following(ring)))) for ring in rings)
     first, second, third = points[faces].T
     covered = float(np.sum(np.abs(cross(second - first, third - first))))
     if not abs(covered - within) <= _SAME * abs(within):
         raise IlmekError("an outline crosses itself", do="check the plate's outline and its holes")
     number = np.arange(len(points))
-    following = np.concatenate([np.roll(part, -1) for part in np.split(number, ends[:-1])])
-    return _meeting(points, faces.tolist(), set(zip(number.tolist(), following.tolist(), strict=True)))
+    after = np.concatenate([following(part) for part in np.split(number, ends[:-1])])
+    return _meeting(points, faces.tolist(), set(zip(number.tolist(), after.tolist(), strict=True)))
 
 
 def _meeting(points: ComplexArray, faces: list[list[int]], ring: set[tuple[int, int]]) -> IntArray:
