@@ -52,7 +52,7 @@ def use_everything(mechanism: Mechanism, values: dict[str, np.ndarray], machine:
         run = ilmek.run_machine(MechanismFile(machine), over=f"{low}..{high}", steps=24, fixed=held)
     except MechanismError:
         return  # it closes nowhere in this range
-    assert run.table
+    assert run.table()
     assert run.report.as_json()
 
 

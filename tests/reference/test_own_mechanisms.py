@@ -285,7 +285,7 @@ def test_a_machine_of_a_file_has_the_forces_of_lagranges_multipliers(name: str) 
     case = CASES[name]()
     machine = dataclasses.replace(ilmek.read_mechanism(str(FILES / f"{name}.toml")).machine, study=None, forward=None)
     found = ilmek.run_machine(machine, steps=37)
-    table = {heading.split(" [")[0]: np.asarray(values) for heading, values in found.table.items()}
+    table = {heading.split(" [")[0]: np.asarray(values) for heading, values in found.table().items()}
     first = case.names[0]
     q = np.array([part for at, angle in case.guess.values() for part in (at.real, at.imag, angle)])
     worst: dict[str, float] = {}

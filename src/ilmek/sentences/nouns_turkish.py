@@ -30,6 +30,8 @@ outlet of the air in the door = kapıdaki hava çıkış+ı
 plate of a device on a post = dikmedeki aygıt levha+sı | plate of an interlock on a post = dikmedeki kilit levha+sı
 console of a motor at an edge = kenar motoru konsol+u | adapter = adaptör
 adapter of a vertical axis = düşey eksen adaptör+ü
+right adapter = sağ adaptör | left adapter = sol adaptör | retaining ring = emniyet segmanı+
+plate of the rail for a carriage = rayın araba levha+sı
 anchor of the cabinet = panonun dübel+i
 anchor of the plate of a post of the guards = korkuluk dikmesi levhasının dübel+i
 anchor of the plate under the post of the rapier's axis = kancalı eksen dikmesi alt levhasının dübel+i
