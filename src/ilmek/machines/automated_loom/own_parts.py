@@ -31,7 +31,7 @@ from ilmek.machines.weaver import head_mass
 from ilmek.machines.weaver.head_shape import RAIL_AXIS
 from ilmek.part import catalogue
 from ilmek.part.part import LASER_CUT, Bought, Part, bought_part
-from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, placement
+from ilmek.part.placement import ALONG_WIDTH, IN_SIDE_VIEW, Placement, placement
 from ilmek.part.shapes import box, shape_box
 from ilmek.part.tree import Joint, JointKind, Occurrence, RigidBody, Tree
 from ilmek.report.scene import SceneMotion
@@ -119,19 +119,26 @@ def _retreat(loom: LoomDesign, frame: LoomFrame) -> RigidBody:
     # At the upper end, above the post; at the lower end where the posts of vertical axes stand behind the rail.
     flange = upper if loom.beat.crank_rockers else placement(z=low, about=(1.0, 0.0, 0.0), angle=math.pi)
     ends = zip(stations[: len(held[0].stations)], (placement(aside), placement(-aside)), strict=True)
-    # Each end has an adapter of its own: its axis is aside of the motor to the other side.
-    sides = zip(RETREAT_ADAPTERS, ("right", "left"), (end.after(out).after(flange) for end, out in ends), strict=True)
-    adapters = [
-        catalogue.adapted(name, f"{side} adapter of the rail's retreat", motor, RAIL_AXIS, (end,))
-        for name, side, end in sides
-    ]
-    flanges = tuple(flange for _, own in adapters for flange in own)
+    adapters, flanges = _adapted(motor, tuple(end.after(out).after(flange) for end, out in ends))
     parts = (
         Occurrence(axis, tuple(station.after(upper) for station in stations)),
-        *(adapter for own, _ in adapters for adapter in own),
+        *adapters,
         *(Occurrence(part, flanges) for part in (motor, brake)),
     )
     return RigidBody(part_id("retreat"), parts)
+
+
+def _adapted(motor: Part, ends: tuple[Placement, ...]) -> tuple[tuple[Occurrence, ...], tuple[Placement, ...]]:
+    """Adapters and flanges of the motors at the right and the left end, as `catalogue.adapted`.
+
+    Each end has an adapter of its own: its axis lies beside the motor, to the other side.
+    """
+    titles = (f"{side} adapter of the rail's retreat" for side in ("right", "left"))
+    sides = [
+        catalogue.adapted(name, title, motor, RAIL_AXIS, (end,))
+        for name, title, end in zip(RETREAT_ADAPTERS, titles, ends, strict=True)
+    ]
+    return tuple(part for own, _ in sides for part in own), tuple(flange for _, own in sides for flange in own)
 
 
 def _aside(face: float) -> float:
