@@ -306,7 +306,7 @@ def _plate_outline(side: float) -> ComplexArray:
 def _carriage() -> Part:
     """The carriage of an axis along x, on it at z = 0."""
     bought = Bought(
-        f"carriage of an axis {in_mm(RAIL_AXIS)} wide",
+        f"axis carriage {in_mm(RAIL_AXIS)} wide",
         _FILLED * math.prod(CARRIAGE) * MATERIALS["aluminium alloy"].density,
         data=f"{_HOLES.number} holes for {_HOLES.thread}, {in_mm(_HOLES.across)} x {in_mm(_HOLES.along)}",
         holes=(_HOLES,),
