@@ -20,7 +20,7 @@ def judged(
 
     by      the input that moves; default: the only one       locked  values of the others [rad; m], or texts
     Nothing is computed before it is read. An output is named as in the results: "rocker" the angle of a body,
-    "coupler.P.x" a coordinate of a point, "line" the travel of a slide.
+    "coupler.P x" a coordinate of a point, "line" the travel of a slide.
 
     Raises MechanismError for an unknown input, and where other inputs have no value.
 

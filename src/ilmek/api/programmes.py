@@ -7,6 +7,7 @@ from types import MappingProxyType
 
 from ilmek.api.carpets import Settings
 from ilmek.arguments import Arguments, Quantity
+from ilmek.errors import ParameterError
 from ilmek.io.output.outputs import Outputs
 from ilmek.io.plc.targets import TARGETS
 from ilmek.jobs.check import CheckResult, check_programme
@@ -178,8 +179,8 @@ def plan(
     """
     given = Arguments("a plan")
     limit = None if time_limit is None else given.number("time_limit", time_limit, "s", most=MOST_LIMIT)
-    if limit is not None:
-        limit = max(limit, LEAST_LIMIT)
+    if limit is not None and limit < LEAST_LIMIT:
+        raise ParameterError(f"a time_limit of {limit:g} s", allowed=f"{LEAST_LIMIT:g} s to {MOST_LIMIT:g} s")
     on = given.record("progress", progress, Progress)
     return plan_factory(given.path("orders", orders), given.path("looms", looms), time_limit=limit, progress=on)
 

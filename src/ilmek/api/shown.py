@@ -12,9 +12,9 @@ import numpy as np
 
 from ilmek.api.machine_runs import MachineRun
 from ilmek.arguments import Arguments
-from ilmek.cams.figures import motion_plots, sample_angles
+from ilmek.cams.figures import cam_strokes, motion_plots
 from ilmek.cams.plate import PlateCam
-from ilmek.cams.programme import TURN, CamProgramme
+from ilmek.cams.programme import CamProgramme
 from ilmek.carpet.chart import Chart
 from ilmek.dynamics.animation import FRAMES, animated
 from ilmek.dynamics.forward_run import ForwardRun
@@ -27,11 +27,11 @@ from ilmek.jobs.weave import WeaveResult
 from ilmek.linkage.initial_pose import inputs_in_pose
 from ilmek.linkage.judged import JudgedMechanism
 from ilmek.linkage.model import Mechanism, Rotation
-from ilmek.linkage.motion import Motion, moving_points
+from ilmek.linkage.motion import Motion, free_points, moving_points
 from ilmek.linkage.one_input import one_input
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import plan
-from ilmek.report import Animation, Axis, Check, Dot, Drawing, Figure, Gantt, Plot, Report, StackedBars, Stroke, Timing
+from ilmek.report import Animation, Axis, Check, Dot, Drawing, Figure, Gantt, Plot, Report, StackedBars, Timing
 from ilmek.report.framed import Framed
 from ilmek.units import format_quantity
 from ilmek.viz.carpet_picture import draw_carpet
@@ -66,9 +66,7 @@ def _(mechanism: Mechanism) -> Figure | None:
 
 @figure.register
 def _(judged: JudgedMechanism) -> Figure:
-    first, last = judged.range
-    inside = 0.0 if judged.turns else 1e-6 * (last - first)
-    values = np.linspace(first + inside, last - inside, FRAMES, endpoint=not judged.turns)
+    values = np.linspace(*judged.inside, FRAMES, endpoint=not judged.turns)
     return _moving(judged.moved.motion(values), values, judged.turns)
 
 
@@ -85,8 +83,7 @@ def _(motion: Motion) -> Figure | None:
 def _moving(motion: Motion, values: np.ndarray, closes: bool) -> Animation:
     """The mechanism with the paths of its free points, or of all where each is a joint."""
     mechanism = motion.plan.mechanism
-    joints, points = {joint.name for joint in mechanism.joints}, moving_points(mechanism)
-    traces = [point for point in points if point[1] not in joints] or list(points)
+    traces = free_points(mechanism) or moving_points(mechanism)
     drawing = Drawing("mechanism", mechanism.name, ())
     turning = isinstance(mechanism.inputs[0], Rotation) if mechanism.inputs else True
     drive = Axis(mechanism.inputs[0].name if mechanism.inputs else "", "deg" if turning else "mm")
@@ -111,14 +108,7 @@ def _(programme: CamProgramme) -> Figure:
 
 @figure.register
 def _(cam: PlateCam) -> Figure:
-    angle, circle = sample_angles(cam.programme, count=721), np.exp(1j * np.linspace(0.0, TURN, 361))
-    strokes = [
-        Stroke(np.asarray(cam.surface(angle)), "outline", "cam", closed=True, filled=True),
-        Stroke(cam.prime_radius * circle, "construction", f"Rp {format_quantity(cam.prime_radius, 'mm')}", closed=True),
-    ]
-    if cam.roller_radius:
-        strokes.append(Stroke(cam.trace(angle).pitch, "path", "pitch curve", closed=True))
-    return Drawing("cam", "Plate cam, cam angle 0 to the right", tuple(strokes), (Dot(0j, "", "point"),))
+    return Drawing("cam", "Plate cam, cam angle 0 to the right", cam_strokes(cam), (Dot(0j, "", "point"),))
 
 
 @figure.register

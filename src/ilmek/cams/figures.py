@@ -103,21 +103,32 @@ def cam_drawing(cam: CamRole, bore_side: float, guide_radius: float) -> Drawing:
 
     bore_side  of the square bore [m]      guide_radius  of the guide cam [m]
     """
-    angle = sample_angles(cam.programme, count=721)
-    circle = np.exp(1j * np.linspace(0.0, TURN, 361))
-    tip = _to_the_tip(cam, angle)
+    tip = _to_the_tip(cam, sample_angles(cam.programme, count=721))
     corners = bore_side / 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j])
-    pitch = (Stroke(cam.trace(angle).pitch, "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
+    guide = f"guide cam {format_quantity(guide_radius, 'mm')}"
     strokes = (
-        Stroke(guide_radius * circle, "construction", f"guide cam {format_quantity(guide_radius, 'mm')}", closed=True),
-        Stroke(cam.trace(angle).surface, "outline", "cam", closed=True, filled=True),
-        Stroke(cam.prime_radius * circle, "construction", f"Rp {format_quantity(cam.prime_radius, 'mm')}", closed=True),
-        *pitch,
+        Stroke(guide_radius * _CIRCLE, "construction", guide, closed=True),
+        *cam_strokes(cam),
         Stroke(corners, "outline", f"bore {format_quantity(bore_side, 'mm')}", closed=True),
         Stroke(tip, "dimension", format_quantity(float(np.abs(tip[1])), "mm")),
     )
     note = "turns counter-clockwise; the warp lies on the right when the cam angle is 0"
     return Drawing("cam", "Cam, to scale", strokes, (Dot(0j, "", "point"),), note=note)
+
+
+def cam_strokes(cam: CamRole) -> tuple[Stroke, ...]:
+    """Surface, prime circle and, of a roller, pitch curve of a cam to scale, cam angle 0 to the right."""
+    trace = cam.trace(sample_angles(cam.programme, count=721))
+    prime = f"Rp {format_quantity(cam.prime_radius, 'mm')}"
+    pitch = (Stroke(trace.pitch, "path", "pitch curve", closed=True),) if cam.roller_radius > 0 else ()
+    return (
+        Stroke(trace.surface, "outline", "cam", closed=True, filled=True),
+        Stroke(cam.prime_radius * _CIRCLE, "construction", prime, closed=True),
+        *pitch,
+    )
+
+
+_CIRCLE = np.exp(1j * np.linspace(0.0, TURN, 361))
 
 
 def _to_the_tip(cam: CamRole, angle: FloatArray) -> ComplexArray:

@@ -30,6 +30,9 @@ from ilmek.units import turn
 SAMPLES = 721
 """Samples of the motion over the range of the input."""
 
+EDGE = 1e-6
+"""Share of a range that is left out at a dead centre of the input."""
+
 FULL = 1e-9
 """A range shorter than a turn by less [rad] is a full turn."""
 
@@ -46,7 +49,7 @@ class WorstTransmission(NamedTuple):
 class JudgedMechanism(Shown):
     """A mechanism with one moving input, judged: each property is computed once, when it is first read.
 
-    An output is named as its results are: "rocker" is the angle of a body, "coupler.P.x" and "coupler.P.y" are the
+    An output is named as its results are: "rocker" is the angle of a body, "coupler.P x" and "coupler.P y" are the
     coordinates of a point, "S" is the travel of a slide.
 
     >>> from ilmek.linkage.fourbar import four_bar
@@ -109,7 +112,7 @@ class JudgedMechanism(Shown):
     @cached_property
     def motion(self) -> Motion:
         """The motion over `range`, at unit speed: rates are derivatives by the input."""
-        return self.moved.motion(np.linspace(*self._inside, SAMPLES))
+        return self.moved.motion(np.linspace(*self.inside, SAMPLES))
 
     @cached_property
     def transmission(self) -> WorstTransmission:
@@ -131,11 +134,11 @@ class JudgedMechanism(Shown):
 
     def limits(self, output: str) -> tuple[OutputExtreme, ...]:
         """Limit positions of an output over `range`, its dead centres, in the order of the input."""
-        return extremes(self.moved, self.output(output), *self._inside)
+        return extremes(self.moved, self.output(output), *self.inside)
 
     def dwells(self, output: str, tolerance: float) -> tuple[Dwell, ...]:
         """Dwells of an output about its limits, the longest first; tolerance to either side [rad, m]."""
-        return dwells(self.moved, self.output(output), tolerance, *self._inside)
+        return dwells(self.moved, self.output(output), tolerance, *self.inside)
 
     def time_ratio(self, output: str) -> float:
         """Time ratio of an output with two limits at a constant speed of the input: the slow stroke by the quick one.
@@ -161,7 +164,7 @@ class JudgedMechanism(Shown):
         """The curve of a point, "body.point": length, cusps, crossings, inflections, straights, curvature."""
         body, _, name = point.partition(".")
         self.mechanism.point(body, name)
-        return coupler_curve(InputPath(self.moved, *self._inside), body, name)
+        return coupler_curve(InputPath(self.moved, *self.inside), body, name)
 
     @cached_property
     def dimensions(self) -> tuple[Dimension, ...]:
@@ -179,11 +182,11 @@ class JudgedMechanism(Shown):
 
     @property
     def _values(self) -> Float[np.ndarray, " samples"]:
-        return np.linspace(*self._inside, SAMPLES)
+        return np.linspace(*self.inside, SAMPLES)
 
     @cached_property
-    def _inside(self) -> tuple[float, float]:
+    def inside(self) -> tuple[float, float]:
         """The range without its ends, where the input is at a dead centre; a full turn has none."""
         first, last = self.range
-        edge = 0.0 if self.moved.turns and last - first > turn - FULL else 1e-6 * (last - first)
+        edge = 0.0 if self.turns else EDGE * (last - first)
         return first + edge, last - edge

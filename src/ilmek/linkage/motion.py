@@ -204,6 +204,12 @@ def moving_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:
     return tuple(moving_points)
 
 
+def free_points(mechanism: Mechanism) -> tuple[tuple[str, str], ...]:
+    """Those of `moving_points` that are no joints."""
+    joints = {joint.name for joint in mechanism.joints}
+    return tuple(point for point in moving_points(mechanism) if point[1] not in joints)
+
+
 def _over(value: ComplexField, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Any:
     """A constant as a read-only array over the samples; an array as it is."""
     if isinstance(value, np.ndarray) and value.ndim:

@@ -107,13 +107,13 @@ AXES = {"x": 0.0, "y": math.pi / 2}
 
 
 def output_named(mechanism: Mechanism, name: str) -> Output:
-    """The output of a name: "rocker" the angle of a body, "coupler.P.x" a coordinate of a point, "S" a slide's travel.
+    """The output of a name: "rocker" the angle of a body, "coupler.P x" a coordinate of a point, "S" a slide's travel.
 
     Raises MechanismError, with the nearest, for a name of none.
 
     >>> from ilmek.linkage.fourbar import slider_crank
     >>> press = slider_crank(0.1, 0.3, branch=+1)
-    >>> [type(output_named(press, name)).__name__ for name in ("rod", "rod.B.y", "line")]
+    >>> [type(output_named(press, name)).__name__ for name in ("rod", "rod.B y", "line")]
     ['RelativeAngle', 'Coordinate', 'Travel']
     """
     named: dict[str, Output] = {
@@ -122,7 +122,7 @@ def output_named(mechanism: Mechanism, name: str) -> Output:
     named |= {body: RelativeAngle(body) for body in mechanism.moving}
     for body in mechanism.moving:
         for point in mechanism.body(body).points:
-            named |= {f"{body}.{point}.{axis}": Coordinate(body, point, along) for axis, along in AXES.items()}
+            named |= {f"{body}.{point} {axis}": Coordinate(body, point, along) for axis, along in AXES.items()}
     if name not in named:
         hint = did_you_mean(name, named, otherwise=f"one of {', '.join(list(named)[:12])}, ...")
         raise MechanismError(f"{mechanism.name} has no output {name!r}", do=hint)

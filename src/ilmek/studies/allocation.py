@@ -26,6 +26,10 @@ LEAST, GREATEST = 0.02, 10.0
 """Bounds of the factor of a tolerance."""
 
 
+INSIDE = 1e-6
+"""Excess of the log of the share that fails at which a solution counts as inside."""
+
+
 @record
 class Allocation:
     """New tolerances for a yield.
@@ -95,8 +99,11 @@ def allocated(  # noqa: PLR0917 - one argument a symbol
         constraints={"type": "ineq", "fun": lambda u: allowed - log_misses(u)},
         options={"maxiter": 300, "ftol": 1e-12},
     )
-    factors = {variable.name: float(s) for variable, s in zip(variables, np.exp(best.x), strict=True)}
-    return Allocation(target, factors, float(best.fun), float(-np.expm1(log_misses(best.x))), explained)
+    # Where SLSQP ends outside, the best equal factors stand.
+    logs = best.x if log_misses(best.x) <= allowed + INSIDE else np.full(len(variables), starts[-1])
+    factors = {variable.name: float(s) for variable, s in zip(variables, np.exp(logs), strict=True)}
+    reduced = float(cost @ np.exp(-logs)) / cost.sum()
+    return Allocation(target, factors, float(reduced), float(-np.expm1(log_misses(logs))), explained)
 
 
 def _linear_misses(

@@ -12,7 +12,7 @@ from ilmek.dynamics.speed_study import StudyOfSpeeds
 from ilmek.jobs.mechanism.analysis import Analysis
 from ilmek.jobs.mechanism.run import MechanismRun
 from ilmek.linkage.model import GROUND, Pin, Rotation, Slide
-from ilmek.linkage.motion import moving_points
+from ilmek.linkage.motion import free_points
 from ilmek.linkage.outputs import Travel, output_history
 from ilmek.linkage.solve import solve
 from ilmek.report import Axis, Drawing, Figure, Plot, Series
@@ -42,8 +42,7 @@ def figures(found: Analysis) -> tuple[Figure, ...]:
 
 def traced_points(run: MechanismRun) -> list[tuple[str, str]]:
     """Bodies and points whose paths are drawn: those of the file, or all points that are no joints."""
-    joints = {joint.name for joint in run.plan.mechanism.joints}
-    return list(run.machine.paths) or [point for point in moving_points(run.plan.mechanism) if point[1] not in joints]
+    return list(run.machine.paths or free_points(run.plan.mechanism))
 
 
 def _moving(run: MechanismRun, drive: Axis) -> Iterator[Figure]:

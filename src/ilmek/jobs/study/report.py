@@ -88,14 +88,23 @@ def _design(found: StudyResult, number: int) -> JsonObject:
 
 
 def _checks(found: StudyResult) -> tuple[Check, ...]:
-    """Whether a design holds; the cure names the check that fails most often."""
+    """Whether a design holds, and whether tolerances of least cost give the wanted yield.
+
+    The cure names the check that fails most often. A yield is judged by the upper end of its interval: a smaller one
+    than wanted is not for lack of designs.
+    """
     feasible = int(found.rows.feasible.sum())
     frequent = _failures(found)
     cure = "widen the ranges of --vary"
     if frequent:
         name, share = frequent[0]
         cure = f"{name} fails in {share:.0%} of the designs: widen the ranges, or give the study a lower limit"
-    return (at_least("designs that hold", feasible, 1, "1", "checks of each design").with_cure(cure),)
+    checks = [at_least("designs that hold", feasible, 1, "1", "checks of each design").with_cure(cure)]
+    if found.allocation is not None and found.allocation.found is not None:
+        reached, target = found.allocation.found.high, found.allocation.target
+        wanted = at_least("yield of the tolerances of least cost", reached, target, "%", "upper end of its interval")
+        checks.append(wanted.with_cure("ask for a higher --yield: the margins are not normal, or the fit is poor"))
+    return tuple(checks)
 
 
 def _failures(found: StudyResult) -> list[tuple[str, float]]:
