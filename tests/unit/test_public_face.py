@@ -157,7 +157,7 @@ def test_points_are_complex_or_two_coordinates() -> None:
 
 def test_forces_by_sample_are_complex_or_rows_of_two() -> None:
     motion, rows = moving(), np.column_stack((np.arange(13.0), -np.ones(13)))
-    loads = [ilmek.PointForce("rocker", "B", force) for force in (rows, rows[:, 0] + 1j * rows[:, 1])]
+    loads = [ilmek.PointForce("rocker.B", force) for force in (rows, rows[:, 0] + 1j * rows[:, 1])]
     first, second = (ilmek.inverse_dynamics(motion, INERTIAS, [load]).effort("crank") for load in loads)
     assert np.array_equal(first, second)
 
@@ -362,7 +362,7 @@ def test_public_records_compare_and_print() -> None:
         ilmek.path_four_bars(POINTS, time_limit=1e-9),
         ilmek.motion_four_bars([0, (25 + 15j) * mm, (30 + 1j) * mm], [10 * deg, 3 * deg, -25 * deg]),
         ilmek.Gravity(-9.81j),
-        ilmek.PointForce("rocker", "B", np.ones(3) + 0j),
+        ilmek.PointForce("rocker.B", np.ones(3) + 0j),
         ilmek.Torque("rocker", np.ones(3)),
     )
 
