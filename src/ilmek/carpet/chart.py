@@ -13,9 +13,10 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.averages import reading_loss
-from ilmek.carpet.codes import CODES, eight_bits, recoded
+from ilmek.carpet.cells import GROUND_COLOUR, Cells, require_knots
+from ilmek.carpet.codes import CODES, recoded
 from ilmek.carpet.confetti import merge_patches
-from ilmek.carpet.design import knot_grid
+from ilmek.carpet.design import require_grid
 from ilmek.carpet.detail import KeptDetail, detail_kept
 from ilmek.carpet.differences import YarnDifference, differences
 from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of
@@ -42,7 +43,6 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
 from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
-from ilmek.units import counted
 
 
 @record
@@ -91,8 +91,8 @@ class ChartReading:
 class Chart(Shown):
     """A knot chart; what is given is checked, and converted where nothing is lost.
 
-    knots    index in `yarns` of each knot's yarn, (rows, columns); row 0 is the top of the picture. Any integers,
-             booleans (0 and 1) and whole floats become uint8; an array that is so already is kept, not copied
+    knots    index in `yarns` of each knot's yarn, (rows, columns), NO_KNOT where `cells` have none; row 0 is the top of
+             the picture. Any integers, booleans and whole floats become uint8; an array that is so already is kept
     yarns    1 to 255
     size, quality  of the carpet, which has length · along rows and width · across columns; also texts: "30x40cm"
     knot     symmetric or asymmetric, also by a trade name (`parse_knot`): senneh is asymmetric
@@ -100,6 +100,7 @@ class Chart(Shown):
     overlay  half knots and jufti knots; default: none
     creel    the position in the creel of each yarn, 0 to 255: its index in the indexed picture that gave it, and in
              chart.bmp; None: their order
+    cells    which cells have no knot, and which a pile of their own; None: every cell is a knot of the carpet's pile
     Raises CarpetError for knots that are no such indices or not those of the size and quality, for an unknown knot, and
     for an overlay that does not fit; YarnError for a list of no or too many yarns.
 
@@ -116,22 +117,22 @@ class Chart(Shown):
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
     creel: tuple[int, ...] | None = None
+    cells: Cells | None = None
     _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
     def __post_init__(self) -> None:
         yarns, size, quality = yarn_list(self.yarns), carpet_size(self.size), carpet_quality(self.quality)
-        meaning = f"the index in a list of {counted(len(yarns), 'yarn')}"
         checked = {
             "yarns": yarns,
             "size": size,
             "quality": quality,
             "knot": parse_knot(self.knot),
-            "knots": eight_bits(self.knots, "knots", len(yarns) - 1, meaning, CarpetError),
+            "knots": require_knots(self.knots, self.cells, yarns),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
-        _require_grid(self.knots, size, quality)
+        require_grid(self.knots, size, quality)
         require_fit(self.overlay, self.knots, len(yarns))
         if not len(yarns) == len(set(self.positions)) == len(set(self.positions) & set(range(CODES))):
             given = f"the creel {shown_value(self.creel)}"
@@ -184,6 +185,13 @@ class Chart(Shown):
         return tuple(yarn for yarn in range(len(self.yarns)) if tied.of(yarn))
 
     @property
+    def colour_table(self) -> Rgb:
+        """The colour of each code of `knots`, (CODES, 3): of its yarn, and of the ground where there is no knot."""
+        colours: Rgb = np.full((CODES, 3), GROUND_COLOUR, dtype=np.uint8)
+        colours[: len(self.yarns)] = [yarn.srgb for yarn in self.yarns]
+        return colours
+
+    @property
     def colours(self) -> int:
         """Number of yarns that at least one knot has."""
         return len(self.used)
@@ -196,7 +204,7 @@ class Chart(Shown):
     @property
     def lone_fraction(self) -> float:
         """Share of lone knots [-]."""
-        return self.tally().lone / self.knots.size
+        return self.tally().lone / self.tally().knots
 
     @property
     def small_patches(self) -> int:
@@ -206,18 +214,7 @@ class Chart(Shown):
     @property
     def changes_per_knot(self) -> float:
         """Changes of yarn along the rows, per knot [-]."""
-        return self.tally().changes / self.knots.size
-
-
-def _require_grid(knots: Indices, size: CarpetSize, quality: Quality) -> None:
-    """Raise CarpetError unless the knots are those of a carpet of this size and quality."""
-    grid = knot_grid(size, quality)
-    if knots.shape != grid:
-        raise CarpetError(
-            f"knots of the shape {knots.shape}",
-            allowed=f"{grid}, rows and columns of {size} at {quality}",
-            do="give the size and quality that these knots have",
-        )
+        return self.tally().changes / self.tally().knots
 
 
 def used_first(chart: Chart) -> Chart:

@@ -20,6 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import Indices, Int32, UInt8
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.errors import CarpetError
 from ilmek.records import record
 
@@ -148,6 +149,7 @@ def require_fit(overlay: Overlay, knots: Indices, yarns: int) -> None:
     _refuse(overlay, np.append(False, near), knots, "overlaps the one before it", "one half or jufti knot in a cell")
     flat = knots.reshape(-1)
     unlike = jufti & (flat[cells] != flat[cells + jufti])
+    _refuse(overlay, flat[cells] == NO_KNOT, knots, "has no knot", "marks of knots only")
     _refuse(overlay, unlike, knots, "has two yarns", "a jufti knot covers two cells of one yarn")
     second = (overlay.kinds == HALF) & ((overlay.seconds >= yarns) | (overlay.seconds == flat[cells]))
     _refuse(overlay, second, knots, "has no second yarn of its own", "another yarn of the list on its right warp")

@@ -20,6 +20,7 @@ import numpy as np
 
 from ilmek.arrays import Indices, Int
 from ilmek.carpet.chart import Chart
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.exact import has_grid, of_grid
 from ilmek.carpet.overlay import HALF, KnotMark, overlay_of
@@ -29,6 +30,7 @@ from ilmek.carpet.sizes import CarpetSize
 from ilmek.carpet.yarn import MOST_YARNS, Yarn
 from ilmek.errors import IlmekError, PictureError, is_printable, shortened
 from ilmek.io.carpet_facts import ChartFacts, chart_of_facts, read_facts
+from ilmek.io.cells_text import read_cells
 from ilmek.io.chart.oxs import MOST_OXS_KNOTS
 from ilmek.io.data_text import LONGEST_NAME
 from ilmek.io.overlay_text import read_overlay
@@ -116,7 +118,7 @@ class _Reader:
         self.depth = 0
         self.palette: dict[int, tuple[str, str]] = {}  # name and colour by index
         self.left_out: Counter[tuple[str, str]] = Counter()
-        self.facts = self.overlay = self.software = ""
+        self.facts = self.overlay = self.cells = self.software = ""
         self._stitches: Int[np.ndarray, "layers rows columns"] | None = None
         self._parser: Any = expat.ParserCreate()
         self._parser.buffer_text = True
@@ -154,7 +156,7 @@ class _Reader:
             raise _FaultError(given, allowed=f"x 0 to {columns - 1}, y 0 to {rows - 1}")
         full, left, right = self._stitches[:, 1:, 1:] if beyond else self._stitches[:, :rows, :columns]
         left, right = np.where(left, left, full), np.where(right, right, full)
-        if bare := int(np.count_nonzero((left == 0) | (right == 0))):
+        if not self.cells and (bare := int(np.count_nonzero((left == 0) | (right == 0)))):
             filled = self._ground(ground, bare, left.size)
             left[left == 0], right[right == 0] = filled, filled
         return _Stitches(left, right), ("its stitches are numbered from 1",) if beyond else ()
@@ -164,7 +166,7 @@ class _Reader:
         if ground is None:
             raise _FaultError(
                 f"{bare} of its {counted(cells, 'cell')} have no stitch, or half of one: that is bare cloth",
-                allowed="a knot in every cell: there is no carpet without pile in places",
+                allowed="a knot in every cell of a chart of another program",
                 do="give the colour of these knots, as --ground '#ffffff'",
             )
         colour = ground.removeprefix("#")
@@ -192,7 +194,7 @@ class _Reader:
         elif name == "properties":
             self._properties(given)
         elif name == "ilmek":
-            self.facts, self.overlay = given.get("facts", ""), given.get("overlay", "")
+            self.facts, self.overlay, self.cells = (given.get(key, "") for key in ("facts", "overlay", "cells"))
         elif name in _LEFT_OUT:
             self.left_out[_LEFT_OUT[name]] += 1
 
@@ -254,6 +256,8 @@ def _chart(
         try:
             return _own(reader, stitches), notes
         except IlmekError as error:
+            if reader.cells and not stitches.left.all():
+                raise
             notes = (*notes, f"its data of ilmek cannot be used ({error.given}); it is read as that of another program")
     yarns, position = _yarns(reader, stitches)
     knots, seconds = position[stitches.left], position[stitches.right]
@@ -273,13 +277,16 @@ def _own(reader: _Reader, stitches: _Stitches) -> Chart:
     colours = [f"#{colour}" for index, (_, colour) in sorted(reader.palette.items()) if index > 0]
     if colours != [yarn.hex for yarn in facts.yarns]:
         raise _FaultError("the palette was changed")
-    knots = (stitches.left - 1).astype(np.uint8)
+    knots = (stitches.left - 1).astype(np.uint8)  # bare cloth: NO_KNOT
+    cells = read_cells(reader.cells, knots)
+    if cells is not None and not np.array_equal(cells.tied, knots != NO_KNOT):
+        raise _FaultError("the stitches were changed")
     overlay = read_overlay(reader.overlay, knots, len(facts.yarns))
     expected, halves = stitches.left.copy(), overlay.kinds == HALF
     expected[overlay.rows[halves], overlay.columns[halves]] = overlay.seconds[halves] + 1
     if not np.array_equal(expected, stitches.right):
         raise _FaultError("the stitches were changed")
-    return replace(chart_of_facts(knots, facts, "an OXS chart of ilmek"), overlay=overlay)
+    return replace(chart_of_facts(knots, facts, "an OXS chart of ilmek", cells), overlay=overlay)
 
 
 def _yarns(reader: _Reader, stitches: _Stitches) -> tuple[tuple[Yarn, ...], Indices]:
