@@ -14,8 +14,10 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, Indices
 from ilmek.carpet.codes import CODES, NO_KNOT, eight_bits, recoded
+from ilmek.carpet.yarn import Yarn
 from ilmek.errors import CarpetError
 from ilmek.records import record, value_record
+from ilmek.sentences import Sentence
 from ilmek.units import counted, format_quantity, mm
 
 KNOT, PLAIN, OUTSIDE = "knot", "plain", "outside"
@@ -23,6 +25,9 @@ KNOT, PLAIN, OUTSIDE = "knot", "plain", "outside"
 
 GROUND_COLOUR = (221, 207, 182)
 """sRGB of a cell without a knot: undyed cotton."""
+
+GROUND_YARN = Yarn(Sentence("cell.no-knot"), GROUND_COLOUR, (83.7, 1.9, 14.2))
+"""What a list of the colours of a chart has for cells without a knot."""
 
 TALLEST = 100 * mm
 """Bound of the height of a pile."""

@@ -19,7 +19,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ilmek.arrays import Indices, Int32, UInt8
+from ilmek.arrays import BoolArray, Indices, Int32, UInt8
 from ilmek.carpet.codes import NO_KNOT
 from ilmek.errors import CarpetError
 from ilmek.records import record
@@ -93,7 +93,10 @@ class Overlay:
 
     def between(self, first: int, stop: int) -> "Overlay":
         """The marks of the rows first to stop - 1."""
-        part = slice(*np.searchsorted(self.rows, (first, stop)).tolist())
+        return self.only(slice(*np.searchsorted(self.rows, (first, stop)).tolist()))
+
+    def only(self, part: slice | BoolArray) -> "Overlay":
+        """Some of the marks."""
         return Overlay(self.rows[part], self.columns[part], self.kinds[part], self.seconds[part])
 
     def equals(self, other: "Overlay") -> bool:

@@ -11,7 +11,7 @@ from ilmek.carpet.overlay import HALF
 from ilmek.carpet.yarn import Yarn
 from ilmek.cli.keys import pressed_keys
 from ilmek.errors import printable, shortened
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.symbols import signs_of_codes
 from ilmek.jobs.call import Calling
 
 FIGURES = {
@@ -133,13 +133,13 @@ def screen_lines(calling: Calling, depth: int, width: int) -> Iterator[str]:
     figures = large(count_text(step))
     if len(figures[0]) + 18 > width:  # a number is never cut
         figures = (count_text(step),)
-    signs = symbols(chart.yarns)
-    beside = "  ".join(swatch(chart.yarns[yarn].srgb, 12 // len(yarns), depth) for yarn in yarns)
+    signs = signs_of_codes(chart.yarns)
+    beside = "  ".join(swatch(chart.yarn(yarn).srgb, 12 // len(yarns), depth) for yarn in yarns)
     for line in figures:
         yield f"{line[: width - 20]}    {beside}".rstrip() if depth else line[:width].rstrip()
     yield ""
     for yarn in yarns:
-        yield f"  {signs[yarn]}  {_name(chart.yarns[yarn])}"[:width]
+        yield f"  {signs[yarn]}  {_name(chart.yarn(yarn))}"[:width]
     if step.mark:
         half = "half knots: the first yarn on the warp that is met first"
         yield from _wrapped(half if step.mark == HALF else "jufti knots, on four warps", width, 3)
@@ -176,7 +176,7 @@ def _wrapped(text: str, width: int, most: int) -> list[str]:
 
 def print_rows(calling: Calling) -> None:
     """Print the rows from the present one, one a line, with the yarns' names first."""
-    chart, signs = calling.chart, symbols(calling.chart.yarns)
+    chart, signs = calling.chart, signs_of_codes(calling.chart.yarns)
     for yarn in chart.used:
         click.echo(f"{signs[yarn]} {_name(chart.yarns[yarn])}")
     while not calling.done:

@@ -1,5 +1,5 @@
-"""The map of a chart's cells as text, in files that carry the chart's facts: JSON of its kinds, and base64 of zlib of the
-index of each cell, row by row from the top, 8 bits each.
+"""The map of a chart's cells as text, in files that carry the chart's facts: JSON of its kinds, and the index of each
+cell, row by row from the top, 8 bits each, as base64 of zlib.
 """
 
 import base64

@@ -9,6 +9,7 @@ import numpy as np
 
 from ilmek.arrays import Int32, Int64, IntArray, UInt8
 from ilmek.io.programme_rows import MOST_ENDS
+from ilmek.loom.operations import EMPTY
 from ilmek.num.compiled import compiled
 
 PATTERNS = (
@@ -189,7 +190,7 @@ def _fill_chart(
         yarn, digits = _number(text, begin + 1, end)
         if digits == 0 or yarn > yarns:
             return -1
-        chart[at : at + knots] = yarn - 1
+        chart[at : at + knots] = EMPTY if yarn == 0 else yarn - 1
         at += knots
         begin += 1 + digits
         if begin == end:

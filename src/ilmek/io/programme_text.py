@@ -4,7 +4,7 @@
     loom "…"                 the description, as JSON: a line for each key, of a list a line for each entry
     …
     row 1                    rows from the carpet's bottom edge, and all else from 1
-    chart 12*3 4*1           12 knots of yarn 3, 4 of yarn 1
+    chart 12*3 4*1 5*0       12 knots of yarn 3, 4 of yarn 1, 5 cells without a knot
     phase 1
     head 1
     tie 1..12 tube 3

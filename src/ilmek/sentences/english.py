@@ -61,6 +61,8 @@ ENGLISH = {
     "ground.warp": "warp",
     "ground.straight-weft": "straight weft",
     "ground.sinuous-weft": "sinuous weft",
+    "cell.no-knot": "no knot",
+    "ground.binding": "binding",
     "ground.ends": "ends",
     "ground.selvedges": "selvedges",
     # Values of parameters

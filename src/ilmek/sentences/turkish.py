@@ -61,6 +61,8 @@ TURKISH = {
     "ground.warp": "çözgü",
     "ground.straight-weft": "düz atkı",
     "ground.sinuous-weft": "dalgalı atkı",
+    "cell.no-knot": "ilmeksiz",
+    "ground.binding": "kenar overloğu",
     "ground.ends": "kilim uçları",
     "ground.selvedges": "kenarlar",
     # Values of parameters

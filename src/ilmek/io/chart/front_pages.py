@@ -1,6 +1,5 @@
 """The first page of a printed knot chart: the whole carpet with its sheets."""
 
-import numpy as np
 from PIL import Image
 from reportlab.lib.utils import ImageReader
 
@@ -40,7 +39,8 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
     size, quality = chart.size, chart.quality
     lengths = f"{format_number(size.width * 100)} × {format_number(size.length * 100)} cm (width × length)"
     density = f"{format_number(quality.across / 10)} × {format_number(quality.along / 10)} knots per dm"
-    cells = f"{chart.columns} knots × {chart.rows} rows = {thousands(chart.knots.size)} knots"
+    across = f"{chart.columns} {'cells' if chart.cells else 'knots'}"
+    cells = f"{across} × {chart.rows} rows = {thousands(chart.tally().knots)} knots"
     knots = f"{cells} in {counted(chart.colours, 'colour')}"
     sheets = f" on {thousands(plan.count)} sheets of {plan.sheet_columns} knots × {plan.sheet_rows} rows"
     order = "Rows are counted from the bottom, knots from the left."
@@ -53,7 +53,7 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
 
 def _thumbnail(chart: Chart) -> Image.Image:
     """The chart as a picture of at most 1200 pixels per side."""
-    picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots])
+    picture = Image.fromarray(chart.colour_table[chart.knots])
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 

@@ -18,10 +18,10 @@ import numpy as np
 
 from ilmek.arrays import Int32, UInt8
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.symbols import NO_SIGN, signs_of_codes, symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 
@@ -72,6 +72,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
         f"# {size}, {quality}, {chart.knot} knot; row 1 is the first that is woven, at the lower edge.",
         "# >: read from left to right; <: from right to left. A line that begins with a blank continues the one above.",
         *_EXPLANATION[split],
+        *([f"# 12{NO_SIGN}: 12 cells without a knot; plain weave."] if split == "runs" and chart.cells else []),
         f"size {size.width!r} {size.length!r}",
         f"quality {quality.across!r} {quality.along!r}",
         f"knot {chart.knot}",
@@ -88,7 +89,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
 
 def row_bands(chart: Chart, split: str, direction: str) -> Iterator[tuple[float, bytes]]:
     """The text of the rows in parts, each with the share of the rows that is then done."""
-    glyphs, widths = _glyphs(symbols(chart.yarns))
+    glyphs, widths = _glyphs(signs_of_codes(chart.yarns))
     mode, step = DIRECTIONS.index(direction), max(1, _BAND // chart.columns)
     for first in range(0, chart.rows, step):
         stop = min(first + step, chart.rows)
@@ -299,7 +300,7 @@ def _write_colours(  # noqa: PLR0917
             if not _read_in(mode, first + row, leftward):
                 continue
             _collect(codes[row], leftward, spans, heads)
-            for yarn in range(glyphs.shape[0]):
+            for yarn in range(NO_KNOT):
                 if heads[yarn, 0] < 0:
                     continue
                 knots, span = 0, heads[yarn, 0]
