@@ -79,7 +79,7 @@ class ShapeParams(Params):
     kilim_ends: float = kind.length(
         0.0, unit="cm", at_least=0.0, at_most=5.0, doc="flat weave at each end, as part of the carpet's length"
     )
-    plain: str | None = kind.text(
+    flat_weave: str | None = kind.text(
         None,
         doc='flat weave without knots: rows from the lower edge, and knots from the left, like "1-12, 40-60/10-30"',
     )
@@ -104,7 +104,7 @@ class ShapeParams(Params):
             hint = did_you_mean(self.file, names)
             allowed = f"{', '.join(names)}, or a file"
             raise ParameterError(f"shape {shortened(self.file)!r} is unknown", allowed=allowed, do=hint)
-        plain_areas(self.plain)
+        plain_areas(self.flat_weave)
         pile_kinds(self.pile)
 
 
@@ -233,7 +233,7 @@ def _plain(chart: Chart, params: ShapeParams) -> BoolArray:
         allowed = f"less than the carpet's {chart.rows} rows together"
         raise CarpetError(f"two kilim ends of {ends} rows", allowed=allowed)
     plain[:ends] = plain[chart.rows - ends :] = True
-    for first, last, left, right in plain_areas(params.plain):
+    for first, last, left, right in plain_areas(params.flat_weave):
         if last > chart.rows or (right or 0) > chart.columns:
             given = f"plain rows {first}-{last}" + (f", knots {left}-{right}" if left else "")
             raise CarpetError(given, allowed=f"the carpet has {chart.rows} rows of {chart.columns} knots")

@@ -4,9 +4,11 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from scipy import ndimage
 
-from ilmek.arrays import BoolArray, Rgb
-from ilmek.carpet.design import resampled
+from ilmek.arrays import Rgb, UInt8
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.design import encoded, resampled
 from ilmek.carpet.fitting import FitParams, prepare_picture
 from ilmek.carpet.shape import PICTURE, shaped
 from ilmek.errors import CarpetError
@@ -15,30 +17,48 @@ from ilmek.io.rendered.resolution import Rendering
 from ilmek.jobs.charting import OrderedChart
 from ilmek.jobs.order import CarpetOrder
 
-_HALF = 128
-"""Least code of a cell that is inside: half of it is covered."""
+_HALF = int(encoded(0.5))
+"""Least code of a cell that is inside: half of its light, as areas are averaged."""
+
+
+_BLUR = 3
+"""Cells inside of an outline that a picture may mix with its ground."""
+
+Codes = UInt8[np.ndarray, "rows columns"]
 
 
 def with_shape(made: OrderedChart, order: CarpetOrder) -> OrderedChart:
     """The chart of an order with its shape. Raises CarpetError, and PictureError for a file that is no outline."""
     shape, chart = order.shape, made.chart
-    outline = None
+    covered = None
     if shape.shape == PICTURE:
         path = order.picture if order.recipe is None else order.recipe.picture
         if path is None:
             raise CarpetError("--shape picture: the recipe has several pictures", do="give the outline as a file")
-        outline = _of_picture(path, made, order)
+        covered = _of_picture(path, made, order)
     elif shape.file is not None:
         base = order.picture.parent if order.recipe is not None else Path()
-        outline = _on_grid(_covered(base / shape.file, Rendering(1, (chart.rows, chart.columns))), made)
-    done = shaped(chart, shape, outline)
-    if outline is not None and done.reading.fit.outside:
+        covered = _on_grid(_covered(base / shape.file, Rendering(1, (chart.rows, chart.columns))), made)
+    if covered is not None:
+        chart = _inner_yarns(chart, covered)
+    done = shaped(chart, shape, None if covered is None else covered >= _HALF)
+    if covered is not None and done.reading.fit.outside:
         done = done.read_as(replace(done.reading, fit=replace(done.reading.fit, outside=0.0, hidden=0.0)))
     return replace(made, chart=done)
 
 
-def _of_picture(path: Path, made: OrderedChart, order: CarpetOrder) -> BoolArray:
-    """The opaque part of the picture as the carpet shows it."""
+def _inner_yarns(chart: Chart, covered: Codes) -> Chart:
+    """The chart with cells that the outline crosses in the yarn of the nearest cell inside, without the ground's."""
+    full = covered == covered.max()
+    crossed = ~full & (covered >= _HALF) & ndimage.binary_dilation(covered < _HALF, iterations=_BLUR)
+    if not crossed.any() or not full.any():
+        return chart
+    row, column = ndimage.distance_transform_edt(~full, return_distances=False, return_indices=True)
+    return replace(chart, knots=np.where(crossed, chart.knots[row, column], chart.knots))
+
+
+def _of_picture(path: Path, made: OrderedChart, order: CarpetOrder) -> Codes:
+    """How far the picture covers each cell as the carpet shows it."""
     fit, chart = made.chart.reading.fit, made.chart
     covered = _covered(path, Rendering(order.fit.page, (chart.rows, chart.columns)), needed=True)
     corners = None if fit.corners is None else " ".join(f"{x},{y}" for x, y in fit.corners)
@@ -55,10 +75,9 @@ def _of_picture(path: Path, made: OrderedChart, order: CarpetOrder) -> BoolArray
     return _on_grid(np.ascontiguousarray(prepared[slice(*rows), slice(*columns)]), made)
 
 
-def _on_grid(covered: Rgb, made: OrderedChart) -> BoolArray:
-    """Which cells of the chart are covered by at least one half."""
-    inside: BoolArray = resampled(covered, made.chart.rows, made.chart.columns)[..., 0] >= _HALF
-    return inside
+def _on_grid(covered: Rgb, made: OrderedChart) -> Codes:
+    """How far each cell of the chart is covered, a code of light."""
+    return resampled(covered, made.chart.rows, made.chart.columns)[..., 0]
 
 
 def _covered(path: Path, rendering: Rendering, *, needed: bool = False) -> Rgb:

@@ -30,7 +30,7 @@ def charted_for_tufts(order: CarpetOrder, quality: Quality, progress: Progress =
     charted = make_charted(order, progress.part(0.3, 1.0))
     if charted.chart.cells is not None:
         given = f"tufting of a carpet with {' and '.join(str(kind) for kind in charted.chart.cells.kinds)}"
-        do = "leave --shape, --plain and --pile out and cut the carpet afterwards, or knot it"
+        do = "leave --shape, --flat-weave and --pile out and cut the carpet afterwards, or knot it"
         raise CarpetError(given, allowed="a rectangle of one pile", do=do)
     return charted
 
