@@ -40,12 +40,22 @@ class CellKind:
     name  unique in its map      weave  KNOT, PLAIN or OUTSIDE
     height  of a knot's pile above the knots, after shearing [m]; None: that of the carpet
     loop  the pile is left as a loop, uncut
+    Raises CarpetError for an unknown weave, and for a pile of no knot or beyond TALLEST.
     """
 
     name: str
     weave: str = KNOT
     height: float | None = None
     loop: bool = False
+
+    def __post_init__(self) -> None:
+        if self.weave not in (KNOT, PLAIN, OUTSIDE):
+            raise CarpetError(f"a cell of the weave {self.weave!r}", allowed=f"{KNOT}, {PLAIN} or {OUTSIDE}")
+        if not self.knotted and (self.height is not None or self.loop):
+            raise CarpetError(f"{self.name} has a pile", allowed=f"a height and loops for a {KNOT} only")
+        if self.height is not None and not 0.0 < self.height <= TALLEST:
+            allowed = f"above 0 mm, up to {format_quantity(TALLEST, 'mm')}"
+            raise CarpetError(f"the pile of {self.name} is {format_quantity(self.height, 'mm')}", allowed=allowed)
 
     @property
     def knotted(self) -> bool:
@@ -66,8 +76,7 @@ class Cells:
     """The map of a chart's cells; what is given is checked, and converted where nothing is lost.
 
     index  in `kinds` of each cell, (rows, columns); row 0 is the top, as in `Chart.knots`
-    Raises CarpetError for an index of no kind, two kinds of one name, an unknown weave, a height of no knot or beyond
-    TALLEST, and for a map without a knot.
+    Raises CarpetError for an index of no kind, two kinds of one name, and for a map without a knot.
 
     >>> Cells([[1, 0], [0, 0]], (PILE, CUT_AWAY)).number(OUTSIDE)
     1
@@ -78,8 +87,6 @@ class Cells:
 
     def __post_init__(self) -> None:
         kinds = tuple(self.kinds)
-        for kind in kinds:
-            _require_kind(kind)
         if len({kind.name for kind in kinds}) < len(kinds) or not 0 < len(kinds) < CODES:
             raise CarpetError(f"{len(kinds)} kinds of cells", allowed=f"1 to {CODES - 1}, each with its own name")
         index = eight_bits(self.index, "cells", len(kinds) - 1, f"an index in {len(kinds)} kinds", CarpetError)
@@ -142,14 +149,3 @@ def require_knots(knots: Indices, cells: Cells | None, yarns: Sequence[object]) 
     given = cells.knots(eight_bits(knots, "knots", NO_KNOT, meaning, CarpetError))
     eight_bits(np.where(cells.tied, given, np.uint8(0)), "knots", len(yarns) - 1, meaning, CarpetError)
     return given
-
-
-def _require_kind(kind: CellKind) -> None:
-    """Raise CarpetError for a kind that no cell can have."""
-    if kind.weave not in (KNOT, PLAIN, OUTSIDE):
-        raise CarpetError(f"a cell of the weave {kind.weave!r}", allowed=f"{KNOT}, {PLAIN} or {OUTSIDE}")
-    if not kind.knotted and (kind.height is not None or kind.loop):
-        raise CarpetError(f"{kind.name} has a pile", allowed=f"a height and loops for a {KNOT} only")
-    if kind.height is not None and not 0.0 < kind.height <= TALLEST:
-        allowed = f"above 0 mm, up to {format_quantity(TALLEST, 'mm')}"
-        raise CarpetError(f"the pile of {kind.name} is {format_quantity(kind.height, 'mm')}", allowed=allowed)

@@ -22,7 +22,8 @@ def edge_length(chart: Chart) -> float:
     """Length of the carpet's outline [m], to be bound: around all that is not cut away, 0 for a rectangle.
 
     The outline of the cells is stepped. Its length is that of the level 1/2 of their smoothed map, a Gaussian of two
-    knots, on which the steps vanish: within 0.5 % of a smooth outline of 100 knots across.
+    knots, on which the steps vanish: within 0.5 % of a smooth outline of 100 knots across. A right corner is rounded by
+    some two knots.
     """
     if chart.cells is None or not chart.cells.number(OUTSIDE):
         return 0.0

@@ -214,7 +214,7 @@ def require_wide(inside: BoolArray) -> None:
     kept = ndimage.binary_opening(inside, square)
     thin = np.setdiff1d(np.unique(islands), np.append(np.unique(islands[kept]), 0))
     if len(thin):
-        rows, columns = ndimage.find_objects(islands == thin[0])[0]
+        rows, columns = ndimage.find_objects((islands == thin[0]).astype(int))[0]
         first, last = len(inside) - rows.stop + 1, len(inside) - rows.start
         where = f"rows {first}..{last}, knots {columns.start + 1}..{columns.stop}"
         more = "" if len(thin) == 1 else f", and {counted(len(thin) - 1, 'other')}"

@@ -43,6 +43,14 @@ def _row_knots(chart: Chart) -> tuple[int, ...]:
     return tuple(np.count_nonzero(chart.knots[::-1] != NO_KNOT, axis=1).tolist())
 
 
+def knots_saved(chart: Chart, weavers: int) -> int:
+    """Knots in turn that a number of weavers has less than with one in every cell: a row is shared evenly."""
+    if chart.cells is None:
+        return 0
+    knots = np.array(_row_knots(chart))
+    return int((-(-chart.columns // weavers) - -(-knots // weavers)).sum())
+
+
 def loom_setup(made: LoomDesign, carpet: CarpetPile, programme: Programme) -> LoomSetup:
     """The setup of a carpet's programme on a loom."""
     params, times, chart = made.params, made.times, carpet.chart
