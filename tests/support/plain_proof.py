@@ -39,7 +39,8 @@ class PlainRules:
                 if stop.phase == phase:
                     self.change(stop)
             self.tie([phases[phase] for phases in parts], chart)
-        self.require(sorted(row.columns.tolist()) == list(range(self.setup.columns)), "each knot once")
+        tied = [column for column, yarn in enumerate(chart) if yarn != EMPTY]
+        self.require(sorted(row.columns.tolist()) == tied, "each knot once")
         self.require(row.ends == ROW_ENDS, "the end of the row")
         for weft, end in enumerate((RowEnd.STRAIGHT_WEFT, RowEnd.SINUOUS_WEFT)[: len(self.setup.wefts)]):
             self.woven[weft] += row.ends.count(end)
