@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from reportlab.pdfbase.pdfmetrics import stringWidth
-
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
 from ilmek.io.chart.inks import Inks
+from ilmek.io.chart.lettering import line_width, pieces
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEFT, RULER, SMALLEST, STRIP, RowsLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
@@ -47,11 +46,16 @@ class Typesetter:
     def code(self, text: str) -> str:
         """The operators of PDF that show a text (ISO 32000-1, 9.4), font included."""
         if text not in self._encoded:
-            made = self.canvas.beginText()
-            made.setFont(SIGNS, self.size)
-            made._curSubset = -1  # each text names its font, so that texts can follow in any order
-            self._encoded[text] = made._formatText(text)
+            self._encoded[text] = " ".join(self._piece(*piece) for piece in pieces(text, SIGNS))
         return self._encoded[text]
+
+    def _piece(self, text: str, font: str) -> str:
+        """A part of a text, in a font whose digits are spaced as those of SIGNS."""
+        made = self.canvas.beginText()
+        made.setFont(font, self.size)
+        made._curSubset = -1  # each text names its font, so that texts can follow in any order
+        space = ADVANCE * self.size - line_width(text[0], self.size, font)
+        return f"{space:.3f} Tc {made._formatText(text)}"
 
     def show(self, texts: list[tuple[float, float, str]]) -> None:
         """Write texts, each centred on x, with its baseline on y."""
@@ -221,8 +225,8 @@ def knots_in_words(strip: Strip, inks: Inks, wide: float, numerals: Callable[[st
             counts[run.second] = counts.get(run.second, 0) + run.knots
     words = [f"{inks.symbols[yarn]} {numerals(str(count))}" for yarn, count in sorted(counts.items())]
     for shown in range(len(words), 0, -1):
-        rest = f"   and {numerals(str(len(words) - shown))} more" if shown < len(words) else ""
+        rest = f"   … +{numerals(str(len(words) - shown))}" if shown < len(words) else ""
         text = "   ".join(words[:shown]) + rest
-        if stringWidth(text, SIGNS, SMALLEST) <= wide:
+        if line_width(text, SMALLEST, SIGNS, rightward=True) <= wide:
             return text
     return ""
