@@ -46,13 +46,15 @@ class QuotedPrice:
 class PriceRules:
     """margin on the cost, tax on the net price [-]; discounts: from a number of carpets of the order on, a share.
 
-    valid  days for which a quotation holds
+    valid      days for which a quotation holds
+    finishing  cost of washing, shearing and inspection of a square metre; None: that of the loom's rates, in euros
     """
 
     margin: float = 0.30
     tax: float = 0.0
     discounts: tuple[tuple[int, float], ...] = ()
     valid: int = 30
+    finishing: float | None = None
 
     def discount(self, carpets: int) -> float:
         """The discount of an order of so many carpets [-].

@@ -35,10 +35,10 @@ MOST_COLOURWAYS = 20
 _LARGEST_COUNT = 1_000_000
 
 
-def read_price(root: FactoryEntry) -> PriceRules:
+def read_price(root: FactoryEntry, currency: str) -> PriceRules:
     """The rules of a price; without the table those of the class."""
     row, usual = root.table("price"), PriceRules()
-    row.keys("margin", "tax", "discount", "valid")
+    row.keys("margin", "tax", "discount", "valid", "finishing")
     discounts = row.table("discount")
     steps = []
     for key in discounts.data:
@@ -50,6 +50,7 @@ def read_price(root: FactoryEntry) -> PriceRules:
         row.measured("tax", "%", usual.tax, most=1.0),
         tuple(sorted(steps)),
         row.count("valid", usual.valid, 1, 1000),
+        row.money("finishing", currency),
     )
 
 

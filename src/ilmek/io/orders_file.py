@@ -38,6 +38,7 @@ from ilmek.io.order_terms import MOST_COLOURWAYS, read_colourways, read_price, r
 from ilmek.io.schema import SourceText, shown
 from ilmek.io.yarn_file import WOOL
 from ilmek.params import Parameter, Setting
+from ilmek.sentences import DEFAULT, LANGUAGES, WEAVERS
 
 MOST_ORDERS = 500
 """Largest number of orders of a file, and of carpets in all of them."""
@@ -82,6 +83,7 @@ class FactoryOrders:
     """The orders of a file: begin of the plan, currency, orders, and the terms of a customer's order.
 
     customer  reference of the customer; ""      looms  the factory's file, or None
+    language, workshop_language  of the customer's papers, and of the weavers'
     """
 
     path: Path
@@ -92,6 +94,8 @@ class FactoryOrders:
     looms: Path | None = None
     price: PriceRules = PriceRules()
     wage: WageRules | None = None
+    language: str = DEFAULT
+    workshop_language: str = DEFAULT
 
 
 def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
@@ -106,7 +110,7 @@ def read_orders(path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrder
 
 
 def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter]) -> FactoryOrders:
-    terms = ("customer", "looms", "price", "wage")
+    terms = ("customer", "looms", "price", "wage", "language", "workshop_language")
     root.keys("start", "currency", "late", "order", *terms, needs=("start", "order"))
     currency, start = root.currency(EURO), root.instant("start")
     late = root.money("late", currency, "d")
@@ -131,9 +135,18 @@ def _orders(root: FactoryEntry, path: Path, parameters: Mapping[str, Parameter])
         tuple(orders),
         root.label("customer") if root.has("customer") else "",
         read.file(root, "looms"),
-        read_price(root),
+        read_price(root, currency),
         read_wage(root, currency),
+        _language(root, "language", LANGUAGES),
+        _language(root, "workshop_language", WEAVERS),
     )
+
+
+def _language(root: FactoryEntry, key: str, known: Mapping[str, object]) -> str:
+    text = root.text(key, DEFAULT)
+    if text not in known:
+        root.refuse(ParameterError(f"{shown(text)} is no language", allowed=", ".join(known)), key)
+    return text
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,12 +44,13 @@ from ilmek.units import g, hour, minute
 class LoomFit:
     """Whether a loom weaves a carpet: its weaving time without stops [s], None where it does not; checks that fail.
 
-    finishing  the steps of making after it, at the rates of the loom
+    finishing  the steps of making after it, at the rates of the loom      energy  of its weaving [J]
     """
 
     time: float | None
     failed: tuple[Check, ...] = ()
     finishing: tuple[MakingStep, ...] = ()
+    energy: float = 0.0
 
 
 @record
@@ -216,7 +217,8 @@ def _fit(charted: ChartResult, loom: ExistingLoom) -> LoomFit:
     if failed or loomed.programme is None:
         return LoomFit(None, failed)
     finishing = finishing_steps(loom.design.params.cost, charted.chart.size.area)
-    return LoomFit(loomed.programme.duration, finishing=finishing)
+    time, cost = loomed.programme.duration, loomed.cost
+    return LoomFit(time, finishing=finishing, energy=0.0 if cost is None else cost.energy * time / cost.time)
 
 
 def _of_programme(entry: FactoryOrder, looms: Sequence[ReadyLoom]) -> PlannedOrder:
