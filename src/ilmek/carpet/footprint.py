@@ -24,17 +24,17 @@ class EmissionFactor(NamedTuple):
 FACTORS: Mapping[str, EmissionFactor] = MappingProxyType(
     {
         "wool": EmissionFactor(5.48, "kg", "wool in carpets made in Europe, as cited by Wikipedia, Carbon footprint"),
-        "cotton": EmissionFactor(
-            5.9, "kg", "spun cotton, USA: Cherrett et al., Stockholm Environment Institute, 2005"
-        ),
+        "cotton": EmissionFactor(5.9, "kg", "spun cotton, USA: Cherrett et al., Stockholm Environment Institute, 2005"),
         "silk": EmissionFactor(25.4, "kg", "raw silk, India: Astudillo et al., J. Cleaner Production 81, 2014"),
-        "electricity": EmissionFactor(0.481, "kWh", "mean of the world in 2023: Ember, Global Electricity Review, 2024"),
+        "electricity": EmissionFactor(
+            0.481, "kWh", "mean of the world in 2023: Ember, Global Electricity Review, 2024"
+        ),
     }
 )
 
 
 def emissions(masses: Mapping[str, float], energy: float) -> dict[str, float]:
-    """kg CO2e of the mass of each material [kg] and of an energy [J]; a material without a factor is left out.
+    """Kg CO2e of the mass of each material [kg] and of an energy [J]; a material without a factor is left out.
 
     >>> found = emissions({"wool": 10.0, "jute": 1.0}, 3.6e6)
     >>> {name: round(mass, 3) for name, mass in found.items()}

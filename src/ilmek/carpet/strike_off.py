@@ -21,7 +21,7 @@ _STEPS = 48
 """Windows along each side that are compared, at most."""
 
 
-class Window(NamedTuple):
+class SampleWindow(NamedTuple):
     """A part of a chart: its first row from the top and first column, its rows and columns."""
 
     top: int
@@ -30,14 +30,14 @@ class Window(NamedTuple):
     columns: int
 
 
-def strike_off_window(chart: Chart, side: float = SAMPLE) -> Window:
+def strike_off_window(chart: Chart, side: float = SAMPLE) -> SampleWindow:
     """Where the colours of a chart meet, as a square of a side [m], cut off at the chart's edges.
 
     >>> from ilmek import read_yarns
     >>> knots = [[0] * 12 for _ in range(12)]
     >>> knots[9][10] = 1
     >>> strike_off_window(Chart(knots, read_yarns()[:2], "12x12cm", "10x10/dm", "symmetric"), 0.04)
-    Window(top=7, left=8, rows=4, columns=4)
+    SampleWindow(top=7, left=8, rows=4, columns=4)
     """
     rows, columns = (
         max(1, min(whole, round(side * density)))
@@ -51,7 +51,7 @@ def strike_off_window(chart: Chart, side: float = SAMPLE) -> Window:
     score = np.asarray(present, dtype=np.int64) * (2 * rows * columns + 1)
     score += _sums(edges, tops, lefts, rows, columns)
     top, left = np.unravel_index(int(score.argmax()), score.shape)
-    return Window(int(tops[top]), int(lefts[left]), rows, columns)
+    return SampleWindow(int(tops[top]), int(lefts[left]), rows, columns)
 
 
 def _starts(last: int) -> IntArray:
@@ -69,7 +69,7 @@ def _sums(cells: np.ndarray, tops: IntArray, lefts: IntArray, rows: int, columns
     return whole
 
 
-def part_of(chart: Chart, window: Window, name: str = "") -> Chart:
+def part_of(chart: Chart, window: SampleWindow, name: str = "") -> Chart:
     """The part of a chart in a window, without half knots and jufti knots; name: of its size."""
     top, left, rows, columns = window
     size = CarpetSize(columns / chart.quality.across, rows / chart.quality.along, name)

@@ -171,7 +171,9 @@ def _changed(made: JsonObject) -> Iterator[str]:
     """The entries that differ from their digests, that were added or taken away."""
     now, then = _digests(made["record"]), made["digests"]
     values = dict(entries(made["record"]))
-    changed = [f"{path} was changed: it is now {values[path]!r}" for path in now if then.get(path, now[path]) != now[path]]
+    changed = [
+        f"{path} was changed: it is now {values[path]!r}" for path in now if then.get(path, now[path]) != now[path]
+    ]
     changed += [f"{path} was added" for path in now if path not in then]
     changed += [f"{path} was taken away" for path in then if path not in now]
     yield from changed[:_SHOWN]

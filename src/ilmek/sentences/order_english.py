@@ -24,8 +24,8 @@ ORDER = {
     "order.of-one": "one carpet",
     "order.colourways": "{name}: colourways",
     "order.not-woven": "no loom weaves it",
-    "order.room-note": "The room is drawn; carpet and room are in true proportion. Colours on paper differ from those of "
-    "wool: the yarns of the colour card hold.",
+    "order.room-note": "The room is drawn; carpet and room are in true proportion. Colours on paper differ from "
+    "those of wool: the yarns of the colour card hold.",
     "order.approval": "Approval sheet",
     "order.approved": "Approved, date",
     "order.changes": "Changes",

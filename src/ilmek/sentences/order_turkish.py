@@ -24,8 +24,8 @@ ORDER = {
     "order.of-one": "bir halı",
     "order.colourways": "{name}: renk seçenekleri",
     "order.not-woven": "hiçbir tezgâh dokuyamaz",
-    "order.room-note": "Oda çizimdir; halı ve oda gerçek orandadır. Kâğıttaki renkler yünden farklıdır: renk kartındaki "
-    "iplikler geçerlidir.",
+    "order.room-note": "Oda çizimdir; halı ve oda gerçek orandadır. Kâğıttaki renkler yünden farklıdır: renk "
+    "kartındaki iplikler geçerlidir.",
     "order.approval": "Onay belgesi",
     "order.approved": "Onaylandı, tarih",
     "order.changes": "Değişiklikler",

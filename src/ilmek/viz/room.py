@@ -31,7 +31,7 @@ _WALL, _TRIM, _OAK, _CLOTH, _SHADE = (232, 228, 219), (248, 246, 241), (181, 140
 
 @record
 class _Camera:
-    """Distance from the near edge of the floor c and to the wall D [m], half width a and upper edge v of the picture."""
+    """Distances c from the near edge of the floor and D to the wall [m]; half width a and upper edge v of a picture."""
 
     near: float
     wall: float
@@ -70,7 +70,7 @@ def draw_room(carpet: Image.Image, width: float, length: float) -> Image.Image:
 
 def _camera(width: float, length: float) -> _Camera:
     wall = 2 * _GAP + length + _SETTEE[1] + 0.05
-    near = max(1.9, 0.7 * length, 0.8 * width)
+    near = max(1.5, 0.7 * length, 0.8 * width)
     lower = -_EYE / (near + 0.4 * _GAP)
     seen = max(0.62 * width / (near + _GAP), WIDE / (2 * HIGH) * (0.25 / (wall + near) - lower))
     return _Camera(near, wall, seen, lower + 2 * seen * HIGH / WIDE)
@@ -112,12 +112,14 @@ def _daylight(x: FloatArray, y: FloatArray, camera: _Camera) -> FloatArray:
     fall = 1.05 - 0.16 * (x / camera.wall + 0.5) - 0.10 * np.exp(-(camera.wall - y) / 0.5)
     slant = np.abs(np.abs(x + 0.55 * y - 0.25 * camera.wall) - 0.5)
     field = _edge(0.42 - slant) * _edge(y - 0.45) * _edge(camera.wall - 0.8 - y)
-    return fall * (1.0 + 0.09 * field)
+    light: FloatArray = fall * (1.0 + 0.09 * field)
+    return light
 
 
 def _edge(inside: FloatArray) -> FloatArray:
     """1 inside, 0 outside, with an edge that is soft as that of a window's light."""
-    return 1.0 / (1.0 + np.exp(-np.clip(inside / 0.025, -40, 40)))
+    edge: FloatArray = 1.0 / (1.0 + np.exp(-np.clip(inside / 0.025, -40, 40)))
+    return edge
 
 
 def _read(texels: Rgb, across: FloatArray, down: FloatArray) -> FloatArray:
@@ -126,7 +128,8 @@ def _read(texels: Rgb, across: FloatArray, down: FloatArray) -> FloatArray:
     right, low = (across - column)[:, np.newaxis], (down - row)[:, np.newaxis]
     upper = texels[row, column] * (1 - right) + texels[row, column + 1] * right
     lower = texels[row + 1, column] * (1 - right) + texels[row + 1, column + 1] * right
-    return upper * (1 - low) + lower * low  # type: ignore[no-any-return]
+    between: FloatArray = upper * (1 - low) + lower * low
+    return between
 
 
 def _draw_settee(draw: ImageDraw.ImageDraw, camera: _Camera) -> None:
@@ -166,4 +169,5 @@ def _shaded(shade: float) -> tuple[int, int, int]:
 
 
 def _codes(colours: FloatArray) -> Rgb:
-    return np.clip(colours, 0, 255).astype(np.uint8)
+    codes: Rgb = np.clip(colours, 0, 255).astype(np.uint8)
+    return codes

@@ -9,17 +9,17 @@ from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file
 from ilmek.io.chart.symbols import SIGNS, symbols
 from ilmek.io.selling.offer import Offer, OfferedCarpet
-from ilmek.io.selling.page import LEFT, LOW, ROOM, Column, OrderPage
+from ilmek.io.selling.page import LEFT, LOW, ROOM, PageColumn, OrderPage
 from ilmek.io.selling.quotation import carpet_facts
 from ilmek.sentences import Sentence
 
 _CARD = (
-    Column(Sentence("order.symbol"), 34.0),
-    Column(Sentence("order.number"), 108.0, end=True),
-    Column(Sentence("order.yarn"), 124.0),
-    Column("sRGB", 300.0),
-    Column(Sentence("order.knots"), 420.0, end=True),
-    Column(Sentence("order.lots"), ROOM, end=True),
+    PageColumn(Sentence("order.symbol"), 34.0),
+    PageColumn(Sentence("order.number"), 108.0, end=True),
+    PageColumn(Sentence("order.yarn"), 124.0),
+    PageColumn("sRGB", 300.0),
+    PageColumn(Sentence("order.knots"), 420.0, end=True),
+    PageColumn(Sentence("order.lots"), ROOM, end=True),
 )
 _SIGNED = ("approved", "changes", "signed")
 
@@ -114,12 +114,15 @@ def _strike_off(page: OrderPage, carpet: OfferedCarpet) -> None:
     page.y -= 12.0
     low = chart.rows - sample.top - sample.rows + 1
     sides = (sample.columns / chart.quality.across, sample.rows / chart.quality.along)
-    width, length = (f"{100 * side:.1f}" for side in sides)
+    across_cm, along_cm = (f"{100 * side:.1f}" for side in sides)
     page.facts(
         [
-            (Sentence("order.size"), Sentence("chart.size", width=width, length=length)),
+            (Sentence("order.size"), Sentence("chart.size", width=across_cm, length=along_cm)),
             (Sentence("order.rows"), Sentence("order.from-to", first=low, last=low + sample.rows - 1)),
-            (Sentence("order.cells"), Sentence("order.from-to", first=sample.left + 1, last=sample.left + sample.columns)),
+            (
+                Sentence("order.cells"),
+                Sentence("order.from-to", first=sample.left + 1, last=sample.left + sample.columns),
+            ),
         ],
         LEFT + wide + 20.0,
         90.0,

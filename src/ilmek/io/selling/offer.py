@@ -7,7 +7,7 @@ from PIL import Image
 from ilmek.carpet.bill import YarnBill
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.price_rules import PriceRules, QuotedPrice
-from ilmek.carpet.strike_off import Window
+from ilmek.carpet.strike_off import SampleWindow
 from ilmek.records import record
 from ilmek.sentences import Sentence
 
@@ -26,7 +26,7 @@ class ShownCarpet:
     room: Image.Image
     detail: Image.Image
     detail_size: tuple[float, float]
-    sample: Window
+    sample: SampleWindow
 
 
 @record

@@ -1,4 +1,4 @@
-"""Pages of an order's papers: a title, facts, tables and pictures under one another, in the language of their reader."""
+"""Pages of an order's papers: title, facts, tables and pictures under one another, in the language of their reader."""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -19,7 +19,7 @@ ROOM = WIDTH - 2 * LEFT
 _INK, _GREY, _RULE = 0.1, 0.42, 0.75
 
 
-class Column(NamedTuple):
+class PageColumn(NamedTuple):
     """A column of a table: where it begins, or with `end` where it ends, from the side where lines begin [pt]."""
 
     head: str
@@ -76,7 +76,7 @@ class OrderPage:
         self.room(4 * size)
         self.y -= 1.2 * size
         self.write(LEFT, self.y, text, size, strong=True)
-        self.y -= 0.9 * size
+        self.y -= 0.6 * size + 8.0
 
     def facts(self, facts: Iterable[tuple[str, str]], x: float = LEFT, beside: float = 110.0) -> None:
         """Names with their values."""
@@ -86,7 +86,7 @@ class OrderPage:
             self.write(x + beside, self.y, value, 9)
             self.y -= 14.0
 
-    def table(self, columns: Sequence[Column], rows: Iterable[Sequence[str]], *, sums: int = 0) -> None:
+    def table(self, columns: Sequence[PageColumn], rows: Iterable[Sequence[str]], *, sums: int = 0) -> None:
         """A table, whose heads are repeated on each page; sums: number of last rows that are sums."""
         listed = list(rows)
         self.room(40.0)
@@ -103,7 +103,7 @@ class OrderPage:
             self.y -= 14.0
         self.y -= 4.0
 
-    def _heads(self, columns: Sequence[Column]) -> None:
+    def _heads(self, columns: Sequence[PageColumn]) -> None:
         for column in columns:
             self.write(LEFT + column.x, self.y, column.head, 7.5, grey=True, end=column.end)
         self.rule(self.y - 4.0)

@@ -6,17 +6,17 @@ from pathlib import Path
 from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file, quality_of, size_of
 from ilmek.io.selling.offer import Offer, OfferedCarpet
-from ilmek.io.selling.page import LEFT, LOW, ROOM, Column, OrderPage
+from ilmek.io.selling.page import LEFT, LOW, ROOM, PageColumn, OrderPage
 from ilmek.sentences import Sentence, noun
 from ilmek.units import format_number, mm
 
 _LINES = (
-    Column(Sentence("order.carpet"), 0.0),
-    Column(Sentence("order.pieces"), 262.0, end=True),
-    Column(Sentence("order.unit-price"), 322.0, end=True),
-    Column(Sentence("order.discount"), 372.0, end=True),
-    Column(Sentence("order.net"), 436.0, end=True),
-    Column(Sentence("order.delivery"), ROOM, end=True),
+    PageColumn(Sentence("order.carpet"), 0.0),
+    PageColumn(Sentence("order.pieces"), 262.0, end=True),
+    PageColumn(Sentence("order.unit-price"), 322.0, end=True),
+    PageColumn(Sentence("order.discount"), 372.0, end=True),
+    PageColumn(Sentence("order.net"), 436.0, end=True),
+    PageColumn(Sentence("order.delivery"), ROOM, end=True),
 )
 _BESIDE = 4
 """Most colourways beside one another."""

@@ -5,19 +5,19 @@ from pathlib import Path
 
 from ilmek.carpet.price_rules import WagePayment, WageRules
 from ilmek.io.chart.printing import printed_file
-from ilmek.io.selling.page import ROOM, Column, OrderPage
+from ilmek.io.selling.page import ROOM, PageColumn, OrderPage
 from ilmek.io.selling.quotation import money, percent
 from ilmek.records import record
 from ilmek.report.paper import BOX
 from ilmek.sentences import Sentence
 
 _PAYMENTS = (
-    Column(BOX, 0.0),
-    Column(Sentence("order.after-row"), 120.0, end=True),
-    Column(Sentence("order.knots"), 200.0, end=True),
-    Column(Sentence("order.earned"), 290.0, end=True),
-    Column(Sentence("order.deducted"), 380.0, end=True),
-    Column(Sentence("order.paid"), ROOM, end=True),
+    PageColumn(BOX, 0.0),
+    PageColumn(Sentence("order.after-row"), 120.0, end=True),
+    PageColumn(Sentence("order.knots"), 200.0, end=True),
+    PageColumn(Sentence("order.earned"), 290.0, end=True),
+    PageColumn(Sentence("order.deducted"), 380.0, end=True),
+    PageColumn(Sentence("order.paid"), ROOM, end=True),
 )
 
 
@@ -82,7 +82,14 @@ def write_wages(path: Path, name: str, sheet: WageSheet) -> None:
             )
             for one in sheet.payments
         ]
-        total = ("", "", _count(sheet.knots), money(sheet.wage), money(sheet.advance), money(sheet.wage - sheet.advance))
+        total = (
+            "",
+            "",
+            _count(sheet.knots),
+            money(sheet.wage),
+            money(sheet.advance),
+            money(sheet.wage - sheet.advance),
+        )
         page.table(_PAYMENTS, [*rows, total], sums=1)
         page.end()
 

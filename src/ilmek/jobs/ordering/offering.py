@@ -5,7 +5,7 @@ from decimal import Decimal
 
 from ilmek.carpet.chart import Chart
 from ilmek.carpet.price_rules import WageRules, cents
-from ilmek.carpet.strike_off import Window, part_of, strike_off_window
+from ilmek.carpet.strike_off import SampleWindow, part_of, strike_off_window
 from ilmek.errors import ParameterError
 from ilmek.io.selling.offer import Offer, OfferedCarpet, ShownCarpet
 from ilmek.jobs.chart import ChartResult
@@ -61,8 +61,8 @@ def offer_of(plan: PlanResult, lines: tuple[OrderLine, ...]) -> Offer:
     """The offer of all lines; its date is the begin of the plan."""
     orders = plan.inputs.orders_file
     until = orders.start + timedelta(days=orders.price.valid)
-    days = (f"{day:%Y-%m-%d}" for day in (orders.start, until))
-    return Offer(orders.customer, *days, orders.currency, orders.price, tuple(line.offered for line in lines))
+    date, last = (f"{day:%Y-%m-%d}" for day in (orders.start, until))
+    return Offer(orders.customer, date, last, orders.currency, orders.price, tuple(line.offered for line in lines))
 
 
 def shown_carpet(chart: Chart) -> ShownCarpet:
@@ -76,11 +76,13 @@ def shown_carpet(chart: Chart) -> ShownCarpet:
     return ShownCarpet(drawn.image, pile, room, detail, (part.size.width, part.size.length), sample)
 
 
-def _detail(chart: Chart, sample: Window) -> Window:
+def _detail(chart: Chart, sample: SampleWindow) -> SampleWindow:
     """The part at true size: in the middle of the strike-off."""
     columns = min(sample.columns, max(1, round(_DETAIL[0] * chart.quality.across)))
     rows = min(sample.rows, max(1, round(_DETAIL[1] * chart.quality.along)))
-    return Window(sample.top + (sample.rows - rows) // 2, sample.left + (sample.columns - columns) // 2, rows, columns)
+    return SampleWindow(
+        sample.top + (sample.rows - rows) // 2, sample.left + (sample.columns - columns) // 2, rows, columns
+    )
 
 
 def _line(plan: PlanResult, index: int, charted: ChartResult, shown: ShownCarpet) -> OrderLine:

@@ -1,4 +1,4 @@
-"""The record of a carpet: design, yarns with their lots, fibre, mass, energy, greenhouse gases, rows with their days."""
+"""The record of a carpet: design, yarns with their lots, fibre, mass, energy, greenhouse gases, rows with days."""
 
 import hashlib
 from collections import defaultdict
@@ -19,9 +19,7 @@ def identity_of(reference: str, line: OrderLine, number: int) -> str:
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:16]
 
 
-def carpet_record(
-    reference: str, line: OrderLine, number: int, woven: WovenRows, before: Path
-) -> JsonObject:
+def carpet_record(reference: str, line: OrderLine, number: int, woven: WovenRows, before: Path) -> JsonObject:
     """The record of a carpet, SI.
 
     number  of the carpet in its line, from 1      before  its record that is replaced, whose rows are kept
@@ -52,7 +50,9 @@ def carpet_record(
             "pile_height": line.charted.pile.pile_height,
         },
         "yarn": [_yarn(need, materials) for need in bill.needs],
-        "fibre": [{"material": name, "mass": mass, "share": mass / sum(fibres.values())} for name, mass in fibres.items()],
+        "fibre": [
+            {"material": name, "mass": mass, "share": mass / sum(fibres.values())} for name, mass in fibres.items()
+        ],
         "mass": sum(fibres.values()),
         "energy": line.energy,
         "emissions": {

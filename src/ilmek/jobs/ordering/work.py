@@ -98,7 +98,7 @@ def work_order(
             own, share = by_name[line.name], 0.5 / len(lines)
             on = progress.part(0.4 + number * share, 0.4 + (number + 1) * share, line.name)
             with made.folder(own) as work:
-                names, records = write_workshop(line, terms, rows, work, own, left_out, on)
+                names, records = write_workshop(line, terms, rows, work, before=own, left_out=left_out, progress=on)
             files += [str(own / name) for name in names]
             codes.append(tuple(str(code_of(one)) for one in records))
         names = ["quotation.pdf", "approval.pdf", "order.json"]

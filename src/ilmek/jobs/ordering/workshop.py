@@ -47,6 +47,7 @@ def write_workshop(
     terms: WorkshopTerms,
     woven: WovenRows,
     work: Path,
+    *,
     before: Path,
     left_out: list[str],
     progress: Progress = SILENT,
