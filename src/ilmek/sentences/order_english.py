@@ -76,6 +76,9 @@ ORDER = {
     "order.paid": "to pay",
     "order.label": "Label of a carpet",
     "order.fibre": "fibre",
+    "order.fibre-wool": "wool",
+    "order.fibre-cotton": "cotton",
+    "order.fibre-silk": "silk",
     "order.gases": "gases",
     "order.record": "record",
 }

@@ -76,6 +76,9 @@ ORDER = {
     "order.paid": "ödenecek",
     "order.label": "Halı etiketi",
     "order.fibre": "lif",
+    "order.fibre-wool": "yün",
+    "order.fibre-cotton": "pamuk",
+    "order.fibre-silk": "ipek",
     "order.gases": "sera gazı",
     "order.record": "kayıt",
 }

@@ -13,7 +13,7 @@ from ilmek.io.chart.symbols import STRONG, TEXT
 from ilmek.sentences import Sentence
 
 _SIZE = (100 * mm, 60 * mm)
-_CODE = 40 * mm
+_CODE = 38 * mm
 
 
 def import_codes() -> Any:
@@ -55,8 +55,8 @@ def write_label(path: Path, name: str, facts: Iterable[tuple[str, str]], code: s
             canvas.setFillGray(0.42)
             canvas.write(6 * mm, (43.5 - 4.6 * line) * mm, heading)
             canvas.setFillGray(0.1)
-            canvas.write(24 * mm, (43.5 - 4.6 * line) * mm, text)
-        draw_code(canvas, code, canvas.side(_SIZE[0] - _CODE - 5 * mm, _CODE), 7 * mm, _CODE)
+            canvas.write(20 * mm, (43.5 - 4.6 * line) * mm, text)
+        draw_code(canvas, code, canvas.side(_SIZE[0] - _CODE - 6 * mm, _CODE), 9 * mm, _CODE)
         canvas.setFont(TEXT, 4.6)
         canvas.setFillGray(0.42)
         canvas.draw_letters(6 * mm, 4 * mm, code)

@@ -27,6 +27,9 @@ from ilmek.records import JsonObject, record
 from ilmek.report import Check
 from ilmek.sentences import in_language
 
+_PLAIN = str.maketrans({"ı": "i", "ß": "ss", "ø": "o", "Ø": "O", "ł": "l", "æ": "ae"})
+"""Letters that have no plain form in Unicode."""
+
 OFFER = "offer"
 """The folder of the papers for the customer."""
 
@@ -92,7 +95,8 @@ def work_order(
         offer = offer_of(plan, lines)
         by_name = dict(zip((order.name for order in orders.orders), folders, strict=True))
         woven = tuple(woven_rows(line.charted.chart, runs.get(line.name)) for line in lines)
-        terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, orders.workshop_language, signer)
+        languages = orders.workshop_language, orders.language
+        terms = WorkshopTerms(orders.customer, orders.currency, orders.wage, *languages, signer)
         files, codes, left_out = list[str](), list[tuple[str, ...]](), list[str]()
         for number, (line, rows) in enumerate(zip(lines, woven, strict=True)):
             own, share = by_name[line.name], 0.5 / len(lines)
@@ -115,12 +119,12 @@ def work_order(
 def slugs(names: list[str]) -> list[str]:
     """A name of a folder for each name, each once.
 
-    >>> slugs(["Kazak, 80x120cm, blue", "Şah", "Sah"])
-    ['kazak-80x120cm-blue', 'sah', 'sah-2']
+    >>> slugs(["Kazak, 80x120cm, kırmızı", "Şah", "Sah"])
+    ['kazak-80x120cm-kirmizi', 'sah', 'sah-2']
     """
     found = list[str]()
     for name in names:
-        plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode()
+        plain = unicodedata.normalize("NFKD", name.translate(_PLAIN)).encode("ascii", "ignore").decode()
         slug = re.sub(r"[^a-z0-9]+", "-", plain.lower()).strip("-") or "carpet"
         slug = f"{slug}-carpet" if slug == OFFER else slug
         same = sum(one == slug or re.fullmatch(rf"{re.escape(slug)}-\d+", one) is not None for one in found)

@@ -23,7 +23,7 @@ from ilmek.jobs.ordering.passport import carpet_record
 from ilmek.jobs.ordering.progress import NOT_BEGUN, WovenRows
 from ilmek.progress import SILENT, Progress
 from ilmek.records import JsonObject, record
-from ilmek.sentences import Sentence, in_language, noun
+from ilmek.sentences import Sentence, in_language, translated
 
 MOUNTING, WAGES, STRIKE_OFF = "mounting.pdf", "wages.pdf", "strike-off"
 
@@ -32,13 +32,15 @@ MOUNTING, WAGES, STRIKE_OFF = "mounting.pdf", "wages.pdf", "strike-off"
 class WorkshopTerms:
     """What the folders of all carpets have in common.
 
-    key  that signs the records; None: they are not signed
+    language  of the weavers; customer_language: of the labels
+    key       that signs the records; None: they are not signed
     """
 
     reference: str
     currency: str
     wage: WageRules | None
     language: str
+    customer_language: str
     key: Any = None
 
 
@@ -71,7 +73,8 @@ def write_workshop(
         made = signed_record(found, terms.key)
         (work / file).write_text(json_text(made), encoding="utf-8")
         label = f"label-{number}.pdf"
-        write_label(work / label, f"{line.name} · {number}", _label_facts(found, line), str(code_of(made)))
+        with in_language(terms.customer_language):
+            write_label(work / label, f"{line.name} · {number}", _label_facts(found, line), str(code_of(made)))
         names += [file, label]
         records.append(made)
     return names, records
@@ -114,7 +117,8 @@ def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Pro
 
 
 def _label_facts(found: JsonObject, line: OrderLine) -> list[tuple[str, str]]:
-    fibre = ", ".join(f"{noun(part['material'])} {100 * part['share']:.0f} %" for part in found["fibre"])
+    shares = {part["material"]: f"{100 * part['share']:.0f} %" for part in found["fibre"]}
+    fibre = ", ".join(f"{translated(Sentence(f'order.fibre-{name}'))} {share}" for name, share in shares.items())
     return [
         (Sentence("order.size"), size_of(line.charted.chart.size)),
         (Sentence("order.knots"), f"{found['design']['knots']:,}".replace(",", "\u202f")),
