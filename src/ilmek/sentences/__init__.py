@@ -18,11 +18,16 @@ LATIN, PERSIAN, DEVANAGARI = "0123456789", "۰۱۲۳۴۵۶۷۸۹", "०१२३
 
 
 class Language(NamedTuple):
-    """A language: the module of its catalogue, digits 0 to 9, and whether its lines begin at the right."""
+    """A language of people.
+
+    module    of its catalogue           digits  0 to 9
+    leftward  lines begin at the right   local   digits have the forms that a font has for it (locl of OpenType)
+    """
 
     module: str
     digits: str = LATIN
     leftward: bool = False
+    local: bool = False
 
 
 DEFAULT = "en"
@@ -32,7 +37,7 @@ LANGUAGES = {"en": Language("english"), "tr": Language("turkish")}
 WEAVERS = LANGUAGES | {
     "fa": Language("persian", PERSIAN, leftward=True),
     "ar": Language("arabic", "٠١٢٣٤٥٦٧٨٩", leftward=True),
-    "ur": Language("urdu", PERSIAN, leftward=True),
+    "ur": Language("urdu", PERSIAN, leftward=True, local=True),
     "hi": Language("hindi", DEVANAGARI),
     "ne": Language("nepali", DEVANAGARI),
 }
@@ -147,6 +152,11 @@ def translated(text: str) -> str:
 def language_spoken() -> Language:
     """The language that is spoken."""
     return WEAVERS[_SPOKEN.get()]
+
+
+def numerals(text: str) -> str:
+    """A text with the digits of the language that is spoken."""
+    return text.translate(str.maketrans(LATIN, language_spoken().digits))
 
 
 def spoken(text: str) -> tuple[str, ...]:

@@ -60,9 +60,6 @@ NOUNS = {
 
 WEAVER = {
     **NOUNS,
-    "unit.cm": "{value} cm",
-    "count.knots": "{count} knots",
-    "count.knot": "{count} knot",
     "count.colours": "{count} colours",
     "count.colour": "{count} colour",
     # Chart
@@ -164,6 +161,7 @@ WEAVER = {
     "call.printed": "row {row} {arrow} {steps}",
     "call.again": "all rows were called: the call begins with row 1",
     "call.goes-on": "goes on at row {row}, step {step}; --from-row 1 begins anew",
+    "call.not-spoken": "{program} has failed: is a voice for {language} installed?",
     "call.speak-row": "row {row}",
     "call.speak-half": "half knots, {first} and {second}",
     "call.speak-jufti": "jufti knots, {first}",

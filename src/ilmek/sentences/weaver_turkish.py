@@ -51,9 +51,6 @@ WEAVER = {
     "colour.indigo-navy": "çivit laciverdi",
     "colour.violet": "menekşe",
     "colour.magenta": "macenta",
-    "unit.cm": "{value} cm",
-    "count.knots": "{count} ilmek",
-    "count.knot": "{count} ilmek",
     "count.colours": "{count} renk",
     "count.colour": "{count} renk",
     # Chart
@@ -152,6 +149,7 @@ WEAVER = {
     "call.printed": "sıra {row} {arrow} {steps}",
     "call.again": "bütün sıralar okunmuştu: 1. sıradan başlanıyor",
     "call.goes-on": "{row}. sıra, {step}. adımdan sürüyor; --from-row 1 baştan başlar",
+    "call.not-spoken": "{program} konuşamadı: {language} için bir ses kurulu mu?",
     "call.speak-row": "sıra {row}",
     "call.speak-half": "yarım ilmek, {first} ve {second}",
     "call.speak-jufti": "çift ilmek, {first}",

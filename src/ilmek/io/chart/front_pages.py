@@ -5,7 +5,7 @@ from PIL import Image
 from reportlab.lib.utils import ImageReader
 
 from ilmek.carpet.chart import Chart
-from ilmek.io.chart.legend import counted, thousands
+from ilmek.io.chart.legend import colours_in_words, thousands
 from ilmek.io.chart.printing import PrintCanvas, size_of, title_of
 from ilmek.io.chart.sheets import SheetLayout
 from ilmek.io.chart.symbols import STRONG, TEXT
@@ -44,7 +44,7 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
         columns=chart.columns,
         rows=chart.rows,
         knots=thousands(chart.knots.size),
-        colours=counted("colours", chart.colours),
+        colours=colours_in_words(chart.colours),
         sheets=thousands(plan.count),
         across=plan.sheet_columns,
         up=plan.sheet_rows,

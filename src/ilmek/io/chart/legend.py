@@ -40,13 +40,9 @@ def thousands(number: int) -> str:
     return f"{number:,}".replace(",", "\u202f")
 
 
-def counted(plural: str, number: int) -> Sentence:
-    """A number of knots or colours, of which one has a form of its own.
-
-    >>> print(counted("colours", 1), counted("knots", 2000))
-    1 colour 2 000 knots
-    """
-    return Sentence(f"count.{plural if number != 1 else plural[:-1]}", count=thousands(number))
+def colours_in_words(number: int) -> Sentence:
+    """A number of colours."""
+    return Sentence("count.colours" if number != 1 else "count.colour", count=number)
 
 
 def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printing) -> None:
@@ -58,7 +54,7 @@ def draw_legend(canvas: PrintCanvas, chart: Chart, inks: Inks, printing: Printin
     needs = dict(zip(chart.used, printing.bill.pile, strict=True)) if printing.bill else {}
     canvas.bookmarkPage("legend")
     canvas.addOutlineEntry(canvas.numerals(Sentence("legend.outline")), "legend", 0)
-    title = Sentence("legend.title", colours=counted("colours", len(chart.used)), knots=thousands(total))
+    title = Sentence("legend.title", colours=colours_in_words(len(chart.used)), knots=thousands(total))
     y = _begin(canvas, title, bool(needs))
     for index in chart.used:
         y = _room(canvas, y, _LINE, bool(needs))

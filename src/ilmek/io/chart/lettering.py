@@ -18,6 +18,7 @@ from reportlab.pdfgen.canvas import Canvas
 from ilmek.errors import JOINERS
 from ilmek.io.chart.bidi import visual_runs
 from ilmek.io.chart.symbols import ARABIC, DEVANAGARI, HAN, HANGUL, HEBREW, STRONG, TEXT, register_fonts
+from ilmek.sentences import language_spoken
 
 _SCRIPTS = {HEBREW: ((0x0590, 0x05FF),), ARABIC: ((0x0600, 0x06FF), (0x0750, 0x077F)), DEVANAGARI: ((0x0900, 0x097F),)}
 """Code points for which a font comes before TEXT, which has no joined forms and no marks in place."""
@@ -70,10 +71,23 @@ def draw_line(
         x += size * part.width
 
 
-@lru_cache(maxsize=4096)
 def is_plain(text: str, font: str) -> bool:
-    """Whether a font of reportlab shows a text as it is: it has every letter, and none is read to the left."""
+    """Whether a font of reportlab shows a text as it is: it has every letter, none is read to the left, and no digit
+    has a form of the language that is spoken.
+    """
+    return _is_plain(text, font, language_spoken().local)
+
+
+@lru_cache(maxsize=4096)
+def _is_plain(text: str, font: str, local: bool) -> bool:
+    if local and any("۰" <= letter <= "۹" for letter in text):
+        return False
     return all(unicodedata.bidirectional(letter) not in ("R", "AL") and _has(font, ord(letter)) for letter in text)
+
+
+def codes_of(text: str, font: str) -> str:
+    """The codes of a font for a text that is read to the right, letter by letter."""
+    return "".join(str(_shaped(letter, font, True, language_spoken().local).glyphs) for letter in text)
 
 
 @lru_cache(maxsize=4096)
@@ -103,15 +117,19 @@ def two_lines(text: str, size: float, room: float) -> tuple[str, str]:
     return " ".join(words[:count]), " ".join(words[count:])
 
 
-@lru_cache(maxsize=4096)
 def _parts(text: str, base: str = TEXT, rightward: bool | None = None) -> tuple[_Part, ...]:
     """The parts of a line from left to right."""
+    return _all_parts(text, base, rightward, language_spoken().local)
+
+
+@lru_cache(maxsize=4096)
+def _all_parts(text: str, base: str, rightward: bool | None, local: bool) -> tuple[_Part, ...]:
     register_fonts()
     if all(_font_of(letter, base, base) == base for letter in text):
         return (_Part(text, base, text, pdfmetrics.stringWidth(text, base, 1.0)),)
     parts: list[_Part] = []
     for run, to_right in visual_runs(text, rightward):
-        shaped = [_shaped(piece, font, to_right) for piece, font in pieces(run, base)]
+        shaped = [_shaped(piece, font, to_right, local) for piece, font in pieces(run, base)]
         parts += shaped if to_right else shaped[::-1]
     return tuple(parts)
 
@@ -142,15 +160,18 @@ def _has(font: str, code: int) -> bool:
     return code in pdfmetrics.getFont(font).face.charToGlyph
 
 
-def _shaped(text: str, name: str, rightward: bool) -> _Part:
-    """A part of one font and direction, shaped."""
+def _shaped(text: str, name: str, rightward: bool, local: bool) -> _Part:
+    """A part of one font and direction, shaped.
+
+    local  with local forms, which a font may have by default
+    """
     font = pdfmetrics.getFont(name)
     buffer = uharfbuzz.Buffer()
     buffer.add_str(text)
     buffer.guess_segment_properties()
     buffer.direction = "ltr" if rightward else "rtl"
     buffer.cluster_level = uharfbuzz.BufferClusterLevel.MONOTONE_CHARACTERS
-    uharfbuzz.shape(_harfbuzz_font(name), buffer)
+    uharfbuzz.shape(_harfbuzz_font(name), buffer, {"locl": local})
     begins = sorted({info.cluster for info in buffer.glyph_infos})
     ends = dict(zip(begins, [*begins[1:], len(text)], strict=True))
     codes, places = [], []

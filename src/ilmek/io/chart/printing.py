@@ -139,9 +139,7 @@ def quality_of(quality: Quality) -> Sentence:
 
 
 @contextmanager
-def printed_file(
-    path: Path, title: str, printing: Printing | None = None, **more: object
-) -> Iterator[PrintCanvas]:
+def printed_file(path: Path, title: str, printing: Printing | None = None, **more: object) -> Iterator[PrintCanvas]:
     """The canvas of a PDF file, which is saved at the end; the same pages make the same file.
 
     printing  default: in the language that is spoken

@@ -10,7 +10,7 @@ from ilmek.carpet.chart import Chart
 from ilmek.carpet.rows import Run, directions, row_codes, runs_of, span_text, spans_by_yarn
 from ilmek.io.chart.inks import Inks
 from ilmek.io.chart.legend import draw_legend
-from ilmek.io.chart.lettering import cut_line
+from ilmek.io.chart.lettering import cut_line, is_plain
 from ilmek.io.chart.printing import PLAIN, PrintCanvas, Printing, printed_file, title_of
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT, symbols
 from ilmek.progress import SILENT, Progress
@@ -121,6 +121,9 @@ def _draw_line(canvas: PrintCanvas, line: ColourLine, chart: Chart, inks: Inks, 
         name = canvas.name_of(chart.yarns[line.yarn].name)
         canvas.write_name(_LEFT + 36.0, y, cut_line(name, 6.0, 50.0), 6.0)
     canvas.setFont(SIGNS, _SIZE)
-    for place, word in enumerate(line.text.split("  ") if canvas.leftward else [line.text]):
-        x = _CELLS_AT + ADVANCE * _SIZE * len("  ".join(line.text.split("  ")[:place]) + "  " * (place > 0))
-        canvas.write(_LEFT + x, y, word.replace("-", "–") if canvas.leftward else word)
+    x = _LEFT + _CELLS_AT
+    for word in (
+        [line.text] if not canvas.leftward and is_plain(canvas.numerals(line.text), SIGNS) else line.text.split()
+    ):
+        canvas.write(x, y, word.replace("-", "–") if canvas.leftward else word)
+        x += ADVANCE * _SIZE * (len(word) + 2)

@@ -3,10 +3,12 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
+from reportlab.pdfbase.pdfmetrics import stringWidth
+
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
 from ilmek.io.chart.inks import Inks
-from ilmek.io.chart.lettering import line_width, pieces
+from ilmek.io.chart.lettering import codes_of, is_plain, line_width, pieces
 from ilmek.io.chart.printing import PrintCanvas
 from ilmek.io.chart.rows_layout import LABEL_GAP, LEFT, RULER, SMALLEST, STRIP, RowsLayout
 from ilmek.io.chart.symbols import ADVANCE, SIGNS, STRONG, TEXT
@@ -46,7 +48,8 @@ class Typesetter:
     def code(self, text: str) -> str:
         """The operators of PDF that show a text (ISO 32000-1, 9.4), font included."""
         if text not in self._encoded:
-            self._encoded[text] = " ".join(self._piece(*piece) for piece in pieces(text, SIGNS))
+            parts = [(text, SIGNS)] if is_plain(text, SIGNS) else pieces(text, SIGNS)
+            self._encoded[text] = " ".join(self._piece(*part) for part in parts)
         return self._encoded[text]
 
     def _piece(self, text: str, font: str) -> str:
@@ -54,8 +57,9 @@ class Typesetter:
         made = self.canvas.beginText()
         made.setFont(font, self.size)
         made._curSubset = -1  # each text names its font, so that texts can follow in any order
-        space = ADVANCE * self.size - line_width(text[0], self.size, font)
-        return f"{space:.3f} Tc {made._formatText(text)}"
+        shown = text if font == SIGNS else codes_of(text, font)
+        space = ADVANCE * self.size - stringWidth(shown, font, self.size) / len(text)
+        return f"{space:.3f} Tc {made._formatText(shown)}"
 
     def show(self, texts: list[tuple[float, float, str]]) -> None:
         """Write texts, each centred on x, with its baseline on y."""
