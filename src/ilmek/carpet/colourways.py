@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.codes import recoded
+from ilmek.carpet.codes import CODES, recoded
 from ilmek.carpet.colour import srgb_to_lab
 from ilmek.carpet.colour_difference import delta_e_2000
 from ilmek.carpet.picture_points import read_colour
@@ -53,7 +53,8 @@ def recoloured(chart: Chart, colourway: Colourway, shelf: Sequence[Yarn]) -> Cha
         yarns[design[old]] = _offered(new, chart.yarns[design[old]], offered, colourway.name)
     kept = {yarns[index].name: yarns[index] for index in (*chart.used, *range(len(yarns)))}
     order = list(kept)
-    codes = np.array([order.index(yarn.name) for yarn in yarns], dtype=np.uint8)
+    codes = np.arange(CODES, dtype=np.uint8)  # cells without a knot have a code of no yarn
+    codes[: len(yarns)] = [order.index(yarn.name) for yarn in yarns]
     reading = replace(chart.reading, differences=(), matches=(), lost=(), proposed=())
     return replace(
         chart,

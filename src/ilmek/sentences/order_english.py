@@ -55,6 +55,7 @@ ORDER = {
     "order.lots": "dye lots",
     "order.mounting": "Mounting sheet",
     "order.knot": "knot",
+    "order.cm": "{length} cm",
     "order.warp-beam": "warp beam",
     "order.cloth-beam": "cloth beam",
     "order.begin-row": "row 1: here the weaving begins",

@@ -55,6 +55,7 @@ ORDER = {
     "order.lots": "boya partisi",
     "order.mounting": "Çözgü kâğıdı",
     "order.knot": "düğüm",
+    "order.cm": "{length} cm",
     "order.warp-beam": "çözgü levendi",
     "order.cloth-beam": "halı levendi",
     "order.begin-row": "1. sıra: dokuma burada başlar",

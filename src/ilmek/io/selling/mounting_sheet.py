@@ -88,7 +88,7 @@ def _marks(page: OrderPage, chart: Chart, made: Mounting, box: tuple[float, floa
         for side in (left - _SELVEDGE, left + wide + _SELVEDGE + 6.0):
             canvas.line(side - 6.0, y, side, y)
         if row % numbered == 0:
-            metres = Sentence("unit.cm", value=format_number(round(made.row_mark * row / TENS / cm, 1)))
+            metres = Sentence("order.cm", length=format_number(round(made.row_mark * row / TENS / cm, 1)))
             canvas.setFont("ilmek-text", 7)
             canvas.setFillGray(0.1)
             canvas.drawRightString(left - _SELVEDGE - 9.0, y - 2.5, str(row))

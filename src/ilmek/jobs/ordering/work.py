@@ -30,8 +30,8 @@ from ilmek.sentences import in_language
 _PLAIN = str.maketrans({"ı": "i", "ß": "ss", "ø": "o", "Ø": "O", "ł": "l", "æ": "ae"})
 """Letters that have no plain form in Unicode."""
 
-OFFER = "offer"
-"""The folder of the papers for the customer."""
+OFFER, ORDER_DATA = "offer", "order.json"
+"""The folder of the papers for the customer, and the results beside them."""
 
 
 @record
@@ -105,14 +105,14 @@ def work_order(
                 names, records = write_workshop(line, terms, rows, work, before=own, left_out=left_out, progress=on)
             files += [str(own / name) for name in names]
             codes.append(tuple(str(code_of(one)) for one in records))
-        names = ["quotation.pdf", "approval.pdf", "order.json"]
-        files = [*(str(folder / OFFER / name) for name in names), *files]
+        names = ["quotation.pdf", "approval.pdf"] if lines else []
+        files = [*(str(folder / OFFER / name) for name in (*names, ORDER_DATA)), *files]
         done = OrderResult(orders, plan, lines, offer, woven, tuple(codes), tuple(files), tuple(left_out))
         with made.folder(folder / OFFER) as work, in_language(orders.language):
             if lines:
                 write_quotation(work / names[0], offer)
                 write_approval(work / names[1], offer)
-            write_json(work / names[2], order_json(done))
+            write_json(work / ORDER_DATA, order_json(done))
     return done
 
 

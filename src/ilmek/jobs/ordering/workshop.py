@@ -5,6 +5,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ilmek.carpet.bill import yarn_bill
 from ilmek.carpet.mounting import mounting
 from ilmek.carpet.price_rules import WageRules
@@ -98,8 +100,10 @@ def wage_sheet(charted: ChartResult, rules: WageRules, currency: str, woven: Wov
 
 
 def knots_in_rows(charted: ChartResult) -> Sequence[int]:
-    """The knots of each row, row 1 first."""
-    return [charted.chart.columns] * charted.chart.rows
+    """The knots of each row, row 1 first; a cell without a knot has the code of no yarn."""
+    chart = charted.chart
+    counts: list[int] = np.count_nonzero(chart.knots < len(chart.yarns), axis=1)[::-1].tolist()
+    return counts
 
 
 def _strike_off(charted: ChartResult, line: OrderLine, work: Path, progress: Progress) -> list[str]:
