@@ -9,7 +9,7 @@ from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file
 from ilmek.io.chart.symbols import SIGNS, symbols
 from ilmek.io.selling.offer import Offer, OfferedCarpet
-from ilmek.io.selling.page import LEFT, LOW, ROOM, PageColumn, OrderPage
+from ilmek.io.selling.page import LEFT, LOW, ROOM, OrderPage, PageColumn
 from ilmek.io.selling.quotation import carpet_facts
 from ilmek.sentences import Sentence
 

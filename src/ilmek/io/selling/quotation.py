@@ -6,7 +6,7 @@ from pathlib import Path
 from ilmek.io.chart.lettering import cut_line
 from ilmek.io.chart.printing import printed_file, quality_of, size_of
 from ilmek.io.selling.offer import Offer, OfferedCarpet
-from ilmek.io.selling.page import LEFT, LOW, ROOM, PageColumn, OrderPage
+from ilmek.io.selling.page import LEFT, LOW, ROOM, OrderPage, PageColumn
 from ilmek.sentences import Sentence, noun
 from ilmek.units import format_number, mm
 

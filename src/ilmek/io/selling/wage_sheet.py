@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ilmek.carpet.price_rules import WagePayment, WageRules
 from ilmek.io.chart.printing import printed_file
-from ilmek.io.selling.page import ROOM, PageColumn, OrderPage
+from ilmek.io.selling.page import ROOM, OrderPage, PageColumn
 from ilmek.io.selling.quotation import money, percent
 from ilmek.records import record
 from ilmek.report.paper import BOX
