@@ -13,7 +13,7 @@ import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.averages import reading_loss
-from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, Cells, require_knots
+from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, CellMap, require_knots
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES, NO_KNOT, recoded
 from ilmek.carpet.confetti import merge_patches
@@ -74,7 +74,7 @@ class Chart(Shown):
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
     creel: tuple[int, ...] | None = None
-    cells: Cells | None = None
+    cells: CellMap | None = None
     _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
