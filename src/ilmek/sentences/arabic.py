@@ -173,7 +173,7 @@ ARABIC = {
     "order.wage": "أجر السجادة",
     "order.advance": "السلفة",
     "order.woven": "المنسوج",
-    "order.woven-text": "{done} من {rows} صفًا",
+    "order.woven-text": "{done} من {rows} صف",
     "order.due": "المستحق حتى الآن",
     "order.payments": "الدفعات",
     "order.after-row": "بعد الصف",
