@@ -63,8 +63,9 @@ ARABIC = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "السجادة كاملة",
     "chart.facts": "{size} (العرض × الطول)، {across} × {along} عقدة في الديسيمتر، عقدة {knot}",
-    "chart.one-sheet": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ على ورقة واحدة",
-    "chart.sheets": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} "
+    "cell.no-knot": "بلا عقدة",
+    "chart.one-sheet": "{columns} عقدة × {rows} صف: {knots} عقدة، {colours}؛ على ورقة واحدة",
+    "chart.sheets": "{columns} عقدة × {rows} صف: {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} "
     "عقدة × {up} صف",
     "chart.order": "تعد الصفوف من الأسفل والعقد من اليسار.",
     "chart.shaded": "العقد الباهتة من الورقة التالية.",
@@ -130,6 +131,7 @@ ARABIC = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L وR: أنصاف عقد على خيط السداة الأيسر والأيمن",
     "rows.jufti-cells": "؛ j: عقد جفتي",
+    "rows.text-plain": "12{sign}: اثنتا عشرة خانة بلا عقد، بنسيج سادة.",
     "rows.text": "{size}، {quality}، عقدة {knot}؛ الصف 1 هو أول ما ينسج، عند الحافة السفلى.",
     "rows.text-signs": "رأس العلامة بعد رقم الصف يدل على اتجاه القراءة. السطر الذي يبدأ بفراغ تتمة للسطر الذي فوقه.",
     "rows.text-runs": "12A: اثنتا عشرة عقدة من الخيط A. عدد معه ½ وAC: خانات في كل منها نصفا عقدة، A على خيط السداة الذي "

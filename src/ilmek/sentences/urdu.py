@@ -63,8 +63,9 @@ URDU = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "پورا قالین",
     "chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} گرہیں، {knot} گرہ",
-    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، ایک ورق پر",
-    "chart.sheets": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
+    "cell.no-knot": "بغیر گرہ",
+    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، ایک ورق پر",
+    "chart.sheets": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
     "× {up} قطاریں",
     "chart.order": "قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں۔",
     "chart.shaded": "پھیکی گرہیں اگلے ورق کی ہیں۔",
@@ -132,6 +133,7 @@ URDU = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L اور R: بائیں اور دائیں تار پر آدھی گرہیں",
     "rows.jufti-cells": "؛ j: جفتی گرہیں",
+    "rows.text-plain": "12{sign}: بارہ خانے بغیر گرہ کے، سادہ بُنائی میں۔",
     "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔",
     "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ اوپر والی سطر کا تسلسل ہے۔",
     "rows.text-runs": "12A: دھاگے A کی بارہ گرہیں۔ ½ اور AC والا عدد: ہر خانے میں دو آدھی گرہیں، A اس تار پر جو پہلے آئے،",
