@@ -242,7 +242,7 @@ def test_a_colour_that_the_shelf_lacks_is_named_with_the_nearest() -> None:
 
 def test_a_strike_off_has_as_many_colours_as_any_window(worked: tuple[dict[str, Any], Path]) -> None:
     chart = read_chart(worked[1] / "medallion-madder" / "chart.png")
-    window = strike_off_window(chart, 0.08)
+    window = strike_off_window(chart, 0.08, 0.08)
     sample = part_of(chart, window)
     most = max(len(np.unique(chart.knots[top : top + 8, left : left + 8])) for top in range(33) for left in range(23))
     assert len(np.unique(sample.knots)) == most
