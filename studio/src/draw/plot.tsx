@@ -11,7 +11,7 @@ interface PlotProps {
   plot: ShownPlot;
   title: string;
   /** Height of the curves [px]. */
-  height?: number;
+  height?: number | undefined;
   /** Ranges that are kept while the data change; without them those of the data. */
   ranges?: Ranges | undefined;
 }
@@ -66,7 +66,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
         role="slider"
         tabIndex={0}
         aria-label={title}
-        aria-description={t("ui.plotKeys")}
+        aria-description={t("figure.plotKeys")}
         aria-valuemin={shown.x.low}
         aria-valuemax={shown.x.high}
         aria-valuenow={at ?? shown.x.low}
@@ -110,19 +110,14 @@ interface LegendProps {
 
 function PlotLegend({ plot, at, values, reading }: LegendProps) {
   const several = plot.curves.length > 1;
-  const unit = shownUnit(plot.y.shown_unit);
   return (
     <ul class="fig-legend">
-      {at !== null && <li class="fig-at">{t("ui.at", { at: reading })}</li>}
+      {at !== null && <li class="fig-at">{t("figure.at", { at: reading })}</li>}
       {plot.curves.map((curve, k) => (
         <li key={k}>
           <Swatch look={curve.look} dashed={curve.dashed} marked={several} />
           <span>{curve.label}</span>
-          {at !== null && (
-            <b>
-              {shownValue(values[k] ?? null, plot.y.shown_unit)} {unit}
-            </b>
-          )}
+          {at !== null && <b>{values[k] == null ? "–" : formatQuantity(values[k], plot.y.shown_unit)}</b>}
         </li>
       ))}
     </ul>
