@@ -101,7 +101,8 @@ class ChartResult:
     def printing(self) -> Printing:
         """What the printed files have besides the chart."""
         ground = self.order.order.plan.ground(self.ground)
-        return Printing(self.order.order.files.digits, self.bill, mounting(self.chart, ground))
+        files = self.order.order.files
+        return Printing(files.digits or "", self.bill, mounting(self.chart, ground), files.lang)
 
     @property
     def thickest(self) -> Yarn:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from ilmek.arguments import TURN, Arguments
 from ilmek.errors import MechanismError
@@ -10,6 +11,9 @@ from ilmek.records import brief
 
 GROUND = "ground"
 """The fixed body; its frame is the world."""
+
+BodyPoint: TypeAlias = str | tuple[str, str | complex]
+"""A point of a body: "body.point"; or (body, point), with the point's name or its position in the body's frame [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +155,20 @@ class Displacement:
         return self.slide
 
 
+def body_point(given: Arguments, name: str, value: object) -> tuple[str, str | complex]:
+    """The names of a body and of its point, or a body and a position in its frame [m].
+
+    Raises an error for a text without a dot, and for other objects.
+    """
+    if isinstance(value, str):
+        body, _, point = value.partition(".")
+        if not (body and point):
+            raise given.error(f"{name} is {value!r}", allowed='a point of a body, like "rocker.E"')
+        return body, point
+    body, point = given.pair(name, value, 'a point of a body: "body.point", or (body, point)')
+    return given.text(f"body of {name}", body), point if isinstance(point, str) else given.point(name, point)
+
+
 def set_texts(value: object, *names: str) -> None:
     """Set fields of a record to the texts that they are given."""
     for name in names:
@@ -158,6 +176,13 @@ def set_texts(value: object, *names: str) -> None:
         if type(text) is not str:
             given = Arguments(f"a {type(value).__name__.lower()}", MechanismError)
             object.__setattr__(value, name, given.text(name, text))
+
+
+def set_point(value: object, *names: str) -> None:
+    """Set fields of a record, by default `on`, to the body and the point that they name."""
+    given = Arguments(f"a {type(value).__name__.lower()}", MechanismError)
+    for name in names or ("on",):
+        object.__setattr__(value, name, body_point(given, name, getattr(value, name)))
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from ilmek.sentences.papers_english import PAPERS
 from ilmek.sentences.sheets_english import SHEETS
+from ilmek.sentences.weaver_english import WEAVER
 
 ENGLISH = {
     "place.file": "{file}",
@@ -197,4 +198,5 @@ ENGLISH = {
     "hint.did-you-mean": "did you mean {name!r}?",
     **PAPERS,
     **SHEETS,
+    **WEAVER,
 }  # fmt: skip

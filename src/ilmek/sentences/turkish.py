@@ -2,6 +2,7 @@
 
 from ilmek.sentences.papers_turkish import PAPERS
 from ilmek.sentences.sheets_turkish import SHEETS
+from ilmek.sentences.weaver_turkish import WEAVER
 
 TURKISH = {
     "place.file": "{file}",
@@ -197,4 +198,5 @@ TURKISH = {
     "hint.did-you-mean": "{name!r} mi demek istediniz?",
     **PAPERS,
     **SHEETS,
+    **WEAVER,
 }  # fmt: skip

@@ -96,6 +96,11 @@ class ShapedFont(TTFont):  # type: ignore[misc]
         return found[0] if text is None else f"> <{text.encode('utf-16-be').hex().upper()}>"
 
 
+def font_file(name: str) -> Path:
+    """The file of a font."""
+    return _FONTS / _FILES[name]
+
+
 @lru_cache(maxsize=1)
 def register_fonts() -> None:
     """Register the fonts with reportlab."""
