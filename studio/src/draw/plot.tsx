@@ -29,6 +29,7 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
     [plot, shown],
   );
   const angle = isAngle(plot.x.shown_unit);
+  const whole = useMemo(() => plot.curves.every((curve) => curve.x.every((x) => Number.isInteger(x))), [plot]);
   const inside = (value: number | null) => (value === null ? null : within(value, shown.x.low, shown.x.high, angle));
   const over = useCanvas(
     (context, width, high) => {
@@ -43,7 +44,8 @@ export function Plot({ plot, title, height = 210, ranges }: PlotProps) {
   const point = (event: PointerEvent) => {
     if (layout.current === null) return;
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
-    moveTo(cursor, fromX(layout.current, event.clientX - box.left));
+    const to = fromX(layout.current, event.clientX - box.left);
+    moveTo(cursor, whole ? Math.round(to) : to);
   };
   const at = inside(cursor.at.value);
   const reading = at === null ? "" : formatQuantity(at, plot.x.shown_unit);
@@ -116,7 +118,7 @@ function PlotLegend({ plot, at, values, reading }: LegendProps) {
       {plot.curves.map((curve, k) => (
         <li key={k}>
           <Swatch look={curve.look} dashed={curve.dashed} marked={several} />
-          <span>{curve.label}</span>
+          <span>{curve.label || plot.y.label}</span>
           {at !== null && <b>{values[k] == null ? "–" : formatQuantity(values[k], plot.y.shown_unit)}</b>}
         </li>
       ))}
