@@ -8,8 +8,11 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.jobs.studio.answers import alike
-from ilmek.jobs.studio.figures.answers import (
+from ilmek.records import alike
+from ilmek.report import Animation, Drawing, Figure, Gantt, MovingStroke, Plot, StackedBars, Stroke, Table, Timing
+from ilmek.viz.looks import COLOURED, looks_of, numbered
+from ilmek.viz.number_format import quiet_rows
+from ilmek.viz.plain.records import (
     MovingPoint,
     MovingShape,
     Numbers,
@@ -30,10 +33,6 @@ from ilmek.jobs.studio.figures.answers import (
     ShownTable,
     ShownTiming,
 )
-from ilmek.report import Animation, Drawing, Figure, Gantt, MovingStroke, Plot, StackedBars, Stroke, Table, Timing
-from ilmek.viz.looks import COLOURED, looks_of, numbered
-from ilmek.viz.moving_parts import is_rigid
-from ilmek.viz.number_format import quiet_rows
 from ilmek.viz.thinning import thinned_curve, thinned_line
 
 DIGITS = 6
@@ -41,6 +40,9 @@ DIGITS = 6
 
 FINE = 4000.0
 """Extent of a drawing in the units in which its lines are thinned: it can be enlarged ten times without corners."""
+
+EVEN = 0.5
+"""Largest deviation of a thinned curve, in the same units of the extent of its axes: a tenth of a pixel."""
 
 
 def shown_figures(figures: Iterable[Figure]) -> list[ShownFigure]:
@@ -104,11 +106,20 @@ def interleaved(points: ComplexArray) -> Numbers:
 
 def _plot(plot: Plot, looks: Mapping[str, int]) -> ShownPlot:
     numbers = numbered([series.label for series in plot.series], looks)
-    curves = []
+    curves, wide, high = [], _extent([one.x for one in plot.series]), _extent([one.y for one in plot.series])
     for series, look in zip(plot.series, numbers, strict=True):
         x, y = thinned_curve(np.asarray(series.x, float), np.asarray(series.y, float))
+        points = thinned_line(x * (FINE / wide) + 1j * y * (FINE / high), EVEN)
+        x, y = points.real * (wide / FINE), points.imag * (high / FINE)
         curves.append(ShownCurve(series.label, look, series.dashed, rounded_numbers(x), rounded_numbers(y)))
     return ShownPlot(ShownAxis(plot.x.label, plot.x.unit), ShownAxis(plot.y.label, plot.y.unit), curves, plot.marks)
+
+
+def _extent(parts: Iterable[FloatArray]) -> float:
+    """Greatest less least of the finite values; 1 where they do not differ."""
+    values = np.concatenate([np.zeros(0), *(np.asarray(part, float) for part in parts)])
+    values = values[np.isfinite(values)]
+    return float(np.ptp(values)) or 1.0 if len(values) else 1.0
 
 
 def _coloured(strokes: Iterable[Stroke | MovingStroke], looks: Mapping[str, int]) -> list[int]:
@@ -178,7 +189,7 @@ def _animation(animation: Animation, looks: Mapping[str, int]) -> ShownAnimation
 
 def _shape(stroke: MovingStroke, tracks: _Tracks, look: int) -> MovingShape:
     points = stroke.points
-    if not is_rigid(points):
+    if not _is_rigid(points):
         numbers = [tracks.number(points[:, at]) for at in range(points.shape[1])]
         return MovingShape(numbers, [], stroke.role, stroke.label, stroke.closed, look)
     far = int(np.argmax(np.abs(points[0] - points[0, 0])))
@@ -188,11 +199,26 @@ def _shape(stroke: MovingStroke, tracks: _Tracks, look: int) -> MovingShape:
     return MovingShape(numbers, interleaved(local), stroke.role, stroke.label, stroke.closed, look)
 
 
+def _is_rigid(points: ComplexArray) -> bool:
+    """Whether a line of more than three points moves without changing its shape; points (frames, points)."""
+    if points.shape[1] <= 3 or not np.isfinite(points).all():
+        return False
+    off = points - points[:, :1]
+    far = int(np.argmax(np.abs(off[0])))
+    size = abs(off[0, far])
+    if size == 0 or np.any(off[:, far] == 0):
+        return False
+    turned = off[:, far] / off[0, far]
+    return bool(np.max(np.abs(off - turned[:, np.newaxis] * off[0])) < 1e-6 * size)
+
+
 def _timing(timing: Timing, looks: Mapping[str, int]) -> ShownTiming:
     numbers = numbered([lane.name for lane in timing.lanes], looks)
     lanes = []
     for lane, look in zip(timing.lanes, numbers, strict=True):
         angle, position = thinned_curve(np.asarray(lane.angle, float), np.asarray(lane.position, float))
+        known: Iterable[FloatArray] = () if lane.motion is None else lane.motion
+        motion = [rounded_numbers(np.interp(angle, lane.angle, row)) for row in known]
         lanes.append(
             alike(
                 ShownLane,
@@ -201,6 +227,7 @@ def _timing(timing: Timing, looks: Mapping[str, int]) -> ShownTiming:
                 look=look,
                 angle=rounded_numbers(angle),
                 position=rounded_numbers(position),
+                motion=motion,
             )
         )
     return ShownTiming(ShownAxis(timing.drive.label, timing.drive.unit), timing.period, lanes, timing.links)

@@ -127,7 +127,10 @@ class ShownAnimation:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownLane:
-    """A track of a cyclogram: position 0 to 1 over the master angle [rad]."""
+    """A track of a cyclogram: position 0 to 1 over the master angle [rad].
+
+    motion  position [SI], velocity and acceleration [SI, s] at the angles; empty where they are not known
+    """
 
     name: str
     actuator: str
@@ -138,6 +141,7 @@ class ShownLane:
     events: tuple[Mark, ...]
     moves: tuple[Move, ...]
     shades: tuple[Shade, ...]
+    motion: list[Numbers]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
