@@ -127,10 +127,9 @@ def reducer_check(title: str, by: Reducer, motor_torque: float, load: float, par
 
 @dataclass(frozen=True, slots=True)
 class WormSize:
-    """A size of worm reducers: its hollow shaft lies across the motor's, apart by the centre distance. All but torques in
-    m and kg.
+    """A size of worm reducers: its hollow shaft lies across the motor's, apart by the centre distance; in m and kg.
 
-    centre  distance of both axes             torque, single  at the output, slow: of a last stage of 50:1, of 100:1 [N m]
+    centre  distance of both axes             torque, single  slow, of a last stage of 50:1, of 100:1 [N m]
     bore    largest of its hollow shaft       length   of that, beyond both covers
     motor   from its axis to the motor's      half     from its axis to the housing's sides along the worm and away
     top     beyond the worm                   cover    from the middle of its length to a cover
@@ -169,13 +168,25 @@ class WormSize:
 
 
 SINGLE, _LAST, _STAGE = 100.0, 50.0, 2.2
-"""Largest ratio of a worm, ratio of the last of two stages, and how much farther the motor is with two: makers' tables."""
+"""Largest ratio of a worm, ratio of the last of two stages, and how much farther the motor is with two: by makers."""
 
 WORM_SIZES = tuple(
     WormSize(
-        *(centre * mm, torque, single, bore * mm),
-        *(size * mm for size in (length, motor, half, top, cover, pilot, circle)),
-        *(thread, arm * mm, screw, mass),
+        centre=centre * mm,
+        torque=torque,
+        single=single,
+        bore=bore * mm,
+        length=length * mm,
+        motor=motor * mm,
+        half=half * mm,
+        top=top * mm,
+        cover=cover * mm,
+        pilot=pilot * mm,
+        circle=circle * mm,
+        thread=thread,
+        arm=arm * mm,
+        screw=screw,
+        mass=mass,
     )
     for centre, torque, single, bore, length, motor, half, top, cover, pilot, circle, thread, arm, screw, mass in (
         (63, 145, 100, 28, 112, 95, 72, 102, 53, 80, 95, "M8", 150, "M8", 6.2),
