@@ -137,6 +137,7 @@ SHEETS = {
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "slides on a face",
     "sheet.keyway": "{times}keyway {size} at {at}",
+    "sheet.groove": "{times}groove {size} at {at}",
     "sheet.keyway-seat": "{keyway}, {length} long, {begin} from the left end",
     "sheet.floor": "{size} to its floor",
     "sheet.on-circle": "{holes} on ⌀{circle}",

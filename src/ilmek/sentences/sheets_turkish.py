@@ -137,6 +137,7 @@ SHEETS = {
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "yüzeyde kayar",
     "sheet.keyway": "{times}kama yuvası {size}, {at}",
+    "sheet.groove": "{times}oluk {size}, {at}",
     "sheet.keyway-seat": "{keyway}, boyu {length}, sol uçtan {begin}",
     "sheet.floor": "tabanına {size}",
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",
