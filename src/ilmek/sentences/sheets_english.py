@@ -98,7 +98,7 @@ SHEETS = {
     "sheet.twist-left": "left",
     "sheet.members-placed": "Consists of; X, Y, Z from the lower left rear corner",
     "sheet.after-welding": "After welding: relieve stress at 550…600 °C, machine these seats, paint, mount the rest",
-    "sheet.true-ends": "{form}{letter}: total run-out {value} to A-B",
+    "sheet.true-ends": "{form}{letter}: total run-out {value} to {common}",
     "sheet.finish-after-welding": "Welded to: {parts}; seats finished after that",
     "sheet.finish-between-centres": (
         "Welded to: {parts}; 0.5 mm left on the journals, which are finished after that between centres (DIN 332-1)"

@@ -98,7 +98,7 @@ SHEETS = {
     "sheet.twist-left": "sol",
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
     "sheet.after-welding": "Kaynaktan sonra: 550…600 °C'de gerilim giderin, yuvaları işleyin, boyayın, parçaları takın",
-    "sheet.true-ends": "{form}{letter}: A-B'ye göre toplam salgı {value}",
+    "sheet.true-ends": "{form}{letter}: {common} eksenine göre toplam salgı {value}",
     "sheet.finish-after-welding": "Kaynaklandığı parça: {parts}; yuvalar ondan sonra bitirilir",
     "sheet.finish-between-centres": (
         "Kaynaklandığı parça: {parts}; muylularda 0,5 mm pay bırakılır, sonra puntalar arasında bitirilir (DIN 332-1)"

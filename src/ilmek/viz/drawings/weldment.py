@@ -11,6 +11,7 @@ from ilmek.arrays import Float
 from ilmek.elements.fits import tolerance_grade
 from ilmek.part.assemblies import AssembledPiece, AssemblyItem, AssemblyUnit
 from ilmek.part.colliders import collider
+from ilmek.part.placement import Placement
 from ilmek.part.tolerances import FeatureKind, FitDuty, ToleratedFeature
 from ilmek.part.tolerancing import tolerances_of
 from ilmek.part.tree import Tree
@@ -92,7 +93,8 @@ def _machined(
         form = "".join(f"{millimetres(limit.value)}; " for limit in feature.geometric)
         if number in ends:
             value = millimetres(tolerance_grade(END_GRADE, feature.nominal))
-            form = Sentence("sheet.true-ends", form=form, letter=ends[number], value=value)
+            letter, common = ends[number]
+            form = Sentence("sheet.true-ends", form=form, letter=letter, value=value, common=common)
         yield items[piece.item].name, piece.part.title, kind, size, form.removesuffix("; "), duty
 
 
@@ -100,22 +102,27 @@ END_GRADE = 7
 """Grade of ISO 286 of the run-out of the journals at both ends of a welded shaft, about their common axis; assumed."""
 
 
-def _shaft_ends(seats: Sequence[tuple[AssembledPiece, ToleratedFeature]]) -> dict[int, str]:
-    """Datums of the journals at both ends of a welded shaft, by their numbers: none of one that is a single piece."""
-    journals = [
-        (number, piece.position.after(feature.position))
-        for number, (piece, feature) in enumerate(seats)
-        if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING
-    ]
-    letters, ends = iter("ABCDEFGH"), dict[int, str]()
-    for number, lies in journals:
-        axis = lies.rotation[:, 2]
-        other = any(
-            number != own and np.abs(np.cross(axis, there.origin - lies.origin)).max() < um for own, there in journals
-        )
-        if other:
-            ends[number] = next(letters)
-    return ends
+def _shaft_ends(seats: Sequence[tuple[AssembledPiece, ToleratedFeature]]) -> dict[int, tuple[str, str]]:
+    """Datums of the journals of welded shafts by their numbers, and their common axis: none of a single journal."""
+    lines: list[list[tuple[int, Placement]]] = []
+    for number, (piece, feature) in enumerate(seats):
+        if feature.kind is FeatureKind.JOURNAL and feature.duty is FitDuty.BEARING:
+            lies = piece.position.after(feature.position)
+            on = (own for own in lines if _on_axis(own[0][1], lies))
+            line = next(on, None)
+            lines.append([(number, lies)]) if line is None else line.append((number, lies))
+    letters = iter("ABCDEFGHJKLMNPQRSTUVWXYZ")
+    ends = [(line[0][0], line[-1][0]) for line in lines if len(line) > 1]
+    named = [(pair, next(letters), next(letters)) for pair in ends]
+    return {
+        number: (own, f"{first}-{last}")
+        for pair, first, last in named
+        for number, own in zip(pair, (first, last), strict=True)
+    }
+
+
+def _on_axis(axis: Placement, other: Placement) -> bool:
+    return bool(np.abs(np.cross(axis.rotation[:, 2], other.origin - axis.origin)).max() < um)
 
 
 def _beside(rows: Sequence[tuple[str, ...]], seats: Sequence[tuple[str, ...]], paper: str) -> list[SheetPicture] | None:
