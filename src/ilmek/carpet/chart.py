@@ -7,30 +7,30 @@ distinct colour of the design gets its yarn (`yarns_of_design`). What the chart 
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.averages import reading_loss
+from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES, eight_bits, recoded
 from ilmek.carpet.confetti import merge_patches
 from ilmek.carpet.design import knot_grid
-from ilmek.carpet.detail import KeptDetail, detail_kept
-from ilmek.carpet.differences import YarnDifference, differences
-from ilmek.carpet.edges_kept import LostColour, edges_kept, edges_of
+from ilmek.carpet.detail import detail_kept
+from ilmek.carpet.differences import differences
+from ilmek.carpet.edges_kept import edges_kept, edges_of
 from ilmek.carpet.fitted import fitted_design, shaped_size, unfitted_design
 from ilmek.carpet.fitting import Fit, FitParams, prepare_picture
 from ilmek.carpet.halftone import draw_halftone
-from ilmek.carpet.matches import ColourMatch, colour_matches
+from ilmek.carpet.matches import colour_matches
 from ilmek.carpet.overlay import Overlay, TiedKnots, no_overlay, require_fit, tied_knots
 from ilmek.carpet.palette import distinct_colours, paint
-from ilmek.carpet.palette_rules import Palette, PaletteParams
-from ilmek.carpet.paper.sheet import PaperReading
-from ilmek.carpet.proposal import ProposedShade, propose_shades
+from ilmek.carpet.palette_rules import PaletteParams
+from ilmek.carpet.proposal import propose_shades
 from ilmek.carpet.quality import Quality, carpet_quality
 from ilmek.carpet.reading import Design, ReadParams
-from ilmek.carpet.recipe.outcome import EditOutcome
 from ilmek.carpet.sizes import CarpetSize, carpet_size
 from ilmek.carpet.tally import Tally, tally_of
 from ilmek.carpet.usual_pile import with_counts
@@ -44,47 +44,9 @@ from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
 from ilmek.units import counted
 
-
-@record
-class ChartReading:
-    """How a picture became a chart.
-
-    kind           exact, flat or photo          reason   of that decision, one sentence
-    mean_delta_e   mean CIEDE2000 of the knots' yarns to the design, and to the picture where the reading is off
-    least_delta_e  the same if each knot had its nearest yarn of the list: the optimum
-    changed        number of knots that were changed because their patch was too small
-    foreign        number of knots whose yarn is that of no true colour of their cell; None: no true colours
-    fit            how the picture was fitted to the carpet
-    differences    of each yarn of the chart to the colours that it is the nearest of; 0 of one that is of none
-    edited         number of knots that the edits of a recipe changed
-    edits          what became of those that were written on another grid, or have no place on this one
-    matches        of each colour of an exact or flat design, most knots first, at most MOST_MATCHES
-    palette        how its yarns were chosen from the list; default: they were not
-    proposed       shades of the design itself: those that are dyed for it, or as many as were required
-    dyed           names of the yarns that are dyed for it
-    lost           colours of a drawing that vanish, because another has the same yarn
-    paper          the sheet of squared paper that the design was read from
-    edges_kept, detail_kept  what the chart keeps of the picture's edges [-] and detail; None: not measured
-    """
-
-    kind: str
-    reason: str
-    mean_delta_e: float
-    least_delta_e: float
-    changed: int = 0
-    foreign: int | None = None
-    fit: Fit = field(default_factory=Fit)
-    differences: tuple[YarnDifference, ...] = ()
-    edited: int = 0
-    edits: tuple[EditOutcome, ...] = ()
-    matches: tuple[ColourMatch, ...] = ()
-    palette: Palette = Palette(())
-    proposed: tuple[ProposedShade, ...] = ()
-    dyed: tuple[str, ...] = ()
-    lost: tuple[LostColour, ...] = ()
-    edges_kept: float | None = None
-    detail_kept: KeptDetail | None = None
-    paper: PaperReading | None = None
+if TYPE_CHECKING:
+    from ilmek.carpet.bill import YarnBill
+    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
@@ -139,6 +101,32 @@ class Chart(Shown):
 
     def __repr__(self) -> str:
         return brief(self, (part.name for part in fields(self) if part.init))
+
+    @classmethod
+    def of(
+        cls,
+        knots: Any,
+        yarns: Sequence[Yarn],
+        size: str | CarpetSize,
+        quality: str | Quality,
+        knot: str = "symmetric",
+    ) -> "Chart":
+        """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
+
+        Raises as the class.
+        """
+        return cls(knots, yarn_list(yarns), carpet_size(size), carpet_quality(quality), knot)
+
+    @property
+    def statistics(self) -> "ChartStatistics":
+        """Changes of yarn by row, the hardest rows, small patches."""
+        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
+        return made
+
+    def bill(self) -> "YarnBill":
+        """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
+        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
+        return made
 
     @property
     def rows(self) -> int:

@@ -8,7 +8,8 @@ import json
 from dataclasses import asdict, fields, replace
 
 from ilmek.arrays import Indices
-from ilmek.carpet.chart import Chart, ChartReading
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import LARGEST, CarpetSize
