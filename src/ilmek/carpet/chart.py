@@ -7,7 +7,8 @@ distinct colour of the design gets its yarn (`yarns_of_design`). What the chart 
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -42,6 +43,10 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
 from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
+
+if TYPE_CHECKING:
+    from ilmek.carpet.bill import YarnBill
+    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
@@ -97,6 +102,32 @@ class Chart(Shown):
 
     def __repr__(self) -> str:
         return brief(self, (part.name for part in fields(self) if part.init))
+
+    @classmethod
+    def of(
+        cls,
+        knots: Any,
+        yarns: Sequence[Yarn],
+        size: str | CarpetSize,
+        quality: str | Quality,
+        knot: str = "symmetric",
+    ) -> "Chart":
+        """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
+
+        Raises as the class.
+        """
+        return cls(knots, yarn_list(yarns), carpet_size(size), carpet_quality(quality), knot)
+
+    @property
+    def statistics(self) -> "ChartStatistics":
+        """Changes of yarn by row, the hardest rows, small patches."""
+        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
+        return made
+
+    def bill(self) -> "YarnBill":
+        """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
+        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
+        return made
 
     @property
     def rows(self) -> int:
