@@ -34,7 +34,7 @@ FAMILIES += (
     "chart.right",
     "chart.below",
 )
-FAMILIES += ("chart.above",)
+FAMILIES += ("chart.above", "chart.of-")
 """Begins of keys that are put together."""
 
 

@@ -55,6 +55,8 @@ ARABIC = {
     "ground.straight-weft": "اللحمة المشدودة",
     "ground.sinuous-weft": "اللحمة المتموجة",
     "ground.ends": "كليم الطرفين",
+    "cell.no-knot": "بلا عقد",
+    "ground.binding": "حافة مخيطة",
     "ground.selvedges": "الحاشيتان",
     # Chart
     "chart.title": "مخطط العقد: {name}",
@@ -63,9 +65,10 @@ ARABIC = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "السجادة كاملة",
     "chart.facts": "{size} (العرض × الطول)، {across} × {along} عقدة في الديسيمتر، عقدة {knot}",
-    "chart.one-sheet": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ على ورقة واحدة",
-    "chart.sheets": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} "
-    "عقدة × {up} صف",
+    "chart.of-knots": "{columns} عقدة × {rows} صف",
+    "chart.of-cells": "{columns} خانة × {rows} صف",
+    "chart.one-sheet": "{grid} = {knots} عقدة، {colours}؛ على ورقة واحدة",
+    "chart.sheets": "{grid} = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} عقدة × {up} صف",
     "chart.order": "تعد الصفوف من الأسفل والعقد من اليسار.",
     "chart.shaded": "العقد الباهتة من الورقة التالية.",
     "chart.two": "{first} {second}",
@@ -132,11 +135,14 @@ ARABIC = {
     "rows.jufti-cells": "؛ j: عقد جفتي",
     "rows.text": "{size}، {quality}، عقدة {knot}؛ الصف 1 هو أول ما ينسج، عند الحافة السفلى.",
     "rows.text-signs": "رأس العلامة بعد رقم الصف يدل على اتجاه القراءة. السطر الذي يبدأ بفراغ تتمة للسطر الذي فوقه.",
-    "rows.text-runs": "12A: اثنتا عشرة عقدة من الخيط A. عدد معه ½ وAC: خانات في كل منها نصفا عقدة، A على خيط السداة الذي "
-    "يأتي أولا",
-    "rows.text-more-runs": "وC على الآخر. 1jB: عقدة جفتي واحدة من B على أربعة خيوط سداة وخانتين. النقطتان: قبل رمز هو رقم.",
+    "rows.text-runs": "12A: اثنتا عشرة عقدة من الخيط A. عدد معه ½ وAC: خانات في كل منها نصفا عقدة، A على خيط "
+    "السداة الذي يأتي أولا",
+    "rows.text-more-runs": "وC على الآخر. 1jB: عقدة جفتي واحدة من B على أربعة خيوط سداة وخانتين. النقطتان: قبل "
+    "رمز هو رقم.",
     "rows.text-colours": "A 54: عقد الخيط A في هذا الصف، بأرقام خاناتها من الحافة التي يبدأ منها الصف.",
-    "rows.text-more-colours": "L بعد الرقم: أنصاف عقد على خيوط السداة اليسرى لتلك الخانات؛ R: على اليمنى. j: عقدة جفتي.",
+    "rows.text-more-colours": "L بعد الرقم: أنصاف عقد على خيوط السداة اليسرى لتلك الخانات؛ R: على اليمنى. j: "
+    "عقدة جفتي.",
+    "rows.text-no-knot": "12{sign}: اثنتا عشرة خانة بلا عقد؛ نسيج سادة.",
     # Call
     "call.done": "تمت الصفوف كلها، وعددها {rows}.",
     "call.row": "الصف {row} من {rows} {arrow}   الخطوة {step} من {steps}",

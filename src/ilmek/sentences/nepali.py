@@ -55,6 +55,8 @@ NEPALI = {
     "ground.straight-weft": "सिधा बाना",
     "ground.sinuous-weft": "बाङ्गो बाना",
     "ground.ends": "छेउको सादा बुनाइ",
+    "cell.no-knot": "गाँठोबिना",
+    "ground.binding": "किनारको सिलाइ",
     "ground.selvedges": "किनार",
     # Chart
     "chart.title": "गाँठाको नक्सा: {name}",
@@ -63,9 +65,10 @@ NEPALI = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "पूरै गलैँचा",
     "chart.facts": "{size} (चौडाइ × लम्बाइ), प्रति डेसिमिटर {across} × {along} गाँठा, {knot} गाँठो",
-    "chart.one-sheet": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, एउटै पानामा",
-    "chart.sheets": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × "
-    "{up} लहर",
+    "chart.of-knots": "{columns} गाँठा × {rows} लहर",
+    "chart.of-cells": "{columns} कोठा × {rows} लहर",
+    "chart.one-sheet": "{grid} = {knots} गाँठा, {colours}, एउटै पानामा",
+    "chart.sheets": "{grid} = {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × {up} लहर",
     "chart.order": "लहर तलबाट र गाँठा बायाँबाट गनिन्छ।",
     "chart.shaded": "फिका गाँठा अर्को पानाका हुन्।",
     "chart.two": "{first} {second}",
@@ -116,8 +119,8 @@ NEPALI = {
     "rows.some": "लहर {first}–{last}",
     "rows.some-of": "लहर {first}–{last}, जम्मा {rows}",
     "rows.page": "{name}, पृष्ठ {page} / {pages}",
-    "rows.how": "लहर 1 सबैभन्दा पहिले बुनिन्छ, तल्लो किनारमा। चिह्नमाथि सङ्ख्या: लगातार त्यति गाँठा; एक्लो चिह्न: एउटा गाँठो। "
-    "{reading}",
+    "rows.how": "लहर 1 सबैभन्दा पहिले बुनिन्छ, तल्लो किनारमा। चिह्नमाथि सङ्ख्या: लगातार त्यति गाँठा; एक्लो "
+    "चिह्न: एउटा गाँठो। {reading}",
     "rows.right": "बायाँबाट दायाँ पढ्नुहोस्।",
     "rows.left": "दायाँबाट बायाँ पढ्नुहोस्।",
     "rows.alternate": "बिजोर लहर बायाँबाट दायाँ र जोर लहर दायाँबाट बायाँ पढ्नुहोस्।",
@@ -137,6 +140,7 @@ NEPALI = {
     "rows.text-more-runs": "अर्कोमा। 1jB: धागो B को 1 जुफ्ती गाँठो, चार ताना र दुई कोठामा। (:) चिह्न: अङ्क भएको चिह्नअघि।",
     "rows.text-colours": "A 54: लहरमा धागो A का 54 गाँठा, लहर सुरु हुने किनारबाट कोठाका सङ्ख्याले।",
     "rows.text-more-colours": "16-17L: कोठा 16 र 17 का बायाँ तानामा आधा गाँठा; R: दायाँ तानामा। 18-19j: एउटा जुफ्ती गाँठो।",
+    "rows.text-no-knot": "12{sign}: गाँठोबिनाका 12 कोठा; सादा बुनाइ।",
     # Call
     "call.done": "सबै {rows} लहर सकियो।",
     "call.row": "लहर {row} / {rows} {arrow}   पाइला {step} / {steps}",

@@ -55,6 +55,8 @@ PERSIAN = {
     "ground.straight-weft": "پود ضخیم",
     "ground.sinuous-weft": "پود نازک",
     "ground.ends": "گلیم‌باف دو سر",
+    "cell.no-knot": "بی‌گره",
+    "ground.binding": "لبه‌دوزی",
     "ground.selvedges": "شیرازه",
     # Chart
     "chart.title": "نقشه‌ی گره: {name}",
@@ -63,8 +65,10 @@ PERSIAN = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "همه‌ی قالی",
     "chart.facts": "{size} (عرض × طول)، {across} × {along} گره در دسی‌متر، گره {knot}",
-    "chart.one-sheet": "{columns} گره × {rows} رج = {knots} گره، {colours}، روی یک برگ",
-    "chart.sheets": "{columns} گره × {rows} رج = {knots} گره، {colours}، روی {sheets} برگ؛ هر برگ {across} گره × {up} رج",
+    "chart.of-knots": "{columns} گره × {rows} رج",
+    "chart.of-cells": "{columns} خانه × {rows} رج",
+    "chart.one-sheet": "{grid} = {knots} گره، {colours}، روی یک برگ",
+    "chart.sheets": "{grid} = {knots} گره، {colours}، روی {sheets} برگ؛ هر برگ {across} گره × {up} رج",
     "chart.order": "رج‌ها از پایین و گره‌ها از چپ شمرده می‌شوند.",
     "chart.shaded": "گره‌های کم‌رنگ از برگ بعدی‌اند.",
     "chart.two": "{first} {second}",
@@ -75,8 +79,8 @@ PERSIAN = {
     "chart.right": "→ راست: برگ {number}",
     "chart.below": "↓ پایین: برگ {number}",
     "chart.above": "↑ بالا: برگ {number}",
-    "chart.wall": "{size}، {quality}، گره {knot}؛ رج‌ها از پایین و گره‌ها از چپ شمرده می‌شوند؛ کاغذ {width} × {length} "
-    "سانتی‌متر",
+    "chart.wall": "{size}، {quality}، گره {knot}؛ رج‌ها از پایین و گره‌ها از چپ شمرده می‌شوند؛ کاغذ {width} × "
+    "{length} سانتی‌متر",
     "chart.quality": "{across} × {along} گره در دسی‌متر",
     # Legend
     "legend.outline": "راهنمای رنگ‌ها",
@@ -116,7 +120,8 @@ PERSIAN = {
     "rows.some": "رج {first} تا {last}",
     "rows.some-of": "رج {first} تا {last} از {rows}",
     "rows.page": "{name}، صفحه‌ی {page} از {pages}",
-    "rows.how": "رج 1 نخستین رج بافت است، در لبه‌ی پایین. عدد بالای نشانه: چند گره پشت هم؛ نشانه‌ی تنها: یک گره. {reading}",
+    "rows.how": "رج 1 نخستین رج بافت است، در لبه‌ی پایین. عدد بالای نشانه: چند گره پشت هم؛ نشانه‌ی تنها: یک "
+    "گره. {reading}",
     "rows.right": "از چپ به راست بخوانید.",
     "rows.left": "از راست به چپ بخوانید.",
     "rows.alternate": "رج‌های فرد را از چپ به راست و رج‌های زوج را از راست به چپ بخوانید.",
@@ -131,11 +136,14 @@ PERSIAN = {
     "rows.half-cells": "؛ L و R: نیم‌گره روی چله‌ی چپ و راست",
     "rows.jufti-cells": "؛ j: گره جفتی",
     "rows.text": "{size}، {quality}، گره {knot}؛ رج 1 نخستین رج بافت است، در لبه‌ی پایین.",
-    "rows.text-signs": "نوک نشانه‌ی پس از شماره‌ی رج جهت خواندن را نشان می‌دهد. سطری که با فاصله آغاز شود دنباله‌ی سطر بالاست.",
+    "rows.text-signs": "نوک نشانه‌ی پس از شماره‌ی رج جهت خواندن را نشان می‌دهد. سطری که با فاصله آغاز شود "
+    "دنباله‌ی سطر بالاست.",
     "rows.text-runs": "12A: دوازده گره از نخ A. عدد با ½ و AC: خانه‌هایی با دو نیم‌گره، A روی چله‌ای که نخست می‌آید،",
-    "rows.text-more-runs": "C روی دیگری. 1jB: یک گره جفتی از B، روی چهار چله و دو خانه. دونقطه: پیش از نشانه‌ای که رقم است.",
+    "rows.text-more-runs": "C روی دیگری. 1jB: یک گره جفتی از B، روی چهار چله و دو خانه. دونقطه: پیش از نشانه‌ای "
+    "که رقم است.",
     "rows.text-colours": "A 54: گره‌های نخ A در این رج، با شماره‌ی خانه‌ها از لبه‌ای که رج از آن آغاز می‌شود.",
     "rows.text-more-colours": "L پس از شماره: نیم‌گره روی چله‌ی چپ آن خانه‌ها؛ R: روی چله‌ی راست. j: گره جفتی.",
+    "rows.text-no-knot": "12{sign}: دوازده خانه بی‌گره؛ گلیم‌باف.",
     # Call
     "call.done": "همه‌ی {rows} رج بافته شد.",
     "call.row": "رج {row} از {rows} {arrow}   گام {step} از {steps}",

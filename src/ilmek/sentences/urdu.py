@@ -55,6 +55,8 @@ URDU = {
     "ground.straight-weft": "سیدھا بانا",
     "ground.sinuous-weft": "لہردار بانا",
     "ground.ends": "سروں کی گلیم بنائی",
+    "cell.no-knot": "بغیر گرہ",
+    "ground.binding": "کنارے کی سلائی",
     "ground.selvedges": "کنارے",
     # Chart
     "chart.title": "گرہوں کا نقشہ: {name}",
@@ -63,9 +65,10 @@ URDU = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "پورا قالین",
     "chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} گرہیں، {knot} گرہ",
-    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، ایک ورق پر",
-    "chart.sheets": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
-    "× {up} قطاریں",
+    "chart.of-knots": "{columns} گرہیں × {rows} قطاریں",
+    "chart.of-cells": "{columns} خانے × {rows} قطاریں",
+    "chart.one-sheet": "{grid} = {knots} گرہیں، {colours}، ایک ورق پر",
+    "chart.sheets": "{grid} = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں × {up} قطاریں",
     "chart.order": "قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں۔",
     "chart.shaded": "پھیکی گرہیں اگلے ورق کی ہیں۔",
     "chart.two": "{first} {second}",
@@ -76,8 +79,8 @@ URDU = {
     "chart.right": "→ دائیں: ورق {number}",
     "chart.below": "↓ نیچے: ورق {number}",
     "chart.above": "↑ اوپر: ورق {number}",
-    "chart.wall": "{size}، {quality}، {knot} گرہ؛ قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں؛ کاغذ {width} × {length} "
-    "سینٹی میٹر",
+    "chart.wall": "{size}، {quality}، {knot} گرہ؛ قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں؛ کاغذ {width} "
+    "× {length} سینٹی میٹر",
     "chart.quality": "فی ڈیسی میٹر {across} × {along} گرہیں",
     # Legend
     "legend.outline": "رنگوں کی فہرست",
@@ -117,8 +120,8 @@ URDU = {
     "rows.some": "قطار {first} تا {last}",
     "rows.some-of": "قطار {first} تا {last}؛ کل {rows}",
     "rows.page": "{name}، صفحہ {page} از {pages}",
-    "rows.how": "قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔ نشان کے اوپر عدد: اتنی گرہیں مسلسل؛ اکیلا نشان: ایک گرہ۔ "
-    "{reading}",
+    "rows.how": "قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔ نشان کے اوپر عدد: اتنی گرہیں مسلسل؛ اکیلا نشان: "
+    "ایک گرہ۔ {reading}",
     "rows.right": "بائیں سے دائیں پڑھیں۔",
     "rows.left": "دائیں سے بائیں پڑھیں۔",
     "rows.alternate": "طاق قطاریں بائیں سے دائیں اور جفت قطاریں دائیں سے بائیں پڑھیں۔",
@@ -133,12 +136,15 @@ URDU = {
     "rows.half-cells": "؛ L اور R: بائیں اور دائیں تار پر آدھی گرہیں",
     "rows.jufti-cells": "؛ j: جفتی گرہیں",
     "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔",
-    "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ اوپر والی سطر کا تسلسل ہے۔",
-    "rows.text-runs": "12A: دھاگے A کی بارہ گرہیں۔ ½ اور AC والا عدد: ہر خانے میں دو آدھی گرہیں، A اس تار پر جو پہلے آئے،",
-    "rows.text-more-runs": "C دوسرے پر۔ 1jB: دھاگے B کی ایک جفتی گرہ، چار تاروں اور دو خانوں پر۔ دو نقطے: اس نشان سے پہلے جو "
-    "ہندسہ ہو۔",
+    "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ "
+    "اوپر والی سطر کا تسلسل ہے۔",
+    "rows.text-runs": "12A: دھاگے A کی بارہ گرہیں۔ ½ اور AC والا عدد: ہر خانے میں دو آدھی گرہیں، A اس تار پر جو "
+    "پہلے آئے،",
+    "rows.text-more-runs": "C دوسرے پر۔ 1jB: دھاگے B کی ایک جفتی گرہ، چار تاروں اور دو خانوں پر۔ دو نقطے: اس "
+    "نشان سے پہلے جو ہندسہ ہو۔",
     "rows.text-colours": "A 54: اس قطار میں دھاگے A کی گرہیں، خانوں کے نمبر اس کنارے سے جہاں سے قطار شروع ہوتی ہے۔",
     "rows.text-more-colours": "نمبر کے بعد L: ان خانوں کے بائیں تار پر آدھی گرہیں؛ R: دائیں تار پر۔ j: جفتی گرہ۔",
+    "rows.text-no-knot": "12{sign}: بغیر گرہ کے بارہ خانے؛ سادہ بنائی۔",
     # Call
     "call.done": "تمام {rows} قطاریں مکمل ہوئیں۔",
     "call.row": "قطار {row} از {rows} {arrow}   قدم {step} از {steps}",

@@ -110,7 +110,9 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
         if is_plain(text, font):
             super().drawString(x - share * self.stringWidth(text, font, size) if share else x, y, text)
             return
-        draw_line(self, x - share * line_width(text, size, font, rightward), y, text, size, font, rightward)
+        draw_line(
+            self, x - share * line_width(text, size, font, rightward), y, text, size, base=font, rightward=rightward
+        )
         self.setFont(font, size)
 
     def draw_letters(self, x: float, y: float, text: str) -> None:
