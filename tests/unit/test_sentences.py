@@ -34,7 +34,7 @@ FAMILIES += (
     "chart.right",
     "chart.below",
 )
-FAMILIES += ("chart.above", "chart.of-")
+FAMILIES += ("chart.above",)
 """Begins of keys that are put together."""
 
 

@@ -201,7 +201,7 @@ def print_rows(calling: Calling) -> None:
     """Print the rows from the present one, one a line, with the yarns' names first."""
     chart, signs = calling.chart, signs_of_codes(calling.chart.yarns)
     for yarn in chart.used:
-        click.echo(f"{signs[yarn]} {_name(chart.yarns[yarn])}")
+        click.echo(f"{signs[yarn]} {_name(chart.yarn(yarn))}")
     while not calling.done:
         arrow = "→" if rightward_in(calling.row, calling.direction) else "←"
         called = [_counted(step, signs) for step in calling.steps]

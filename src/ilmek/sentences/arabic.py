@@ -54,9 +54,9 @@ ARABIC = {
     "ground.warp": "السداة",
     "ground.straight-weft": "اللحمة المشدودة",
     "ground.sinuous-weft": "اللحمة المتموجة",
+    "cell.no-knot": "بلا عقدة",
+    "ground.binding": "حبكة الحافة",
     "ground.ends": "كليم الطرفين",
-    "cell.no-knot": "بلا عقد",
-    "ground.binding": "حافة مخيطة",
     "ground.selvedges": "الحاشيتان",
     # Chart
     "chart.title": "مخطط العقد: {name}",
@@ -65,10 +65,10 @@ ARABIC = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "السجادة كاملة",
     "chart.facts": "{size} (العرض × الطول)، {across} × {along} عقدة في الديسيمتر، عقدة {knot}",
-    "chart.of-knots": "{columns} عقدة × {rows} صف",
-    "chart.of-cells": "{columns} خانة × {rows} صف",
-    "chart.one-sheet": "{grid} = {knots} عقدة، {colours}؛ على ورقة واحدة",
-    "chart.sheets": "{grid} = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} عقدة × {up} صف",
+    "chart.bare": "{bare} من هذه الخانات بلا عقدة (·): تعقد {knots} عقدة.",
+    "chart.one-sheet": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ على ورقة واحدة",
+    "chart.sheets": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة "
+    "{across} عقدة × {up} صف",
     "chart.order": "تعد الصفوف من الأسفل والعقد من اليسار.",
     "chart.shaded": "العقد الباهتة من الورقة التالية.",
     "chart.two": "{first} {second}",
@@ -139,10 +139,10 @@ ARABIC = {
     "السداة الذي يأتي أولا",
     "rows.text-more-runs": "وC على الآخر. 1jB: عقدة جفتي واحدة من B على أربعة خيوط سداة وخانتين. النقطتان: قبل "
     "رمز هو رقم.",
+    "rows.text-bare": "12·: خانات بلا عقد، نسيج سادة.",
     "rows.text-colours": "A 54: عقد الخيط A في هذا الصف، بأرقام خاناتها من الحافة التي يبدأ منها الصف.",
     "rows.text-more-colours": "L بعد الرقم: أنصاف عقد على خيوط السداة اليسرى لتلك الخانات؛ R: على اليمنى. j: "
     "عقدة جفتي.",
-    "rows.text-no-knot": "12{sign}: اثنتا عشرة خانة بلا عقد؛ نسيج سادة.",
     # Call
     "call.done": "تمت الصفوف كلها، وعددها {rows}.",
     "call.row": "الصف {row} من {rows} {arrow}   الخطوة {step} من {steps}",

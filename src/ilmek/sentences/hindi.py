@@ -54,9 +54,9 @@ HINDI = {
     "ground.warp": "ताना",
     "ground.straight-weft": "सीधा बाना",
     "ground.sinuous-weft": "लहरदार बाना",
-    "ground.ends": "सिरों की सपाट बुनाई",
     "cell.no-knot": "बिना गाँठ",
-    "ground.binding": "किनारे की सिलाई",
+    "ground.binding": "किनारे की बँधाई",
+    "ground.ends": "सिरों की सपाट बुनाई",
     "ground.selvedges": "किनारी",
     # Chart
     "chart.title": "गाँठों का नक्शा: {name}",
@@ -65,10 +65,10 @@ HINDI = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "पूरा कालीन",
     "chart.facts": "{size} (चौड़ाई × लंबाई), प्रति डेसीमीटर {across} × {along} गाँठें, {knot} गाँठ",
-    "chart.of-knots": "{columns} गाँठें × {rows} पंक्तियाँ",
-    "chart.of-cells": "{columns} ख़ाने × {rows} पंक्तियाँ",
-    "chart.one-sheet": "{grid} = {knots} गाँठें, {colours}, एक पन्ने पर",
-    "chart.sheets": "{grid} = {knots} गाँठें, {colours}, {sheets} पन्नों पर; हर पन्ना {across} गाँठें × {up} पंक्तियाँ",
+    "chart.bare": "इनमें से {bare} ख़ानों में गाँठ नहीं (·): {knots} गाँठें लगती हैं।",
+    "chart.one-sheet": "{columns} गाँठें × {rows} पंक्तियाँ = {knots} गाँठें, {colours}, एक पन्ने पर",
+    "chart.sheets": "{columns} गाँठें × {rows} पंक्तियाँ = {knots} गाँठें, {colours}, {sheets} पन्नों पर; हर "
+    "पन्ना {across} गाँठें × {up} पंक्तियाँ",
     "chart.order": "पंक्तियाँ नीचे से और गाँठें बाएँ से गिनी जाती हैं।",
     "chart.shaded": "फीकी गाँठें अगले पन्ने की हैं।",
     "chart.two": "{first} {second}",
@@ -139,9 +139,9 @@ HINDI = {
     "rows.text-runs": "12A: धागे A की 12 गाँठें। 2½AC: 2 ख़ाने, हर एक में दो आधी गाँठें, A उस तार पर जो पहले आए, C",
     "rows.text-more-runs": "दूसरे पर। 1jB: धागे B की 1 जुफ़्ती गाँठ, चार तारों और दो ख़ानों पर। कोलन (:): उस "
     "चिह्न से पहले जो अंक हो।",
+    "rows.text-bare": "12·: बिना गाँठ के ख़ाने, सादी बुनाई।",
     "rows.text-colours": "A 54: पंक्ति में धागे A की 54 गाँठें, ख़ानों की संख्याओं से, उस किनारे से जहाँ पंक्ति शुरू होती है।",
     "rows.text-more-colours": "16-17L: ख़ाने 16 और 17 के बाएँ तारों पर आधी गाँठें; R: दाएँ तारों पर। 18-19j: एक जुफ़्ती गाँठ।",
-    "rows.text-no-knot": "12{sign}: बिना गाँठ के 12 ख़ाने; सपाट बुनाई।",
     # Call
     "call.done": "सभी {rows} पंक्तियाँ पूरी हुईं।",
     "call.row": "पंक्ति {row} / {rows} {arrow}   क़दम {step} / {steps}",

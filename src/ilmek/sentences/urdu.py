@@ -54,9 +54,9 @@ URDU = {
     "ground.warp": "تانا",
     "ground.straight-weft": "سیدھا بانا",
     "ground.sinuous-weft": "لہردار بانا",
-    "ground.ends": "سروں کی گلیم بنائی",
     "cell.no-knot": "بغیر گرہ",
-    "ground.binding": "کنارے کی سلائی",
+    "ground.binding": "کنارے کی بندش",
+    "ground.ends": "سروں کی گلیم بنائی",
     "ground.selvedges": "کنارے",
     # Chart
     "chart.title": "گرہوں کا نقشہ: {name}",
@@ -65,10 +65,10 @@ URDU = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "پورا قالین",
     "chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} گرہیں، {knot} گرہ",
-    "chart.of-knots": "{columns} گرہیں × {rows} قطاریں",
-    "chart.of-cells": "{columns} خانے × {rows} قطاریں",
-    "chart.one-sheet": "{grid} = {knots} گرہیں، {colours}، ایک ورق پر",
-    "chart.sheets": "{grid} = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں × {up} قطاریں",
+    "chart.bare": "ان میں سے {bare} خانوں میں گرہ نہیں (·): {knots} گرہیں لگتی ہیں۔",
+    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، ایک ورق پر",
+    "chart.sheets": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق "
+    "{across} گرہیں × {up} قطاریں",
     "chart.order": "قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں۔",
     "chart.shaded": "پھیکی گرہیں اگلے ورق کی ہیں۔",
     "chart.two": "{first} {second}",
@@ -142,9 +142,9 @@ URDU = {
     "پہلے آئے،",
     "rows.text-more-runs": "C دوسرے پر۔ 1jB: دھاگے B کی ایک جفتی گرہ، چار تاروں اور دو خانوں پر۔ دو نقطے: اس "
     "نشان سے پہلے جو ہندسہ ہو۔",
+    "rows.text-bare": "12·: بغیر گرہ کے خانے، سادہ بنائی۔",
     "rows.text-colours": "A 54: اس قطار میں دھاگے A کی گرہیں، خانوں کے نمبر اس کنارے سے جہاں سے قطار شروع ہوتی ہے۔",
     "rows.text-more-colours": "نمبر کے بعد L: ان خانوں کے بائیں تار پر آدھی گرہیں؛ R: دائیں تار پر۔ j: جفتی گرہ۔",
-    "rows.text-no-knot": "12{sign}: بغیر گرہ کے بارہ خانے؛ سادہ بنائی۔",
     # Call
     "call.done": "تمام {rows} قطاریں مکمل ہوئیں۔",
     "call.row": "قطار {row} از {rows} {arrow}   قدم {step} از {steps}",

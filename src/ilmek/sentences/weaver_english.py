@@ -69,10 +69,10 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "The whole carpet",
     "chart.facts": "{size} (width × length), {across} × {along} knots per dm, {knot} knots",
-    "chart.of-knots": "{columns} knots × {rows} rows",
-    "chart.of-cells": "{columns} cells × {rows} rows",
-    "chart.one-sheet": "{grid} = {knots} knots in {colours} on one sheet",
-    "chart.sheets": "{grid} = {knots} knots in {colours} on {sheets} sheets of {across} knots × {up} rows",
+    "chart.bare": "{bare} of these cells have no knot (·): {knots} knots are tied.",
+    "chart.one-sheet": "{columns} knots × {rows} rows = {knots} knots in {colours} on one sheet",
+    "chart.sheets": "{columns} knots × {rows} rows = {knots} knots in {colours} on {sheets} sheets of {across} "
+    "knots × {up} rows",
     "chart.order": "Rows are counted from the bottom, knots from the left.",
     "chart.shaded": "Shaded knots belong to the next sheet.",
     "chart.two": "{first} {second}",
@@ -146,11 +146,11 @@ WEAVER = {
     "met first, C on the",
     "rows.text-more-runs": "other. 1jB: 1 jufti knot of B, on four warps, in two cells. A colon: before a "
     "symbol that is a digit.",
+    "rows.text-bare": "12·: 12 cells without a knot, flat weave.",
     "rows.text-colours": "A 54: the 54 knots of yarn A of the row, by the numbers of their cells from the edge "
     "where the row begins.",
     "rows.text-more-colours": "16-17L: half knots on the left warps of cells 16 and 17; R: on the right ones. "
     "18-19j: a jufti knot.",
-    "rows.text-no-knot": "12{sign}: 12 cells without a knot; plain weave.",
     # Call
     "call.done": "All {rows} rows are done.",
     "call.row": "Row {row} of {rows} {arrow}   step {step} of {steps}",

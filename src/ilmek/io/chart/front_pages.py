@@ -40,18 +40,21 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
     across, along = (format_number(count / 10) for count in (chart.quality.across, chart.quality.along))
     sheets = Sentence(
         "chart.sheets" if plan.count > 1 else "chart.one-sheet",
-        grid=Sentence("chart.of-cells" if chart.cells else "chart.of-knots", columns=chart.columns, rows=chart.rows),
-        knots=thousands(chart.tally().knots),
+        columns=chart.columns,
+        rows=chart.rows,
+        knots=thousands(chart.knots.size),
         colours=colours_in_words(chart.colours),
         sheets=thousands(plan.count),
         across=plan.sheet_columns,
         up=plan.sheet_rows,
     )
-    order = Sentence("chart.order")
+    order, tied = Sentence("chart.order"), chart.tally().knots
+    bare = Sentence("chart.bare", bare=thousands(chart.knots.size - tied), knots=thousands(tied))
     return (
         Sentence("chart.facts", size=size_of(chart.size), across=across, along=along, knot=noun(chart.knot)),
         sheets,
         Sentence("chart.two", first=order, second=Sentence("chart.shaded")) if plan.count > 1 else order,
+        *([bare] if tied < chart.knots.size else []),
     )
 
 
