@@ -37,12 +37,13 @@ from ilmek.io.yarn_file import default_yarns
 from ilmek.jobs.call import Calling
 from ilmek.sentences import LANGUAGES, WEAVERS, Sentence, catalogue_of, in_language, translated
 from ilmek.sentences.english import ENGLISH
+from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.weaver_english import NOUNS, WEAVER
 
 FOREIGN = [language for language in WEAVERS if language not in LANGUAGES]
 MARKS = [KnotMark(0, 0, HALF, 1), KnotMark(2, 4, JUFTI)]
-CODES = re.compile(r"(?<![A-Za-z])(AC?|B|C|L|R|jB?)(?![A-Za-z])")
-"""Symbols of yarns and of parts of cells, which are Latin in every language."""
+CODES = re.compile(r"(?<![A-Za-z])(AC?|B|C|L|R|jB?|strike-off\.pdf)(?![A-Za-z])")
+"""Symbols of yarns and of parts of cells, and the name of a file, which are Latin in every language."""
 
 
 def chart_of(
@@ -128,7 +129,7 @@ def test_the_papers_say_what_the_catalogues_have(
     capsys.readouterr()
     # Notes on a call are said on a terminal only.
     notes = {"call.again", "call.goes-on", "call.not-spoken"}
-    needed = recorded.said | notes | NOUNS.keys()
+    needed = recorded.said | notes | NOUNS.keys() | ORDER.keys()
     for language in FOREIGN:
         catalogue = catalogue_of(language)
         assert needed == catalogue.keys(), language

@@ -58,7 +58,10 @@ def worm_reducer(  # noqa: PLR0917
 ) -> Part:
     """A worm reducer of a size behind a motor, priced by its power; end  of the shaft in it: the room of both is open."""
     corner = complex(end.diameter / 2 + end.keyway.in_hub, end.keyway.width / 2)  # the key's
-    bore, about = circle(0j, abs(corner) + catalogue.HOLLOW), row.circle / 2 + _EDGE * SOCKET_SCREWS[row.thread].diameter
+    bore, about = (
+        circle(0j, abs(corner) + catalogue.HOLLOW),
+        row.circle / 2 + _EDGE * SOCKET_SCREWS[row.thread].diameter,
+    )
     face, flange = motor.face if motor else catalogue.SPECIAL_FACE, row.to_motor(by.ratio)
     inside, across = row.cover - _COVER, placement(0.0, -row.centre, flange, about=(0.0, 1.0, 0.0), angle=turn / 4)
 
@@ -92,7 +95,9 @@ def worm_reducer(  # noqa: PLR0917
         HolePattern(0.0, 0.0, row.screw, faces=(0,)),
         replace(*catalogue.flange_holes(motor), tapped=True, faces=(-1,)),
     )
-    bought = Bought(f"worm reducer {by.ratio:g}:1", row.mass, power=motor.power if motor else 0.0, data=", ".join(data), holes=holes)
+    bought = Bought(
+        f"worm reducer {by.ratio:g}:1", row.mass, power=motor.power if motor else 0.0, data=", ".join(data), holes=holes
+    )
     return bought_part(name, title, "reducer", room, bought)
 
 
