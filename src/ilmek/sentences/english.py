@@ -1,5 +1,6 @@
 """The sentences in English."""
 
+from ilmek.sentences.order_english import ORDER
 from ilmek.sentences.papers_english import PAPERS
 from ilmek.sentences.sheets_english import SHEETS
 from ilmek.sentences.weaver_english import WEAVER
@@ -205,4 +206,5 @@ ENGLISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **ORDER,
 }  # fmt: skip

@@ -1,5 +1,6 @@
 """The sentences in Turkish, as the pages of the studio say them: options have the names that the pages give them."""
 
+from ilmek.sentences.order_turkish import ORDER
 from ilmek.sentences.papers_turkish import PAPERS
 from ilmek.sentences.sheets_turkish import SHEETS
 from ilmek.sentences.weaver_turkish import WEAVER
@@ -205,4 +206,5 @@ TURKISH = {
     **PAPERS,
     **SHEETS,
     **WEAVER,
+    **ORDER,
 }  # fmt: skip

@@ -122,7 +122,7 @@ def draw_carpet(
     Raises CarpetError as `check_carpet_width`.
     """
     check_carpet_width(chart.size, width)
-    across, along = _framed_size(chart.size)
+    across, along = shown_size(chart.size)
     layout = _layout(chart.size, longest / max(across, along) if width is None else width / across)
     if width is not None:
         layout = replace(layout, width=width - 2 * layout.selvedge)
@@ -131,7 +131,7 @@ def draw_carpet(
 
 def check_carpet_width(size: CarpetSize, width: int | None) -> None:
     """Raise CarpetError for a width [pixels] out of bounds, and for a picture of more than MOST_PIXELS."""
-    across, along = _framed_size(size)
+    across, along = shown_size(size)
     most = min(WIDEST, int((MOST_PIXELS * across / along) ** 0.5))
     if width is not None and not NARROWEST <= width <= most:
         raise CarpetError(
@@ -154,8 +154,8 @@ def close_up(chart: Chart, seed: int = 1) -> bytes:
     return _jpeg(Image.fromarray(with_flat_weave(drawn, chart, rng, part)), 86)
 
 
-def _framed_size(size: CarpetSize) -> tuple[float, float]:
-    """Width and length of the carpet with selvedges, flat ends and fringes [m]."""
+def shown_size(size: CarpetSize) -> tuple[float, float]:
+    """What the picture shows: width and length of the carpet with selvedges, flat ends and fringes [m]."""
     return size.width + 2 * _SELVEDGE, size.length + 2 * (_FRINGE + _BAND)
 
 
