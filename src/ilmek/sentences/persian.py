@@ -65,9 +65,8 @@ PERSIAN = {
     "chart.whole": "همه‌ی قالی",
     "chart.facts": "{size} (عرض × طول)، {across} × {along} گره در دسی‌متر، گره {knot}",
     "cell.no-knot": "بی‌گره",
-    "chart.bare": "از این خانه\u200cها {bare} خانه گره ندارد (·): {knots} گره زده می\u200cشود.",
-    "chart.one-sheet": "{columns} گره × {rows} رج = {knots} گره، {colours}، روی یک برگ",
-    "chart.sheets": "{columns} گره × {rows} رج = {knots} گره، {colours}، روی {sheets} برگ؛ هر برگ {across} گره × "
+    "chart.one-sheet": "{columns} گره × {rows} رج: {knots} گره، {colours}، روی یک برگ",
+    "chart.sheets": "{columns} گره × {rows} رج: {knots} گره، {colours}، روی {sheets} برگ؛ هر برگ {across} گره × "
     "{up} رج",
     "chart.order": "رج‌ها از پایین و گره‌ها از چپ شمرده می‌شوند.",
     "chart.shaded": "گره‌های کم‌رنگ از برگ بعدی‌اند.",
@@ -135,13 +134,13 @@ PERSIAN = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L و R: نیم‌گره روی چله‌ی چپ و راست",
     "rows.jufti-cells": "؛ j: گره جفتی",
+    "rows.text-plain": "12{sign}: دوازده خانه‌ی بی‌گره، با بافت ساده.",
     "rows.text": "{size}، {quality}، گره {knot}؛ رج 1 نخستین رج بافت است، در لبه‌ی پایین.",
     "rows.text-signs": "نوک نشانه‌ی پس از شماره‌ی رج جهت خواندن را نشان می‌دهد. سطری که با فاصله آغاز شود "
     "دنباله‌ی سطر بالاست.",
     "rows.text-runs": "12A: دوازده گره از نخ A. عدد با ½ و AC: خانه‌هایی با دو نیم‌گره، A روی چله‌ای که نخست می‌آید،",
     "rows.text-more-runs": "C روی دیگری. 1jB: یک گره جفتی از B، روی چهار چله و دو خانه. دونقطه: پیش از نشانه‌ای "
     "که رقم است.",
-    "rows.text-bare": "12·: خانه\u200cهای بی\u200cگره، بافت ساده.",
     "rows.text-colours": "A 54: گره‌های نخ A در این رج، با شماره‌ی خانه‌ها از لبه‌ای که رج از آن آغاز می‌شود.",
     "rows.text-more-colours": "L پس از شماره: نیم‌گره روی چله‌ی چپ آن خانه‌ها؛ R: روی چله‌ی راست. j: گره جفتی.",
     # Call
