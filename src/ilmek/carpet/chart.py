@@ -7,13 +7,14 @@ distinct colour of the design gets its yarn (`yarns_of_design`). What the chart 
 
 from collections.abc import Sequence
 from dataclasses import field, fields, replace
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ilmek.arrays import BoolArray, FloatArray, Indices, Rgb
 from ilmek.carpet.averages import reading_loss
-from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, Cells, require_knots
+from ilmek.carpet.cells import GROUND_COLOUR, GROUND_YARN, PILE, CellKind, CellMap, require_knots
 from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.codes import CODES, NO_KNOT, recoded
 from ilmek.carpet.confetti import merge_patches
@@ -42,6 +43,10 @@ from ilmek.progress import SILENT, Progress
 from ilmek.records import brief, record, shown_value
 from ilmek.report.shown import Shown
 from ilmek.sentences import Sentence
+
+if TYPE_CHECKING:
+    from ilmek.carpet.bill import YarnBill
+    from ilmek.carpet.statistics import ChartStatistics
 
 
 @record
@@ -74,7 +79,7 @@ class Chart(Shown):
     reading: ChartReading = field(default_factory=lambda: ChartReading("exact", "drawn knot by knot", 0.0, 0.0))
     overlay: Overlay = field(default_factory=no_overlay)
     creel: tuple[int, ...] | None = None
-    cells: Cells | None = None
+    cells: CellMap | None = None
     _tallies: list[Tally] = field(default_factory=list, init=False)
     """The tally, once it is made: many results need it."""
 
@@ -97,6 +102,32 @@ class Chart(Shown):
 
     def __repr__(self) -> str:
         return brief(self, (part.name for part in fields(self) if part.init))
+
+    @classmethod
+    def of(
+        cls,
+        knots: Any,
+        yarns: Sequence[Yarn],
+        size: str | CarpetSize,
+        quality: str | Quality,
+        knot: str = "symmetric",
+    ) -> "Chart":
+        """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
+
+        Raises as the class.
+        """
+        return cls(knots, yarn_list(yarns), carpet_size(size), carpet_quality(quality), knot)
+
+    @property
+    def statistics(self) -> "ChartStatistics":
+        """Changes of yarn by row, the hardest rows, small patches."""
+        made: ChartStatistics = import_module("ilmek.carpet.statistics").chart_statistics(self)
+        return made
+
+    def bill(self) -> "YarnBill":
+        """The yarns to buy, by the usual allowances; `yarn_bill` takes others."""
+        made: YarnBill = import_module("ilmek.carpet.bill").yarn_bill(self)
+        return made
 
     @property
     def rows(self) -> int:

@@ -54,6 +54,8 @@ ARABIC = {
     "ground.warp": "السداة",
     "ground.straight-weft": "اللحمة المشدودة",
     "ground.sinuous-weft": "اللحمة المتموجة",
+    "cell.no-knot": "بلا عقدة",
+    "ground.binding": "حبكة الحافة",
     "ground.ends": "كليم الطرفين",
     "ground.selvedges": "الحاشيتان",
     # Chart
@@ -63,9 +65,9 @@ ARABIC = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "السجادة كاملة",
     "chart.facts": "{size} (العرض × الطول)، {across} × {along} عقدة في الديسيمتر، عقدة {knot}",
-    "cell.no-knot": "بلا عقدة",
-    "chart.one-sheet": "{columns} عقدة × {rows} صف: {knots} عقدة، {colours}؛ على ورقة واحدة",
-    "chart.sheets": "{columns} عقدة × {rows} صف: {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} "
+    "chart.bare": "{bare} من هذه الخانات بلا عقدة (·): تُعقد {knots} عقدة.",
+    "chart.one-sheet": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ على ورقة واحدة",
+    "chart.sheets": "{columns} عقدة × {rows} صف = {knots} عقدة، {colours}؛ عدد الأوراق {sheets}؛ في كل ورقة {across} "
     "عقدة × {up} صف",
     "chart.order": "تعد الصفوف من الأسفل والعقد من اليسار.",
     "chart.shaded": "العقد الباهتة من الورقة التالية.",
@@ -131,12 +133,12 @@ ARABIC = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L وR: أنصاف عقد على خيط السداة الأيسر والأيمن",
     "rows.jufti-cells": "؛ j: عقد جفتي",
-    "rows.text-plain": "12{sign}: اثنتا عشرة خانة بلا عقد، بنسيج سادة.",
     "rows.text": "{size}، {quality}، عقدة {knot}؛ الصف 1 هو أول ما ينسج، عند الحافة السفلى.",
     "rows.text-signs": "رأس العلامة بعد رقم الصف يدل على اتجاه القراءة. السطر الذي يبدأ بفراغ تتمة للسطر الذي فوقه.",
     "rows.text-runs": "12A: اثنتا عشرة عقدة من الخيط A. عدد معه ½ وAC: خانات في كل منها نصفا عقدة، A على خيط السداة الذي "
     "يأتي أولا",
     "rows.text-more-runs": "وC على الآخر. 1jB: عقدة جفتي واحدة من B على أربعة خيوط سداة وخانتين. النقطتان: قبل رمز هو رقم.",
+    "rows.text-bare": "12·: خانات بلا عقد، نسيج سادة.",
     "rows.text-colours": "A 54: عقد الخيط A في هذا الصف، بأرقام خاناتها من الحافة التي يبدأ منها الصف.",
     "rows.text-more-colours": "L بعد الرقم: أنصاف عقد على خيوط السداة اليسرى لتلك الخانات؛ R: على اليمنى. j: عقدة جفتي.",
     # Call

@@ -54,6 +54,8 @@ NEPALI = {
     "ground.warp": "ताना",
     "ground.straight-weft": "सिधा बाना",
     "ground.sinuous-weft": "बाङ्गो बाना",
+    "cell.no-knot": "गाँठो छैन",
+    "ground.binding": "किनाराको बँधाइ",
     "ground.ends": "छेउको सादा बुनाइ",
     "ground.selvedges": "किनार",
     # Chart
@@ -63,9 +65,9 @@ NEPALI = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "पूरै गलैँचा",
     "chart.facts": "{size} (चौडाइ × लम्बाइ), प्रति डेसिमिटर {across} × {along} गाँठा, {knot} गाँठो",
-    "cell.no-knot": "गाँठो नभएको",
-    "chart.one-sheet": "{columns} गाँठा × {rows} लहर: {knots} गाँठा, {colours}, एउटै पानामा",
-    "chart.sheets": "{columns} गाँठा × {rows} लहर: {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × "
+    "chart.bare": "यीमध्ये {bare} कोठामा गाँठो छैन (·): {knots} गाँठा लगाइन्छ।",
+    "chart.one-sheet": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, एउटै पानामा",
+    "chart.sheets": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × "
     "{up} लहर",
     "chart.order": "लहर तलबाट र गाँठा बायाँबाट गनिन्छ।",
     "chart.shaded": "फिका गाँठा अर्को पानाका हुन्।",
@@ -132,11 +134,11 @@ NEPALI = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: बायाँ, दायाँ तानामा आधा गाँठा",
     "rows.jufti-cells": "; j: जुफ्ती गाँठा",
-    "rows.text-plain": "12{sign}: गाँठो नभएका 12 कोठा, सादा बुनाइमा।",
     "rows.text": "{size}, {quality}, {knot} गाँठो; लहर 1 सबैभन्दा पहिले बुनिन्छ, तल्लो किनारमा।",
     "rows.text-signs": ">: बायाँबाट दायाँ पढ्नुहोस्; <: दायाँबाट बायाँ। खाली ठाउँबाट सुरु हुने हरफ माथिल्लो हरफको बाँकी हो।",
     "rows.text-runs": "12A: धागो A का 12 गाँठा। 2½AC: 2 कोठा, हरेकमा दुई आधा गाँठा, A पहिले आउने तानामा, C",
     "rows.text-more-runs": "अर्कोमा। 1jB: धागो B को 1 जुफ्ती गाँठो, चार ताना र दुई कोठामा। (:) चिह्न: अङ्क भएको चिह्नअघि।",
+    "rows.text-bare": "12·: गाँठो नभएका कोठा, सादा बुनाइ।",
     "rows.text-colours": "A 54: लहरमा धागो A का 54 गाँठा, लहर सुरु हुने किनारबाट कोठाका सङ्ख्याले।",
     "rows.text-more-colours": "16-17L: कोठा 16 र 17 का बायाँ तानामा आधा गाँठा; R: दायाँ तानामा। 18-19j: एउटा जुफ्ती गाँठो।",
     # Call

@@ -54,6 +54,8 @@ URDU = {
     "ground.warp": "تانا",
     "ground.straight-weft": "سیدھا بانا",
     "ground.sinuous-weft": "لہردار بانا",
+    "cell.no-knot": "بغیر گرہ",
+    "ground.binding": "کنارے کی بندش",
     "ground.ends": "سروں کی گلیم بنائی",
     "ground.selvedges": "کنارے",
     # Chart
@@ -63,9 +65,9 @@ URDU = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "پورا قالین",
     "chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} گرہیں، {knot} گرہ",
-    "cell.no-knot": "بغیر گرہ",
-    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، ایک ورق پر",
-    "chart.sheets": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
+    "chart.bare": "ان میں سے {bare} خانوں میں گرہ نہیں (·): {knots} گرہیں لگتی ہیں۔",
+    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، ایک ورق پر",
+    "chart.sheets": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
     "× {up} قطاریں",
     "chart.order": "قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں۔",
     "chart.shaded": "پھیکی گرہیں اگلے ورق کی ہیں۔",
@@ -133,12 +135,12 @@ URDU = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L اور R: بائیں اور دائیں تار پر آدھی گرہیں",
     "rows.jufti-cells": "؛ j: جفتی گرہیں",
-    "rows.text-plain": "12{sign}: بارہ خانے بغیر گرہ کے، سادہ بُنائی میں۔",
     "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔",
     "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ اوپر والی سطر کا تسلسل ہے۔",
     "rows.text-runs": "12A: دھاگے A کی بارہ گرہیں۔ ½ اور AC والا عدد: ہر خانے میں دو آدھی گرہیں، A اس تار پر جو پہلے آئے،",
     "rows.text-more-runs": "C دوسرے پر۔ 1jB: دھاگے B کی ایک جفتی گرہ، چار تاروں اور دو خانوں پر۔ دو نقطے: اس نشان سے پہلے جو "
     "ہندسہ ہو۔",
+    "rows.text-bare": "12·: بغیر گرہ کے خانے، سادہ بنائی۔",
     "rows.text-colours": "A 54: اس قطار میں دھاگے A کی گرہیں، خانوں کے نمبر اس کنارے سے جہاں سے قطار شروع ہوتی ہے۔",
     "rows.text-more-colours": "نمبر کے بعد L: ان خانوں کے بائیں تار پر آدھی گرہیں؛ R: دائیں تار پر۔ j: جفتی گرہ۔",
     # Call
