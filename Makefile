@@ -90,7 +90,9 @@ layers: venv
 	$(BIN)/lint-imports
 
 types: venv
+	$(BIN)/python tests/support/course_code.py build/course
 	$(BIN)/mypy
+	$(BIN)/mypy build/course
 
 # Without the code that explains each assertion, a third of the collection, and of a fresh checkout; what fails runs
 # once more with it.
