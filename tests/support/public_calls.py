@@ -563,7 +563,14 @@ CALLS: dict[str, Call] = {
     "judged": Call(
         ilmek.judged,
         (Other(four_bar()),),
-        dict(by=Other("crank", True, ("rocker", "", 3)), locked=Other({}, wrong=NO_LOCKED)),
+        dict(
+            by=Other("crank", True, ("rocker", "", 3)),
+            locked=Other({}, wrong=NO_LOCKED),
+            inertias=Other(INERTIAS, wrong=WRONG_INERTIAS[1:]),
+            loads=Other((GRAVITY,), wrong=(GRAVITY, (3,), ilmek.Gravity)),
+            joint_frictions=Other((PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,),)),
+            speed=Quantity(10.0, "rad/s"),
+        ),
     ),
     "Motion.plot": Call(
         lambda name, over: motion().plot(name, over=over), (Named("rocker angle"), Other("crank", True, ("x", "", 3)))

@@ -147,7 +147,7 @@ def write_mechanism(
     given.record("mechanism", mechanism, (Mechanism, OwnMachine))
     if isinstance(mechanism, OwnMachine) and inertias:
         raise MechanismError("inertias are given beside a machine", do="put them into the machine")
-    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, _inertias(inertias or {}))
+    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, as_inertias(inertias or {}))
     mechanism_file.write_mechanism(file, machine)
 
 
@@ -221,22 +221,27 @@ def inverse_dynamics(
     """
     given = Arguments("inverse dynamics", MechanismError)
     moved = given.record("motion", motion, Motion)
-    acting = _loads(given, loads)
-    rubbing: tuple[JointFriction, ...] = given.sequence(
-        "joint_frictions", joint_frictions, (PinFriction, SlideFriction)
-    )
+    acting = as_loads(given, loads)
+    rubbing = as_frictions(given, joint_frictions)
     if not acting and not any(np.any(drive.speed) or np.any(drive.acceleration) for drive in moved.drives.values()):
         raise MechanismError(
             "the motion is at rest and no load acts: all forces are 0", do="give solve a speed, or give loads"
         )
-    return inverse.inverse(moved, _inertias(inertias), acting, rubbing)
+    return inverse.inverse(moved, as_inertias(inertias), acting, rubbing)
 
 
-def _loads(given: Arguments, loads: object) -> tuple[Load, ...]:
+def as_loads(given: Arguments, loads: object) -> tuple[Load, ...]:
+    """Loads of a call. Raises MechanismError for another object."""
     return given.sequence("loads", loads, Load)
 
 
-def _inertias(inertias: object) -> dict[str, Inertia]:
+def as_frictions(given: Arguments, frictions: object) -> tuple[JointFriction, ...]:
+    """Frictions of joints of a call. Raises MechanismError for another object."""
+    return given.sequence("joint_frictions", frictions, (PinFriction, SlideFriction))
+
+
+def as_inertias(inertias: object) -> dict[str, Inertia]:
+    """Inertias of a call by body. Raises MechanismError for another object."""
     given = Arguments("", MechanismError)
     return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
 
@@ -281,7 +286,7 @@ def simulate(
         given.turning("position", position, ANY_ANGLE)
     if drive is not None:
         given.function("drive", drive, "time, position and speed")
-    masses, acting = _inertias(inertias), _loads(given, loads)
+    masses, acting = as_inertias(inertias), as_loads(given, loads)
     heavy = given.not_negative("flywheel", flywheel, "kg*m^2" if turning else "kg")
     reduced = reduce(planned, masses, acting, flywheel=heavy)
     return forward.forward(

@@ -16,7 +16,7 @@ from ilmek.carpet.yarn import Yarn
 from ilmek.cli.keys import pressed_keys
 from ilmek.cli.large_figures import large, without_blocks
 from ilmek.errors import printable, shortened
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.symbols import signs_of_codes
 from ilmek.jobs.call import Calling
 from ilmek.sentences import Sentence, language_spoken, noun, numerals, translated
 
@@ -117,13 +117,13 @@ def screen_lines(calling: Calling, depth: int, width: int) -> Iterator[str]:
     figures = large(number, language_spoken().digits)
     if len(figures[0]) + 18 > width:  # a number is never cut
         figures = (number,)
-    signs = symbols(chart.yarns)
-    beside = "  ".join(swatch(chart.yarns[yarn].srgb, 12 // len(yarns), depth) for yarn in yarns)
+    signs = signs_of_codes(chart.yarns)
+    beside = "  ".join(swatch(chart.yarn(yarn).srgb, 12 // len(yarns), depth) for yarn in yarns)
     for line in figures:
         yield f"{line[: width - 20]}    {beside}".rstrip() if depth else line[:width].rstrip()
     yield ""
     for yarn in yarns:
-        yield f"  {signs[yarn]}  {_name(chart.yarns[yarn])}"[:width]
+        yield f"  {signs[yarn]}  {_name(chart.yarn(yarn))}"[:width]
     if step.mark:
         yield from _wrapped(_said("call.half" if step.mark == HALF else "call.jufti"), width, 3)
     yield ""
@@ -158,7 +158,7 @@ def spoken_step(calling: Calling) -> str:
     if calling.done:
         return _said("call.done", rows=calling.chart.rows)
     step = calling.steps[calling.step]
-    first, second = (_name(calling.chart.yarns[yarn]) for yarn in (step.yarn, step.second))
+    first, second = (_name(calling.chart.yarn(yarn)) for yarn in (step.yarn, step.second))
     half, jufti = Sentence("call.speak-half", first=first, second=second), Sentence("call.speak-jufti", first=first)
     yarn = translated(half if step.mark == HALF else jufti if step.mark == JUFTI else first)
     row = "" if calling.step else _said("call.speak-row", row=calling.row) + ". "
@@ -199,9 +199,9 @@ def _wrapped(text: str, width: int, most: int) -> list[str]:
 
 def print_rows(calling: Calling) -> None:
     """Print the rows from the present one, one a line, with the yarns' names first."""
-    chart, signs = calling.chart, symbols(calling.chart.yarns)
+    chart, signs = calling.chart, signs_of_codes(calling.chart.yarns)
     for yarn in chart.used:
-        click.echo(f"{signs[yarn]} {_name(chart.yarns[yarn])}")
+        click.echo(f"{signs[yarn]} {_name(chart.yarn(yarn))}")
     while not calling.done:
         arrow = "→" if rightward_in(calling.row, calling.direction) else "←"
         called = [_counted(step, signs) for step in calling.steps]

@@ -13,7 +13,7 @@ from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
-from ilmek.linkage.joints import BodyPoint, set_point
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record
 from ilmek.units import turn
@@ -91,14 +91,14 @@ class Friction:
     side        at a jump: +1 the force further on in the input, -1 further back; a number or one per sample
     """
 
-    on: BodyPoint
+    on: FreePoint
     magnitude: RealField
     input_name: str
     window: AngleRange | ValueRange | None = None
     side: RealField = 1.0
 
     def __post_init__(self) -> None:
-        set_point(self)
+        set_points(self, "on")
 
     def force(self, motion: Motion) -> ComplexArray:
         """The force [N], one value per sample: - magnitude v/|v|, with v the velocity on the given `side`; 0 at v = 0.

@@ -10,7 +10,7 @@ from ilmek.dynamics.friction import AngleRange, Friction, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
-from ilmek.linkage.joints import BodyPoint, set_point
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record
 from ilmek.units import turn
@@ -20,11 +20,11 @@ from ilmek.units import turn
 class FollowerForce:
     """A follower force [N] on a point of a body: constant in the body's frame, it turns with the body."""
 
-    on: BodyPoint
+    on: FreePoint
     force: complex
 
     def __post_init__(self) -> None:
-        set_point(self)
+        set_points(self, "on")
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
@@ -36,11 +36,11 @@ class FollowerForce:
 class Drag:
     """Viscous resistance on a point of a body: F = -c v, with its velocity v; c [N s/m], not negative."""
 
-    on: BodyPoint
+    on: FreePoint
     coefficient: float
 
     def __post_init__(self) -> None:
-        set_point(self)
+        set_points(self, "on")
         if not 0 <= self.coefficient < np.inf:
             given = f"drag on {self.on!r} is {self.coefficient:g}"
             raise MechanismError(given, allowed="finite and not negative")

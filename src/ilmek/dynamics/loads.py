@@ -18,7 +18,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.pose_block import cut
 from ilmek.errors import MechanismError
-from ilmek.linkage.joints import BodyPoint, set_point
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record, shown_value
 
@@ -122,12 +122,12 @@ class PointForce:
     -60j
     """
 
-    on: BodyPoint
+    on: FreePoint
     force: ForceLaw
 
     def __post_init__(self) -> None:
         given = Arguments("a point force", MechanismError)
-        set_point(self)
+        set_points(self, "on")
         if not callable(self.force):
             object.__setattr__(self, "force", given.vectors("force", self.force, "N"))
 

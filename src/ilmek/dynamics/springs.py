@@ -14,7 +14,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
 from ilmek.errors import MechanismError
 from ilmek.linkage.followed import followed_angle
-from ilmek.linkage.joints import BodyPoint, set_point
+from ilmek.linkage.joints import BodyPoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot
 
@@ -44,7 +44,7 @@ class Spring:
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        set_point(self, "first", "second")
+        set_points(self, "first", "second")
         for name, unit in (("stiffness", "N/m"), ("length", "m"), ("damping", "N*s/m")):
             object.__setattr__(self, name, _SPRING.not_negative(name, getattr(self, name), unit))
 

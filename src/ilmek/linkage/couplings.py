@@ -6,7 +6,7 @@ from typing import Protocol
 from ilmek.arguments import Arguments
 from ilmek.arrays import RealField
 from ilmek.errors import MechanismError
-from ilmek.linkage.joints import GROUND, BodyPoint, about, set_point, set_texts
+from ilmek.linkage.joints import GROUND, BodyPoint, about, set_points, set_texts
 from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.units import deg
 
@@ -109,7 +109,7 @@ class Coupling:
         given = Arguments(f"coupling {self.name!r}", MechanismError)
         rack = self.slides
         with about("couplings", self.name):
-            set_point(self, "first", "second")
+            set_points(self, "first", "second")
             units = {"ratio": "m" if rack else "", "first_at": "rad", "second_at": "m" if rack else "rad"}
             units["pressure_angle"] = "rad"
             for name, unit in units.items():

@@ -12,8 +12,11 @@ from ilmek.records import brief
 GROUND = "ground"
 """The fixed body; its frame is the world."""
 
-BodyPoint: TypeAlias = str | tuple[str, str | complex]
-"""A point of a body: "body.point"; or (body, point), with the point's name or its position in the body's frame [m]."""
+BodyPoint: TypeAlias = str | tuple[str, str]
+"""A point of a body: "body.point", or (body, point)."""
+
+FreePoint: TypeAlias = BodyPoint | tuple[str, complex]
+"""A point of a body, or (body, position in its frame [m])."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,18 +158,24 @@ class Displacement:
         return self.slide
 
 
-def body_point(given: Arguments, name: str, value: object) -> tuple[str, str | complex]:
-    """The names of a body and of its point, or a body and a position in its frame [m].
-
-    Raises an error for a text without a dot, and for other objects.
-    """
+def body_point(given: Arguments, name: str, value: object) -> tuple[str, str]:
+    """The names of a body and of its point. Raises an error for a text without a dot, and for other objects."""
     if isinstance(value, str):
         body, _, point = value.partition(".")
         if not (body and point):
             raise given.error(f"{name} is {value!r}", allowed='a point of a body, like "rocker.E"')
         return body, point
     body, point = given.pair(name, value, 'a point of a body: "body.point", or (body, point)')
-    return given.text(f"body of {name}", body), point if isinstance(point, str) else given.point(name, point)
+    return given.text(f"body of {name}", body), given.text(f"point of {name}", point)
+
+
+def free_point(given: Arguments, name: str, value: object) -> tuple[str, str | complex]:
+    """The names of a body and of its point, or a body and a position in its frame [m]."""
+    if not isinstance(value, str):
+        body, point = given.pair(name, value, 'a point of a body: "body.point", or (body, point)')
+        if not isinstance(point, str):
+            return given.text(f"body of {name}", body), given.point(name, point)
+    return body_point(given, name, value)
 
 
 def set_texts(value: object, *names: str) -> None:
@@ -178,11 +187,12 @@ def set_texts(value: object, *names: str) -> None:
             object.__setattr__(value, name, given.text(name, text))
 
 
-def set_point(value: object, *names: str) -> None:
-    """Set fields of a record, by default `on`, to the body and the point that they name."""
+def set_points(value: object, *names: str) -> None:
+    """Set fields of a record to the bodies and points that they name; `on` may be a position."""
     given = Arguments(f"a {type(value).__name__.lower()}", MechanismError)
-    for name in names or ("on",):
-        object.__setattr__(value, name, body_point(given, name, getattr(value, name)))
+    for name in names:
+        read = free_point if name == "on" else body_point
+        object.__setattr__(value, name, read(given, name, getattr(value, name)))
 
 
 @contextmanager

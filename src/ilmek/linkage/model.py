@@ -24,13 +24,13 @@ from ilmek.linkage.couplings import GREATEST_PRESSURE_ANGLE, KINDS, BeltSpans, C
 from ilmek.linkage.joints import (
     GROUND,
     Body,
-    BodyPoint,
     Displacement,
+    FreePoint,
     Pin,
     Rotation,
     Slide,
     about,
-    body_point,
+    free_point,
 )
 from ilmek.records import brief, shown_value
 from ilmek.report.shown import Shown
@@ -120,14 +120,14 @@ class Mechanism(Shown):
         """The joint of that name."""
         return _find(name, self.joints, "joint", self.name)
 
-    def located(self, point: BodyPoint) -> tuple[str, complex]:
+    def located(self, point: FreePoint) -> tuple[str, complex]:
         """The body of a point, "body.point", and its position in the body's frame [m]; a position as it is."""
-        body, name = body_point(Arguments("", MechanismError), "a point", point)
+        body, name = free_point(Arguments("", MechanismError), "a point", point)
         return body, self.point(body, name) if isinstance(name, str) else name
 
     def point(self, body: str, point: str = "") -> complex:
         """A point, "body.point", in its body's frame [m]; or of a body and a point's name."""
-        if not point and isinstance(body, str) and body not in (entry.name for entry in self.bodies):
+        if isinstance(point, str) and not point and body not in (entry.name for entry in self.bodies):
             return self.located(body)[1]
         points = self.body(body).points
         if not isinstance(point, str) or point not in points:

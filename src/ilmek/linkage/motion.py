@@ -14,7 +14,7 @@ from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.faults import first_fault
 from ilmek.linkage.followed import followed_angle
 from ilmek.linkage.groups.group import Columns, InputMotion
-from ilmek.linkage.joints import BodyPoint
+from ilmek.linkage.joints import FreePoint
 from ilmek.linkage.model import GROUND, Mechanism, Pin, Rotation
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
@@ -116,7 +116,7 @@ class Motion(Framed):
         """Which samples are solved."""
         return np.asarray(self.status == Status.OK)
 
-    def __getitem__(self, name: BodyPoint) -> MovedPoint:
+    def __getitem__(self, name: FreePoint) -> MovedPoint:
         """A point, "body.point"; of a body alone, the origin of its frame. Raises MechanismError for an unknown one."""
         if isinstance(name, str) and "." not in name:
             return MovedPoint(self, self.plan.mechanism.body(name).name, 0j)
@@ -134,8 +134,7 @@ class Motion(Framed):
 
     def point(self, body: str, point: str = "") -> AttachedPoint:
         """Motion of a point, "body.point", or of a body and a point's name."""
-        located = (body, self.plan.mechanism.point(body, point)) if point else self.plan.mechanism.located(body)
-        return self.carried(*located)
+        return self.carried(*self._located(body, point))
 
     def carried(self, body: str, local: complex) -> AttachedPoint:
         """Motion of the point of a body at `local` [m] in its frame."""
@@ -191,9 +190,13 @@ class Motion(Framed):
 
     def point_jerk(self, body: str, point: str = "") -> Points:
         """Jerk of a point, "body.point", or of a body and a point's name [m/s^3]."""
-        name: BodyPoint = (body, point) if point else body
-        carrier, local = self.plan.mechanism.located(name)
+        carrier, local = self._located(body, point)
         return self._points(self._jerk(carrier).carry(local))
+
+    def _located(self, body: str, point: str) -> tuple[str, complex]:
+        mechanism = self.plan.mechanism
+        named = isinstance(point, str) and not point
+        return mechanism.located(body) if named else (body, mechanism.point(body, point))
 
     def _jerk(self, name: str) -> BodyJerk:
         """A body's motion with its jerk, from those of the bodies to which it is attached."""

@@ -82,13 +82,13 @@ def noun(text: str) -> str:
     """
     if text in _NOUNS:
         return Sentence(_NOUNS[text])
+    first, _, number = text.rpartition(" ")
+    if number.isdecimal() and isinstance(known := noun(first), Sentence):
+        return Sentence("colour.number", colour=known, number=number)
     word, _, colour = text.partition(" ")
     key = _NOUNS.get(f"{word} {{colour}}")
     if key is not None and isinstance(known := noun(colour), Sentence):
         return Sentence(key, colour=known)
-    first, _, number = text.rpartition(" ")
-    if number.isdecimal() and isinstance(known := noun(first), Sentence):
-        return Sentence("colour.number", colour=known, number=number)
     return text
 
 

@@ -63,8 +63,9 @@ HINDI = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "पूरा कालीन",
     "chart.facts": "{size} (चौड़ाई × लंबाई), प्रति डेसीमीटर {across} × {along} गाँठें, {knot} गाँठ",
-    "chart.one-sheet": "{columns} गाँठें × {rows} पंक्तियाँ = {knots} गाँठें, {colours}, एक पन्ने पर",
-    "chart.sheets": "{columns} गाँठें × {rows} पंक्तियाँ = {knots} गाँठें, {colours}, {sheets} पन्नों पर; हर पन्ना {across} "
+    "cell.no-knot": "बिना गाँठ",
+    "chart.one-sheet": "{columns} गाँठें × {rows} पंक्तियाँ: {knots} गाँठें, {colours}, एक पन्ने पर",
+    "chart.sheets": "{columns} गाँठें × {rows} पंक्तियाँ: {knots} गाँठें, {colours}, {sheets} पन्नों पर; हर पन्ना {across} "
     "गाँठें × {up} पंक्तियाँ",
     "chart.order": "पंक्तियाँ नीचे से और गाँठें बाएँ से गिनी जाती हैं।",
     "chart.shaded": "फीकी गाँठें अगले पन्ने की हैं।",
@@ -131,6 +132,7 @@ HINDI = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: बाएँ, दाएँ तारों पर आधी गाँठें",
     "rows.jufti-cells": "; j: जुफ़्ती गाँठें",
+    "rows.text-plain": "12{sign}: 12 ख़ाने बिना गाँठ के, सादी बुनाई में।",
     "rows.text": "{size}, {quality}, {knot} गाँठ; पंक्ति 1 सबसे पहले बुनी जाती है, निचले किनारे पर।",
     "rows.text-signs": ">: बाएँ से दाएँ पढ़ें; <: दाएँ से बाएँ। जो पंक्ति ख़ाली जगह से शुरू हो वह ऊपर वाली का अगला भाग है।",
     "rows.text-runs": "12A: धागे A की 12 गाँठें। 2½AC: 2 ख़ाने, हर एक में दो आधी गाँठें, A उस तार पर जो पहले आए, C",

@@ -63,8 +63,9 @@ NEPALI = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "पूरै गलैँचा",
     "chart.facts": "{size} (चौडाइ × लम्बाइ), प्रति डेसिमिटर {across} × {along} गाँठा, {knot} गाँठो",
-    "chart.one-sheet": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, एउटै पानामा",
-    "chart.sheets": "{columns} गाँठा × {rows} लहर = {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × "
+    "cell.no-knot": "गाँठो नभएको",
+    "chart.one-sheet": "{columns} गाँठा × {rows} लहर: {knots} गाँठा, {colours}, एउटै पानामा",
+    "chart.sheets": "{columns} गाँठा × {rows} लहर: {knots} गाँठा, {colours}, {sheets} पानामा; हरेक पाना {across} गाँठा × "
     "{up} लहर",
     "chart.order": "लहर तलबाट र गाँठा बायाँबाट गनिन्छ।",
     "chart.shaded": "फिका गाँठा अर्को पानाका हुन्।",
@@ -131,6 +132,7 @@ NEPALI = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: बायाँ, दायाँ तानामा आधा गाँठा",
     "rows.jufti-cells": "; j: जुफ्ती गाँठा",
+    "rows.text-plain": "12{sign}: गाँठो नभएका 12 कोठा, सादा बुनाइमा।",
     "rows.text": "{size}, {quality}, {knot} गाँठो; लहर 1 सबैभन्दा पहिले बुनिन्छ, तल्लो किनारमा।",
     "rows.text-signs": ">: बायाँबाट दायाँ पढ्नुहोस्; <: दायाँबाट बायाँ। खाली ठाउँबाट सुरु हुने हरफ माथिल्लो हरफको बाँकी हो।",
     "rows.text-runs": "12A: धागो A का 12 गाँठा। 2½AC: 2 कोठा, हरेकमा दुई आधा गाँठा, A पहिले आउने तानामा, C",

@@ -54,7 +54,7 @@ URDU = {
     "ground.warp": "تانا",
     "ground.straight-weft": "سیدھا بانا",
     "ground.sinuous-weft": "لہردار بانا",
-    "ground.ends": "سروں کی گلیم بُنائی",
+    "ground.ends": "سروں کی گلیم بنائی",
     "ground.selvedges": "کنارے",
     # Chart
     "chart.title": "گرہوں کا نقشہ: {name}",
@@ -63,13 +63,14 @@ URDU = {
     "chart.named-size": "{name}، {size}",
     "chart.whole": "پورا قالین",
     "chart.facts": "{size} (چوڑائی × لمبائی)، فی ڈیسی میٹر {across} × {along} گرہیں، {knot} گرہ",
-    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، ایک ورق پر",
-    "chart.sheets": "{columns} گرہیں × {rows} قطاریں = {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
+    "cell.no-knot": "بغیر گرہ",
+    "chart.one-sheet": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، ایک ورق پر",
+    "chart.sheets": "{columns} گرہیں × {rows} قطاریں: {knots} گرہیں، {colours}، {sheets} اوراق پر؛ ہر ورق {across} گرہیں "
     "× {up} قطاریں",
     "chart.order": "قطاریں نیچے سے اور گرہیں بائیں سے گنی جاتی ہیں۔",
     "chart.shaded": "پھیکی گرہیں اگلے ورق کی ہیں۔",
     "chart.two": "{first} {second}",
-    "chart.part": "قطار {low} تا {high}، گرہ {left} تا {right}",
+    "chart.part": "قطار {low} تا {high}؛ گرہ {left} تا {right}",
     "chart.sheet": "ورق {number}: {title}",
     "chart.sheet-of": "ورق {number} از {count}",
     "chart.left": "← بائیں: ورق {number}",
@@ -94,7 +95,7 @@ URDU = {
     # Mounting
     "mounting.title": "کھڈی پر",
     "mounting.warps": "تانے کے تار",
-    "mounting.warps-text": "{warps}، جن میں سے {edges} کناروں پر بغیر گرہ کے؛ ہر گرہ دو تاروں پر",
+    "mounting.warps-text": "{warps}؛ جن میں سے {edges} کناروں پر بغیر گرہ کے؛ ہر گرہ دو تاروں پر",
     "mounting.pitch": "تاروں کا فاصلہ",
     "mounting.pitch-text": "{pitch} ملی میٹر؛ کھڈی پر چوڑائی {width} سینٹی میٹر",
     "mounting.length": "تانے کی لمبائی",
@@ -112,12 +113,12 @@ URDU = {
     "mounting.each-knot": "ہر {count}ویں گرہ",
     "mounting.each-knot-text": "پچھلے نشان سے {length} سینٹی میٹر",
     # Rows
-    "rows.title": "بُنائی کی قطاریں: {name}",
+    "rows.title": "بنائی کی قطاریں: {name}",
     "rows.part": "حصہ {part} از {parts}",
     "rows.some": "قطار {first} تا {last}",
-    "rows.some-of": "قطار {first} تا {last}، کل {rows}",
+    "rows.some-of": "قطار {first} تا {last}؛ کل {rows}",
     "rows.page": "{name}، صفحہ {page} از {pages}",
-    "rows.how": "قطار 1 سب سے پہلے بُنی جاتی ہے، نچلے کنارے پر۔ نشان کے اوپر عدد: اتنی گرہیں مسلسل؛ اکیلا نشان: ایک گرہ۔ "
+    "rows.how": "قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔ نشان کے اوپر عدد: اتنی گرہیں مسلسل؛ اکیلا نشان: ایک گرہ۔ "
     "{reading}",
     "rows.right": "بائیں سے دائیں پڑھیں۔",
     "rows.left": "دائیں سے بائیں پڑھیں۔",
@@ -128,11 +129,12 @@ URDU = {
     "rows.below": "ہر قطار کے نیچے: ہر دھاگے کی گرہیں۔",
     "rows.colours": "رنگوں کے لحاظ سے قطاریں",
     "rows.row": "قطار {number} {arrow}",
-    "rows.cells": "قطار 1 سب سے پہلے بُنی جاتی ہے۔ خانے بائیں (→) یا دائیں (←) کنارے سے گنے جاتے ہیں{marks}۔",
+    "rows.cells": "قطار 1 سب سے پہلے بنی جاتی ہے۔ خانے بائیں (→) یا دائیں (←) کنارے سے گنے جاتے ہیں{marks}۔",
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "؛ L اور R: بائیں اور دائیں تار پر آدھی گرہیں",
     "rows.jufti-cells": "؛ j: جفتی گرہیں",
-    "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بُنی جاتی ہے، نچلے کنارے پر۔",
+    "rows.text-plain": "12{sign}: بارہ خانے بغیر گرہ کے، سادہ بُنائی میں۔",
+    "rows.text": "{size}، {quality}، {knot} گرہ؛ قطار 1 سب سے پہلے بنی جاتی ہے، نچلے کنارے پر۔",
     "rows.text-signs": "قطار کے نمبر کے بعد نشان کی نوک پڑھنے کی سمت بتاتی ہے۔ جو سطر خالی جگہ سے شروع ہو وہ اوپر والی سطر کا تسلسل ہے۔",
     "rows.text-runs": "12A: دھاگے A کی بارہ گرہیں۔ ½ اور AC والا عدد: ہر خانے میں دو آدھی گرہیں، A اس تار پر جو پہلے آئے،",
     "rows.text-more-runs": "C دوسرے پر۔ 1jB: دھاگے B کی ایک جفتی گرہ، چار تاروں اور دو خانوں پر۔ دو نقطے: اس نشان سے پہلے جو "

@@ -69,8 +69,8 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "The whole carpet",
     "chart.facts": "{size} (width × length), {across} × {along} knots per dm, {knot} knots",
-    "chart.one-sheet": "{columns} knots × {rows} rows = {knots} knots in {colours} on one sheet",
-    "chart.sheets": "{columns} knots × {rows} rows = {knots} knots in {colours} on {sheets} sheets of {across} knots × "
+    "chart.one-sheet": "{columns} knots × {rows} rows: {knots} knots in {colours} on one sheet",
+    "chart.sheets": "{columns} knots × {rows} rows: {knots} knots in {colours} on {sheets} sheets of {across} knots × "
     "{up} rows",
     "chart.order": "Rows are counted from the bottom, knots from the left.",
     "chart.shaded": "Shaded knots belong to the next sheet.",
@@ -138,6 +138,7 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: half knots on left, right warps",
     "rows.jufti-cells": "; j: jufti knots",
+    "rows.text-plain": "12{sign}: 12 cells without a knot, in plain weave.",
     "rows.text": "{size}, {quality}, {knot} knot; row 1 is the first that is woven, at the lower edge.",
     "rows.text-signs": ">: read from left to right; <: from right to left. A line that begins with a blank continues "
     "the one above.",

@@ -60,8 +60,8 @@ WEAVER = {
     "chart.named-size": "{name}, {size}",
     "chart.whole": "Halının tümü",
     "chart.facts": "{size} (en × boy), dm'de {across} × {along} ilmek, {knot} ilmek",
-    "chart.one-sheet": "{columns} ilmek × {rows} sıra = {knots} ilmek, {colours}, tek sayfada",
-    "chart.sheets": "{columns} ilmek × {rows} sıra = {knots} ilmek, {colours}, {sheets} sayfada; sayfa {across} ilmek × "
+    "chart.one-sheet": "{columns} ilmek × {rows} sıra: {knots} ilmek, {colours}, tek sayfada",
+    "chart.sheets": "{columns} ilmek × {rows} sıra: {knots} ilmek, {colours}, {sheets} sayfada; sayfa {across} ilmek × "
     "{up} sıra",
     "chart.order": "Sıralar alttan, ilmekler soldan sayılır.",
     "chart.shaded": "Soluk ilmekler sonraki sayfanındır.",
@@ -129,6 +129,7 @@ WEAVER = {
     "rows.marks": "{halves}{juftis}",
     "rows.half-cells": "; L, R: sol, sağ çözgülerde yarım ilmekler",
     "rows.jufti-cells": "; j: çift ilmekler (cufti)",
+    "rows.text-plain": "12{sign}: ilmeksiz 12 göz, bez ayağı dokuma.",
     "rows.text": "{size}, {quality}, {knot} ilmek; 1. sıra ilk dokunan, alt kenardaki sıradır.",
     "rows.text-signs": ">: soldan sağa okunur; <: sağdan sola. Boşlukla başlayan satır üstündekini sürdürür.",
     "rows.text-runs": "12A: A ipliğinden 12 ilmek. 2½AC: her birinde iki yarım ilmek olan 2 göz, A önce gelen çözgüde,",

@@ -1,6 +1,5 @@
 """The first page of a printed knot chart: the whole carpet with its sheets."""
 
-import numpy as np
 from PIL import Image
 from reportlab.lib.utils import ImageReader
 
@@ -43,7 +42,7 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
         "chart.sheets" if plan.count > 1 else "chart.one-sheet",
         columns=chart.columns,
         rows=chart.rows,
-        knots=thousands(chart.knots.size),
+        knots=thousands(chart.tally().knots),
         colours=colours_in_words(chart.colours),
         sheets=thousands(plan.count),
         across=plan.sheet_columns,
@@ -59,7 +58,7 @@ def _facts(chart: Chart, plan: SheetLayout) -> tuple[str, ...]:
 
 def _thumbnail(chart: Chart) -> Image.Image:
     """The chart as a picture of at most 1200 pixels per side."""
-    picture = Image.fromarray(np.array([yarn.srgb for yarn in chart.yarns], dtype=np.uint8)[chart.knots])
+    picture = Image.fromarray(chart.colour_table[chart.knots])
     return picture.reduce(max(1, -(-max(picture.size) // 1200)))
 
 

@@ -25,8 +25,9 @@ from ilmek.units import cm, format_number
 DIGITS = {"latin": LATIN} | {code: row.digits for code, row in WEAVERS.items() if row.digits != LATIN}
 """Digits 0 to 9 by the language that writes with them. The fonts of the printed files have them."""
 
-_POINT = re.compile(r"(?<=[۰-۹٠-٩])\.(?=[۰-۹٠-٩])")
-"""A point between Arabic digits, which is written ٫ there."""
+_BETWEEN = re.compile(r"(?<=[۰-۹٠-٩])[.\u202f](?=[۰-۹٠-٩])")
+_SIGNS = {".": "٫", "\u202f": "٬"}
+"""Decimal point and mark of thousands between Arabic digits."""
 
 
 @record
@@ -64,7 +65,7 @@ class PrintCanvas(Canvas):  # type: ignore[misc]
     def numerals(self, text: str) -> str:
         """A text in the language and with the digits of this canvas."""
         said = translated(text) if isinstance(text, Sentence) else text
-        return _POINT.sub("٫", said.translate(self._digits))
+        return _BETWEEN.sub(lambda sign: _SIGNS[sign[0]], said.translate(self._digits))
 
     def side(self, x: float, width: float = 0.0) -> float:
         """The left edge of what is as wide and lies x from the side of the page where lines begin."""

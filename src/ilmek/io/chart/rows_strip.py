@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from reportlab.pdfbase.pdfmetrics import stringWidth
 
+from ilmek.carpet.codes import NO_KNOT
 from ilmek.carpet.overlay import HALF, JUFTI
 from ilmek.carpet.rows import Run
 from ilmek.io.chart.inks import Inks
@@ -227,6 +228,7 @@ def knots_in_words(strip: Strip, inks: Inks, wide: float, numerals: Callable[[st
         counts[run.yarn] = counts.get(run.yarn, 0) + run.knots
         if run.mark == HALF:
             counts[run.second] = counts.get(run.second, 0) + run.knots
+    counts.pop(NO_KNOT, None)
     words = [f"{inks.symbols[yarn]} {numerals(str(count))}" for yarn, count in sorted(counts.items())]
     for shown in range(len(words), 0, -1):
         rest = f"   … +{numerals(str(len(words) - shown))}" if shown < len(words) else ""

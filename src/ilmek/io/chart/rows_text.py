@@ -18,11 +18,11 @@ import numpy as np
 
 from ilmek.arrays import Int32, UInt8
 from ilmek.carpet.chart import Chart
-from ilmek.carpet.codes import CODES
+from ilmek.carpet.codes import CODES, NO_KNOT
 from ilmek.carpet.rows import DIRECTIONS, HALF_CODE, JUFTI_CODE, row_codes
 from ilmek.errors import printable
 from ilmek.io.chart.printing import quality_of, size_of
-from ilmek.io.chart.symbols import symbols
+from ilmek.io.chart.symbols import NO_SIGN, signs_of_codes, symbols
 from ilmek.num.compiled import compiled
 from ilmek.progress import SILENT, Progress
 from ilmek.sentences import DEFAULT, Sentence, in_language, noun, translated
@@ -69,6 +69,8 @@ def header(chart: Chart, split: str, direction: str) -> str:
     signs = symbols(chart.yarns)
     about = Sentence("rows.text", size=size_of(size), quality=quality_of(quality), knot=noun(chart.knot))
     comments = (about, *(Sentence(f"rows.text-{part}") for part in ("signs", split, f"more-{split}")))
+    if split == "runs" and chart.cells:
+        comments = (*comments, Sentence("rows.text-plain", sign=NO_SIGN))
     lines = [
         MAGIC,
         *(f"# {translated(comment)}" for comment in comments),
@@ -88,7 +90,7 @@ def header(chart: Chart, split: str, direction: str) -> str:
 
 def row_bands(chart: Chart, split: str, direction: str) -> Iterator[tuple[float, bytes]]:
     """The text of the rows in parts, each with the share of the rows that is then done."""
-    glyphs, widths = _glyphs(symbols(chart.yarns))
+    glyphs, widths = _glyphs(signs_of_codes(chart.yarns))
     mode, step = DIRECTIONS.index(direction), max(1, _BAND // chart.columns)
     for first in range(0, chart.rows, step):
         stop = min(first + step, chart.rows)
@@ -299,7 +301,7 @@ def _write_colours(  # noqa: PLR0917
             if not _read_in(mode, first + row, leftward):
                 continue
             _collect(codes[row], leftward, spans, heads)
-            for yarn in range(glyphs.shape[0]):
+            for yarn in range(NO_KNOT):
                 if heads[yarn, 0] < 0:
                     continue
                 knots, span = 0, heads[yarn, 0]
