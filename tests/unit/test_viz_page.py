@@ -12,7 +12,8 @@ import pytest
 from PIL import Image
 
 from ilmek.carpet.bill import yarn_bill
-from ilmek.carpet.chart import Chart, ChartReading
+from ilmek.carpet.chart import Chart
+from ilmek.carpet.chart_reading import ChartReading
 from ilmek.carpet.differences import YarnDifference
 from ilmek.carpet.quality import Quality
 from ilmek.carpet.sizes import CarpetSize
