@@ -12,7 +12,6 @@ import numpy as np
 
 from benchmarks.random_mechanisms import random_inertias, random_mechanism
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.friction import AngleRange, Friction
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, PointForce, Torque
@@ -38,14 +37,14 @@ def by_numpy(motion: Motion) -> FloatArray:
     six_bar = motion.plan.mechanism
     row = {body: 3 * place for place, body in enumerate(six_bar.moving)}
     points = {
-        joint.name: attached(motion, joint.bodies[0], six_bar.point(joint.bodies[0], joint.name)).position
+        joint.name: motion.carried(joint.bodies[0], six_bar.point(joint.bodies[0], joint.name)).position
         for joint in six_bar.joints
     }
     rubbing = LOADS[1].force(motion)
-    tip = attached(motion, "needle", six_bar.point("needle", "F")).position
+    tip = motion.carried("needle", six_bar.point("needle", "F")).position
     right = np.empty((len(motion), 18))
     for body, inertia in inertias(PARAMS).items():
-        centre = attached(motion, body, inertia.centre)
+        centre = motion.carried(body, inertia.centre)
         force = inertia.mass * (centre.acceleration + 1j * PARAMS.gravity)
         moment = np.imag(np.conj(centre.position) * force) + inertia.moment * motion.alpha(body)
         if body == "needle":
@@ -118,7 +117,7 @@ def campaign(count: int = CAMPAIGN, seed: int = 1) -> None:
         spurts = {name: float(draw.uniform(-50, 50)) for name in values}
         motion = solve(plan(drawn), at, speeds, spurts)
         last = drawn.moving[-1]
-        drag = PointForce(last, 0.3j, lambda moved, last=last: -20 * attached(moved, last, 0.3j).velocity)  # type: ignore[misc]
+        drag = PointForce((last, 0.3j), lambda moved, last=last: -20 * moved.carried(last, 0.3j).velocity)  # type: ignore[misc]
         loads = (Gravity(-9.81j), Torque(last, 3.0), drag)
         errors.append(inverse(motion, random_inertias(draw, drawn), loads).power_error)
         usable += int((motion.status == Status.OK).sum())

@@ -22,6 +22,7 @@ from ilmek.api.carpets import weave as weave
 from ilmek.api.carpets import write_chart as write_chart
 from ilmek.api.designs import design as design
 from ilmek.api.designs import list_machines as list_machines
+from ilmek.api.designs import parameters as parameters
 from ilmek.api.designs import reproduce as reproduce
 from ilmek.api.four_bars import crank_rocker as crank_rocker
 from ilmek.api.four_bars import function_four_bars as function_four_bars
@@ -43,6 +44,8 @@ from ilmek.api.mechanisms import simulate as simulate
 from ilmek.api.mechanisms import slider_crank as slider_crank
 from ilmek.api.mechanisms import solve as solve
 from ilmek.api.mechanisms import write_mechanism as write_mechanism
+from ilmek.api.orders import order as order
+from ilmek.api.orders import verify as verify
 from ilmek.api.programmes import check as check
 from ilmek.api.programmes import convert as convert
 from ilmek.api.programmes import inspect as inspect

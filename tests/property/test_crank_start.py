@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import PointForce
 from ilmek.linkage.solve import solve
@@ -45,12 +44,12 @@ def test_torque_is_that_of_newton_and_euler(asked) -> None:
     linkage = start.duty.linkage
     rise = np.gradient(start.speed, start.time)
     motion = solve(linkage.plan, start.angle, start.speed, rise)
-    beater = attached(motion, "rocker", linkage.plan.mechanism.point("rocker", "E"))
+    beater = motion.carried("rocker", linkage.plan.mechanism.point("rocker", "E"))
     speed = np.abs(beater.velocity)
     # The fell pushes the beater away from it, on its way there and back.
     away = np.where(start.angle < linkage.back_angle + turn - linkage.crank_rotation, -1, 1)
     direction = np.divide(away * beater.velocity, speed, out=np.zeros_like(beater.velocity), where=speed > 0)
-    fell = PointForce("rocker", "E", start.fell_force * direction)
+    fell = PointForce("rocker.E", start.fell_force * direction)
     torque = inverse(motion, linkage.bodies, (fell,)).effort("crank")
     near = slice(2, -2)
     scale = np.max(np.abs(start.torque))
@@ -78,7 +77,7 @@ def test_the_run_up_pays_motion_fell_and_losses(asked, drive) -> None:
     motion = solve(linkage.plan, start.angle[end : end + 1], linkage.params.speed)
     energy = 0.0
     for name, body in linkage.bodies.items():
-        centre = attached(motion, name, body.centre)
+        centre = motion.carried(name, body.centre)
         energy += 0.5 * body.mass * abs(centre.velocity[0]) ** 2 + 0.5 * body.moment * float(motion.omega(name)[0]) ** 2
     assert start.run_up_energy == pytest.approx(energy, rel=1e-9)
     assert start.run_up_loss > 0

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from benchmarks.random_mechanisms import random_inertias, random_mechanism
 
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, PointForce, Torque
@@ -44,7 +43,7 @@ def dense(motion: Motion, bodies: dict[str, Inertia]) -> dict[str, np.ndarray]:
             names.append((joint.name, force))
             column += 1
     for body, inertia in bodies.items():
-        centre = attached(motion, body, inertia.centre)
+        centre = motion.carried(body, inertia.centre)
         force = inertia.mass * (centre.acceleration - WEIGHT)
         moment = np.imag(np.conj(centre.position) * force) + inertia.moment * motion.alpha(body)
         right[:, row[body] : row[body] + 3] = np.stack((force.real, force.imag, moment), axis=-1)
@@ -146,7 +145,7 @@ def test_virtual_power_of_random_mechanisms() -> None:
         loads = (
             Gravity(WEIGHT),
             Torque(last, 3.0),
-            PointForce(last, 0.3 - 0.2j, lambda moved, last=last: -20 * attached(moved, last, 0.3 - 0.2j).velocity),
+            PointForce((last, 0.3 - 0.2j), lambda moved, last=last: -20 * moved.carried(last, 0.3 - 0.2j).velocity),
         )
         assert inverse(motion, bodies, loads).power_error < 1e-10
         usable += int((motion.status == Status.OK).sum())

@@ -8,7 +8,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from mechanisms import slotted_lever
 
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
@@ -49,7 +48,7 @@ def energies(motion: Motion, bodies: dict[str, Inertia]) -> tuple[np.ndarray, np
     """Kinetic energy and potential energy of the weight: positions and velocities only."""
     kinetic, potential = np.zeros(len(motion)), np.zeros(len(motion))
     for body, inertia in bodies.items():
-        centre = attached(motion, body, inertia.centre)
+        centre = motion.carried(body, inertia.centre)
         kinetic += (inertia.mass * np.abs(centre.velocity) ** 2 + inertia.moment * motion.omega(body) ** 2) / 2
         potential -= inertia.mass * np.real(np.conj(GRAVITY) * centre.position)
     return kinetic, potential
@@ -68,7 +67,7 @@ def test_virtual_power_is_zero(task: Numbers, alpha: float) -> None:
     last = mechanism.moving[-1]
     loads: tuple[Load, ...] = (
         Gravity(GRAVITY),
-        PointForce(last, 0.1 - 0.05j, lambda motion: -20 * attached(motion, last, 0.1 - 0.05j).velocity),
+        PointForce((last, 0.1 - 0.05j), lambda motion: -20 * motion.carried(last, 0.1 - 0.05j).velocity),
         Torque(mechanism.moving[1], np.cos(ANGLES)),
     )
     forces = inverse(solve(plan(mechanism), ANGLES, speed, alpha).require(), bodies, loads)
@@ -108,7 +107,7 @@ def test_the_ground_takes_up_the_momentum(task: Numbers) -> None:
         moment += np.imag(np.conj(motion.point(moving, joint.name).position) * pushed)
         moment += forces.couples.get(joint.name, 0.0)
     for body, inertia in bodies.items():
-        centre = attached(motion, body, inertia.centre)
+        centre = motion.carried(body, inertia.centre)
         change = inertia.mass * (centre.acceleration - GRAVITY)
         force -= change
         moment -= np.imag(np.conj(centre.position) * change) + inertia.moment * motion.alpha(body)

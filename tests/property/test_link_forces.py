@@ -26,7 +26,8 @@ def test_all_that_acts_on_a_body_is_in_equilibrium(seed: int) -> None:
     mechanism, values = random_mechanism(draw)
     motion = solve(plan(mechanism), values, dict.fromkeys(values, 2.0), dict.fromkeys(values, 3.0))
     inertias = random_inertias(draw, mechanism)
-    loads = (Gravity(1 - 9j), PointForce(mechanism.moving[-1], 0.1 - 0.2j, 30 + 10j), Torque(mechanism.moving[0], 5.0))
+    first, *_, last = mechanism.moving
+    loads = (Gravity(1 - 9j), PointForce((last, 0.1 - 0.2j), 30 + 10j), Torque(first, 5.0))
     frictions = [PinFriction(one.name, 0.05, 0.1) for one in mechanism.joints if isinstance(one, Pin)][:1]
     for friction in ((), frictions):
         forces = inverse(motion, inertias, loads, friction)

@@ -47,17 +47,17 @@ def loads_of(mechanism: Mechanism, chosen: int, size: float, angle: float) -> li
     crank, follower = mechanism.moving[0], mechanism.moving[-1]
     fixed = next(iter(mechanism.body("ground").points))
     every: list[Load] = [
-        PointForce(crank, "A", size + 2j),
-        FollowerForce(follower, "B", 1 - size * 1j),
+        PointForce((crank, "A"), size + 2j),
+        FollowerForce((follower, "B"), 1 - size * 1j),
         Torque(follower, size),
-        Drag(follower, "B", abs(size)),
-        TabulatedLoad(PointForce(follower, "B", 1j), crank, (0.0, 1.0, 4.0), (size, 1.0, -size)),
-        WindowedLoad(PointForce(crank, "A", size * 1j), crank, AngleRange(0.3, angle)),
-        Friction(follower, "B", abs(size), crank),
+        Drag((follower, "B"), abs(size)),
+        TabulatedLoad(PointForce((follower, "B"), 1j), crank, (0.0, 1.0, 4.0), (size, 1.0, -size)),
+        WindowedLoad(PointForce((crank, "A"), size * 1j), crank, AngleRange(0.3, angle)),
+        Friction((follower, "B"), abs(size), crank),
         TorsionSpring("ground", mechanism.moving[1], abs(size), angle, 0.1),
     ]
     return [
-        Spring("ground", fixed, crank, "A", 10.0, 0.05, 0.1),
+        Spring(("ground", fixed), (crank, "A"), 10.0, 0.05, 0.1),
         *(load for k, load in enumerate(every) if chosen >> k & 1),
     ]
 

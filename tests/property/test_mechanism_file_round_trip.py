@@ -173,18 +173,18 @@ def loads(draw):
     force = complex(draw(AMOUNT), draw(AMOUNT))
     at = draw(RISING)
     plain = (
-        PointForce(*spot, force),
-        FollowerForce(*spot, force),
+        PointForce(spot, force),
+        FollowerForce(spot, force),
         Torque(spot[0], draw(AMOUNT)),
-        Drag(*spot, draw(LEAST)),
-        TabulatedLoad(PointForce(*spot, 1j), "crank", at, tuple(draw(AMOUNT) for _ in at)),
+        Drag(spot, draw(LEAST)),
+        TabulatedLoad(PointForce(spot, 1j), "crank", at, tuple(draw(AMOUNT) for _ in at)),
         TabulatedLoad(Torque(spot[0], 1.0), None, at, tuple(draw(AMOUNT) for _ in at), turns=False),
     )
     window = AngleRange(draw(AMOUNT), draw(AMOUNT))
     springs = (
-        Spring("ground", "B0", *spot, draw(LEAST), draw(LEAST), draw(LEAST)),
+        Spring("ground.B0", spot, draw(LEAST), draw(LEAST), draw(LEAST)),
         TorsionSpring("ground", spot[0], draw(LEAST), draw(AMOUNT), draw(LEAST)),
-        Friction(*spot, draw(LEAST), "crank", draw(st.sampled_from([None, window]))),
+        Friction(spot, draw(LEAST), "crank", draw(st.sampled_from([None, window]))),
     )
     one = draw(st.sampled_from([*plain, *springs]))
     return WindowedLoad(one, "crank", window) if one in plain and draw(st.booleans()) else one

@@ -59,7 +59,7 @@ class Tree:
 
     def machine(self) -> OwnMachine:
         loads = [
-            NamedLoad(f"f {name}", PointForce(name, "tool", complex(f)))
+            NamedLoad(f"f {name}", PointForce((name, "tool"), complex(f)))
             for name, f in zip(self.names, self.force, strict=True)
         ]
         loads += [

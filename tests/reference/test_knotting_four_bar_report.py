@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ilmek.dynamics.attached import attached
 from ilmek.machines.knotting_four_bar import KnottingFourBar, KnottingFourBarParams, design
 from ilmek.machines.knotting_four_bar.posed import COUPLER_ANGLES, POINTS
 from ilmek.units import deg, g, mm, turn
@@ -76,7 +75,7 @@ def test_accelerations_of_the_mass_centres() -> None:
     motion = quoted().at.motion
     # The report, in mm: 22820 - 1080517 j and -461371 + 2159320 j, from its alpha2 and with G2 at mid-link.
     for body, right in (("coupler", -1061.15086 + 4945.73643j), ("rocker", -431.052138 + 2009.03712j)):
-        found = attached(motion, body, quoted().inertias[body].centre).acceleration
+        found = motion.carried(body, quoted().inertias[body].centre).acceleration
         assert complex(found[0]) == pytest.approx(right, abs=5e-4)
 
 

@@ -78,7 +78,7 @@ def loaded_link(force):
     """The coupler of a standing square four-bar, with a force across its middle."""
     mechanism = four_bar(0.5, 0.2, 0.5, 0.2, branch=1)
     motion = solve(plan(mechanism), np.array([math.pi / 2]), 0.0)
-    loads = (PointForce("coupler", 0.25 + 0j, lambda it: force * 1j * it.direction("coupler")),)
+    loads = (PointForce(("coupler", 0.25 + 0j), lambda it: force * 1j * it.direction("coupler")),)
     found = internal_forces(inverse(motion, {}, loads), "coupler", {}, loads)
     assert len(found.beams) == 2
     # Both halves as one beam.
@@ -120,7 +120,7 @@ def test_a_pin_in_a_fork_by_hand():
     """F = 12 kN, d = 20 mm, l = 30 mm, cheeks of 15 mm: τ 19.1 MPa, σ 114.6 MPa, p 20 MPa, by hand."""
     mechanism = four_bar(0.5, 0.2, 0.5, 0.2, branch=1)
     motion = solve(plan(mechanism), np.array([1.2, 1.3]), 2.0)
-    loads = (PointForce("rocker", "B", lambda it: 12000 * it.direction("coupler")),)
+    loads = (PointForce("rocker.B", lambda it: 12000 * it.direction("coupler")),)
     duty = pin_duty(inverse(motion, {}, loads), "A")
     found = pin_strength(duty, 0.020, 0.030)
     assert found.force == pytest.approx(12000, rel=1e-9)

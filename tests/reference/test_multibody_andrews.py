@@ -56,7 +56,7 @@ def squeezer() -> System:
         tuple(Pin(*pin) for pin in pins),
         {n: Inertia(m, complex(c), i) for n, m, c, i in zip(names, MASS, centres, MOMENT, strict=True)},
         {n: BodyState(complex(o), t) for n, o, t in zip(names, origins, turns, strict=True)},
-        loads=(Spring("K3", "D", GROUND, "C", 4530.0, 0.07785), BodyTorque("K1", TORQUE)),
+        loads=(Spring("K3.D", (GROUND, "C"), 4530.0, 0.07785), BodyTorque("K1", TORQUE)),
         name="squeezing mechanism",
     )
 

@@ -42,7 +42,7 @@ def test_a_slider_crank_has_the_forces_of_newton_and_euler_by_hand() -> None:
         slider_crank(r, length, branch=+1),
         {"crank": crank, "rod": rod, "slider": Inertia(mass, 0j, 0.0)},
         gravity=GRAVITY,
-        loads=(NamedLoad("press", PointForce("slider", "B", complex(push))),),
+        loads=(NamedLoad("press", PointForce("slider.B", complex(push))),),
     )
     angle = np.linspace(0, 2 * np.pi, 73)
     found = moved(machine, angle, omega)
@@ -93,7 +93,7 @@ def test_jansens_leg_needs_the_torque_of_virtual_power() -> None:
         body: Inertia(0.1 * (k + 1), complex(np.mean(list(mechanism.body(body).points.values()))), 1e-5 * (k + 1))
         for k, body in enumerate(mechanism.moving)
     }
-    foot = NamedLoad("ground", PointForce("leg", "F", 12 + 30j))
+    foot = NamedLoad("ground", PointForce("leg.F", 12 + 30j))
     machine = OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=(foot,))
     speed, samples = 7.0, 1024
     angle = np.arange(samples) * 2 * np.pi / samples
@@ -233,7 +233,7 @@ def test_a_class_three_mechanism_has_the_forces_of_all_equations_at_once() -> No
         body: Inertia(1.0 + k, complex(np.mean(list(mechanism.body(body).points.values()))) + 0.1j, 0.2 + 0.1 * k)
         for k, body in enumerate(mechanism.moving)
     }
-    loads = (NamedLoad("work", PointForce("plate", "P", 50 - 20j)), NamedLoad("brake", Torque("left", -3.0)))
+    loads = (NamedLoad("work", PointForce("plate.P", 50 - 20j)), NamedLoad("brake", Torque("left", -3.0)))
     compare(OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=loads), np.linspace(-0.2, 0.25, 13), 3.0)
 
 
@@ -314,7 +314,7 @@ def test_teeth_have_the_forces_of_all_equations_at_once(mechanism: Mechanism, an
     bare = dataclasses.replace(mechanism, couplings=(dataclasses.replace(mesh, pressure_angle=0.0),))
     flanks = []
     for size in (400.0, -400.0):
-        push = PointForce("bar", "R", size * np.exp(0.4j)) if mesh.kind == "rack" else Torque("second", size)
+        push = PointForce("bar.R", size * np.exp(0.4j)) if mesh.kind == "rack" else Torque("second", size)
         loads = (NamedLoad("push", push),)
         compare(OwnMachine(mechanism, inertias, gravity=GRAVITY, loads=loads), values, 6.0)
         along, tooth = (

@@ -296,9 +296,12 @@ CALLS: dict[str, Call] = {
     "point_mass": Call(ilmek.point_mass, (Quantity(2.5, "kg"), PointOf(0.3 + 0.1j))),
     "combined": Call(ilmek.combined, (Other(INERTIAS["rocker"]), Other(ilmek.Inertia(1, 0.1, 0.1)))),
     "Gravity": Call(ilmek.Gravity, (PointOf(1 - 9.81j, "m/s^2"),)),
-    "PointForce": Call(ilmek.PointForce, (FreeText("rocker"), PointOf(0.3 + 0.1j), PointOf(1 - 2j, "N"))),
+    "PointForce": Call(
+        lambda body, local, force: ilmek.PointForce((body, local), force),
+        (FreeText("rocker"), PointOf(0.3 + 0.1j), PointOf(1 - 2j, "N")),
+    ),
     "PointForce at a point": Call(
-        lambda body, point, force: ilmek.inverse_dynamics(motion(), {}, [ilmek.PointForce(body, point, force)]),
+        lambda body, point, force: ilmek.inverse_dynamics(motion(), {}, [ilmek.PointForce((body, point), force)]),
         (
             Named("rocker"),
             Other("E", wrong=("F", "", [], "1mm")),
@@ -310,9 +313,13 @@ CALLS: dict[str, Call] = {
         lambda body, torque: ilmek.inverse_dynamics(motion(), {}, [ilmek.Torque(body, torque)]),
         (Named("rocker"), Other(5.0, wrong=(np.ones(3), lambda _: None, lambda _: np.ones(4), "5m"))),
     ),
-    "Spring": Call(ilmek.Spring, tuple(FreeText(name) for name in ("ground", "S", "rocker", "E")), SPRING),
+    "Spring": Call(
+        lambda *ends, **more: ilmek.Spring(ends[:2], ends[2:], **more),
+        tuple(FreeText(name) for name in ("ground", "S", "rocker", "E")),
+        SPRING,
+    ),
     "Spring in dynamics": Call(
-        lambda *ends: ilmek.inverse_dynamics(motion(), {}, [ilmek.Spring(*ends, 200.0, 0.1)]),
+        lambda *ends: ilmek.inverse_dynamics(motion(), {}, [ilmek.Spring(ends[:2], ends[2:], 200.0, 0.1)]),
         (Named("ground"), Named("A0"), Named("rocker"), Named("E")),
     ),
     "inverse_dynamics": Call(
@@ -556,7 +563,14 @@ CALLS: dict[str, Call] = {
     "judged": Call(
         ilmek.judged,
         (Other(four_bar()),),
-        dict(by=Other("crank", True, ("rocker", "", 3)), locked=Other({}, wrong=NO_LOCKED)),
+        dict(
+            by=Other("crank", True, ("rocker", "", 3)),
+            locked=Other({}, wrong=NO_LOCKED),
+            inertias=Other(INERTIAS, wrong=WRONG_INERTIAS[1:]),
+            loads=Other((GRAVITY,), wrong=(GRAVITY, (3,), ilmek.Gravity)),
+            joint_frictions=Other((PinFriction("B", 0.01, 0.1),), wrong=((GRAVITY,),)),
+            speed=Quantity(10.0, "rad/s"),
+        ),
     ),
     "Motion.plot": Call(
         lambda name, over: motion().plot(name, over=over), (Named("rocker angle"), Other("crank", True, ("x", "", 3)))
@@ -640,7 +654,18 @@ CALLS: dict[str, Call] = {
         dict(time_limit=Quantity(1.0, "s"), progress=Other(ilmek.Progress())),
         long=True,
     ),
+    "Chart.of": Call(
+        ilmek.Chart.of,
+        (
+            Other(KNOTS, equal=tuple(KNOTS.astype(kind) for kind in KINDS), wrong=WRONG_KNOTS),
+            Other(ilmek.read_yarns()[:2], wrong=(("red", "blue"),)),
+            Other("30x40cm", wrong=("30x40", 3, (0.3, 0.4))),
+            Other("10x10/dm", wrong=("x", 3)),
+            Named("symmetric"),
+        ),
+    ),
     "list_machines": Call(ilmek.list_machines),
+    "parameters": Call(ilmek.parameters, (Named("beat-up"),)),
     "design": Call(
         ilmek.design,
         (Named("beat-up"), Other({"beta": "48deg"}, wrong=({1: 2}, [1], {"beta": "48m"}, {"beta": np.zeros(2)}))),

@@ -66,7 +66,7 @@ def by_crank(motion: Motion) -> Motion:
 def forces_of(
     motion: Motion, actuators: tuple[str, ...] = (), frictions: tuple[JointFriction, ...] = (), side: float = 1.0
 ) -> Forces:
-    loads: list[Load] = [Gravity(-9.81j), PointForce("coupler", "C", 3 - 5j)]
+    loads: list[Load] = [Gravity(-9.81j), PointForce("coupler.C", 3 - 5j)]
     inertias = {
         "crank": Inertia(0.3, 0.04, 2e-4),
         "coupler": Inertia(0.5, 0.1 + 0.01j, 1.7e-3),

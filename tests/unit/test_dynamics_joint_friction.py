@@ -49,7 +49,7 @@ def face(coefficient: float) -> tuple[SlideFriction, ...]:
 @pytest.mark.parametrize("tilt", [0.2, 0.5, 0.9])
 def test_a_wedge_pushes_by_the_angle_of_friction(tilt: float) -> None:
     friction_angle = 0.3
-    forces = inverse(wedge(tilt), {}, (PointForce("follower", "knuckle", -100j),), face(np.tan(friction_angle)))
+    forces = inverse(wedge(tilt), {}, (PointForce("follower.knuckle", -100j),), face(np.tan(friction_angle)))
     # Pushed under the load by tan(tilt + rho), drawn out with tan(tilt - rho) of it holding back: inclined plane.
     sign = np.sign(wedge(tilt).point("follower", "knuckle").velocity.imag)
     assert sorted(sign) == [-1, 1]
@@ -61,7 +61,7 @@ def test_a_wedge_pushes_by_the_angle_of_friction(tilt: float) -> None:
 def test_friction_in_the_guide_too_by_hand() -> None:
     tilt, mu, nu = 0.4, 0.2, 0.15
     rubbing = (*face(mu), SlideFriction("guide", 0.1, nu))
-    forces = inverse(wedge(tilt), {}, (PointForce("follower", "knuckle", -100j),), rubbing)
+    forces = inverse(wedge(tilt), {}, (PointForce("follower.knuckle", -100j),), rubbing)
     lifted = wedge(tilt).point("follower", "knuckle").velocity.imag > 0
     # The face's resultant R stands at tilt + rho to the vertical: R cos = load + nu R sin.
     rho = np.arctan(mu)
@@ -75,7 +75,7 @@ def test_beyond_a_friction_a_wedge_locks(nu: float, locks: bool) -> None:
     tilt, mu = 0.4, 0.15  # cos(tilt + rho) = nu sin(tilt + rho) at nu = 1 / tan(0.5489) = 1.636
     rubbing = (*face(mu), SlideFriction("guide", 0.1, nu))
     motion = wedge(tilt)
-    forces = inverse(motion, {}, (PointForce("follower", "knuckle", -100j),), rubbing)
+    forces = inverse(motion, {}, (PointForce("follower.knuckle", -100j),), rubbing)
     lifted = motion.point("follower", "knuckle").velocity.imag > 0
     assert (forces.status[lifted] == Status.NOT_CONVERGED).all() == locks
     assert np.isnan(forces.effort("drive")[lifted]).all() == locks
@@ -108,7 +108,7 @@ def drawer(breadth: float, coefficient: float, speed: float = 1.0) -> tuple[Moti
 
 @pytest.mark.parametrize("speed", [1.0, -1.0])
 def test_a_drawer_pulled_aside_jams_by_its_breadth(speed: float) -> None:
-    drag = PointForce("drawer", "rail", -10.0 * np.sign(speed))
+    drag = PointForce("drawer.rail", -10.0 * np.sign(speed))
     for breadth, mu in ((0.5, 0.2), (0.25, 0.4), (0.2, 0.3)):
         motion, rubbing = drawer(breadth, mu, speed)
         forces = inverse(motion, {}, (drag,), rubbing)
@@ -162,7 +162,7 @@ def test_the_limit_of_a_pin_changes_with_the_size_of_its_force(size: float) -> N
 
 def test_friction_turns_round_with_its_joint_and_has_a_limit_on_either_side() -> None:
     motion = solve(plan(slider_crank(0.1, 0.3, branch=+1)), np.array([np.pi, np.pi]), 10.0)
-    load = (PointForce("slider", "B", 20j),)
+    load = (PointForce("slider.B", 20j),)
     forces = inverse(motion, {}, load, (SlideFriction("line", 0.1, 0.25),), side=np.array([-1.0, 1.0]))
     np.testing.assert_allclose(forces.frictions["line"], [5.0, -5.0], rtol=1e-9)
 

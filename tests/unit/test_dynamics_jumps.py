@@ -77,7 +77,7 @@ def test_windows(start: float, end: float, inside: tuple[float, ...], outside: t
 def rubbed(angle: FloatArray, speed: float, **kinds: object) -> tuple[FloatArray, FloatArray]:
     """Force on a slider against its motion, and the drive's power less what the friction takes."""
     motion = solve(plan(slider_crank(0.1, 0.3, branch=+1)), angle, speed)
-    friction = Friction("slider", "B", 50.0, "crank", **kinds)  # type: ignore[arg-type]
+    friction = Friction("slider.B", 50.0, "crank", **kinds)  # type: ignore[arg-type]
     forces = inverse(motion, {"slider": Inertia(0.0, 0j, 0.0)}, (friction,))
     force = np.real(friction.force(motion))
     velocity = np.real(motion.point("slider", "B").velocity)

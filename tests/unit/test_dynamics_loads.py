@@ -38,7 +38,7 @@ def arm(angle: np.ndarray, speed: float) -> Motion:
 
 def test_a_spring_pulls_along_itself() -> None:
     travel = np.array([0.0, 0.4])  # 0.3 m and 0.5 m long
-    forces = inverse(carriage(travel, 0.0), {}, (Spring(GROUND, "hook", "carriage", "line", 200.0, 0.25),))
+    forces = inverse(carriage(travel, 0.0), {}, (Spring((GROUND, "hook"), "carriage.line", 200.0, 0.25),))
     pull = np.array([200 * 0.05, 200 * 0.25])
     np.testing.assert_allclose(forces.effort("line"), pull * np.array([0.0, 0.8]), atol=1e-12)
     np.testing.assert_allclose(forces.pin("line"), -1j * pull * np.array([1.0, 0.6]), atol=1e-12)
@@ -46,7 +46,7 @@ def test_a_spring_pulls_along_itself() -> None:
 
 def test_a_damper_takes_the_power_that_the_drive_gives() -> None:
     motion = carriage(np.array([0.4]), 2.0)
-    forces = inverse(motion, {}, (Spring("carriage", "line", GROUND, "hook", 0.0, 0.0, damping=30.0),))
+    forces = inverse(motion, {}, (Spring("carriage.line", (GROUND, "hook"), 0.0, 0.0, damping=30.0),))
     np.testing.assert_allclose(forces.input_power, 30.0 * (2.0 * 0.8) ** 2, rtol=1e-13)
     assert forces.power_error < 1e-14
 
@@ -64,7 +64,7 @@ def test_a_torsion_spring_counts_the_turns_of_the_input(turns: float) -> None:
 def test_a_spring_between_moving_bodies_balances_within() -> None:
     crank = slider_crank(0.1, 0.3, branch=+1)
     motion = solve(plan(crank), np.linspace(0, 6, 30), 10.0)
-    springs = (Spring("crank", "A", "slider", "B", 500.0, 0.2, 3.0), TorsionSpring("crank", "rod", 5.0, 0.3, 0.1))
+    springs = (Spring("crank.A", "slider.B", 500.0, 0.2, 3.0), TorsionSpring("crank", "rod", 5.0, 0.3, 0.1))
     forces = inverse(motion, {}, springs)
     assert forces.power_error < 1e-13
     held = forces.pin("A0", on="crank") + forces.pin("line")
@@ -77,7 +77,7 @@ def test_a_load_in_a_window_has_a_value_on_either_side_of_its_ends() -> None:
     load = WindowedLoad(Torque("arm", lambda motion: 7.0 * motion.angle("arm")), "arm", AngleRange(1.0, 2.0), side)
     forces = inverse(arm(ends, 1.0), {}, (load,))
     np.testing.assert_allclose(forces.effort("arm"), [0, -7.0, -10.5, -14.0, 0, 0], atol=1e-12)
-    push = WindowedLoad(PointForce("arm", "tip", 5j), "arm", AngleRange(1.0, 2.0))
+    push = WindowedLoad(PointForce("arm.tip", 5j), "arm", AngleRange(1.0, 2.0))
     at_middle = inverse(arm(np.array([1.5]), 1.0), {}, (push,))
     np.testing.assert_allclose(at_middle.effort("arm"), -5.0 * 0.2 * np.cos(1.5), rtol=1e-12)
 
@@ -85,7 +85,7 @@ def test_a_load_in_a_window_has_a_value_on_either_side_of_its_ends() -> None:
 @pytest.mark.parametrize("numbers", [(-1.0, 0.1, 0.0), (1.0, np.nan, 0.0), (1.0, 0.1, -2.0)])
 def test_springs_of_impossible_numbers_are_refused(numbers: tuple[float, float, float]) -> None:
     with pytest.raises(MechanismError, match="of a spring is"):
-        Spring("a", "p", "b", "q", *numbers)
+        Spring("a.p", "b.q", *numbers)
 
 
 def summed(inside: np.ndarray, at: np.ndarray, cell: float) -> Inertia:

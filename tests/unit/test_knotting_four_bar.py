@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 
-from ilmek.dynamics.attached import attached
 from ilmek.errors import IlmekError, MechanismError, ParameterError
 from ilmek.machines.catalogue import MACHINES
 from ilmek.machines.knotting_four_bar import MACHINE, KnottingFourBarParams, design
@@ -117,7 +116,7 @@ def test_figures_are_two_drawings_and_curves_over_the_range() -> None:
     for plot in plots:
         assert isinstance(plot, Plot)
         assert all(np.isfinite(series.y).all() for series in plot.series)
-    hand = attached(made.at.motion, "coupler", complex(made.params.hand)).position[0]
+    hand = made.at.motion.carried("coupler", complex(made.params.hand)).position[0]
     assert np.abs(quoted.strokes[0].points - hand).min() < 1 * mm
 
 

@@ -108,9 +108,9 @@ def test_every_table_is_read() -> None:
     assert table.factor(np.radians([0, 45, 135, 270, 405])) == pytest.approx([0, 50, 50, 0, 50])
     assert isinstance(load(machine, "t"), Torque)
     assert isinstance(load(machine, "f"), Friction)
-    assert load(machine, "d") == Drag("ram", "B", 5.0)
-    assert load(machine, "bf") == FollowerForce("rod", "B", 3 + 0j)
-    assert load(machine, "s") == Spring("ground", "S", "ram", "B", 2000.0, 0.08, 3.0)
+    assert load(machine, "d") == Drag("ram.B", 5.0)
+    assert load(machine, "bf") == FollowerForce("rod.B", 3 + 0j)
+    assert load(machine, "s") == Spring("ground.S", "ram.B", 2000.0, 0.08, 3.0)
     assert load(machine, "ts") == TorsionSpring("ground", "rod", 2 / (math.pi / 180))
     assert load(machine, "dd") == TorsionSpring("crank", "rod", 0.0, 0.0, 0.1)
     assert machine.frictions == (PinFriction("A", 0.008, 0.1), SlideFriction("guide", 0.06, 0.1, 1.0))
@@ -310,7 +310,7 @@ def test_a_load_that_is_a_function_cannot_be_written() -> None:
         return float(len(motion))
 
     mechanism = four_bar(0.3, 0.06, 0.2, 0.23, branch=1)
-    machine = OwnMachine(mechanism, loads=(NamedLoad("wind", PointForce("rocker", "B", force)),))
+    machine = OwnMachine(mechanism, loads=(NamedLoad("wind", PointForce("rocker.B", force)),))
     with pytest.raises(MechanismError, match="load 'wind' is a function that no file expresses"):
         mechanism_toml(machine)
 

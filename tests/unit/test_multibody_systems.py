@@ -78,13 +78,13 @@ def test_pin_forces_are_those_of_inverse_dynamics() -> None:
 def oscillator(damping: float = 0.0, force: complex = 0j) -> System:
     """A block of 2 kg on a line at 30 degrees, held by a spring along it."""
     line = math.pi / 6
-    spring = Spring(GROUND, "S", "block", "eye", 800.0, 0.1, damping)
+    spring = Spring((GROUND, "S"), "block.eye", 800.0, 0.1, damping)
     return System(
         (Body(GROUND, {"S": 0.5j}), BLOCK),
         (Slide("S", "block", GROUND, along=line),),
         {"block": Inertia(2.0, 0.05 + 0.02j, 0.1)},
         {"block": BodyState(0.5j + 0.07 * np.exp(1j * line), 2 * math.pi, 0j, 0.0)},
-        loads=(replace(spring, second_point="S", length=0.05), BodyForce("block", "eye", force)),
+        loads=(replace(spring, second="block.S", length=0.05), BodyForce("block", "eye", force)),
     )
 
 

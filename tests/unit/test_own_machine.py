@@ -257,7 +257,7 @@ def test_two_drives_share_the_work() -> None:
 
 
 def test_where_friction_locks_the_mechanism_a_check_fails() -> None:
-    load = NamedLoad("push", PointForce("slider", "B", -100 + 0j))
+    load = NamedLoad("push", PointForce("slider.B", -100 + 0j))
     found = analysed(machine(loads=(load,), frictions=(SlideFriction("line", 0.001, 30.0),)), speed="10rpm")
     check = next(one for one in found.checks if not one.ok)
     assert check.name == "not self-locking"

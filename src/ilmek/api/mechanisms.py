@@ -4,6 +4,7 @@ from __future__ import annotations  # so that `help` shows the aliases
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,17 +24,19 @@ from ilmek.io.mechanism_file import MechanismFile
 from ilmek.linkage import fourbar
 from ilmek.linkage import solve as linkage
 from ilmek.linkage.drawing import as_drawn
+from ilmek.linkage.joints import body_point
 from ilmek.linkage.model import Input, Mechanism, Rotation
 from ilmek.linkage.motion import Motion
 from ilmek.linkage.structure import Plan, plan
+from ilmek.synthesis.result import FourBarSolution
 
 Values = Quantities | Mapping[str, Quantities]
 """Values of the only input, or of several by name."""
 
-BodyPoints = Mapping[str, Mapping[str, Point]]
-"""Body -> further points of it by name."""
+BodyPoints = Mapping[str, Point] | Mapping[str, Mapping[str, Point]]
+"""Further points: "body.point" -> position in the body's frame [m]; or body -> points by name."""
 
-Solvable = Mechanism | MechanismFile | Plan
+Solvable = Mechanism | MechanismFile | Plan | FourBarSolution[Any]
 """What can be moved. A plan saves its own search where the same mechanism is solved many times."""
 
 ANY_ANGLE = "`ilmek.linkage.solve.solve`"
@@ -53,14 +56,14 @@ def four_bar(
     """A four-bar driven by its crank, from link lengths [m]; pins A0, A, B, B0 with A0 at the origin, B0 on x.
 
     branch  +1: pin B on the left of A -> B0 (default), -1: on the right
-    points  further points [m] by body (ground, crank, coupler, rocker), in the frame at the body's first pin with x
-            to the second: `{"rocker": {"E": 0.3}}`
+    points  further points of ground, crank, coupler, rocker [m], in the frame at the body's first pin with x to the
+            second: `{"rocker.E": 0.3}`
 
     Raises MechanismError for a length that is not above zero or was probably meant in millimetres, and for points of
     an unknown body.
 
-    >>> beat_up = four_bar(0.300, 0.060, 0.200, "230mm", points={"coupler": {"P": (0.1, 0.05)}})
-    >>> beat_up.point("coupler", "P")
+    >>> beat_up = four_bar(0.300, 0.060, 0.200, "230mm", points={"coupler.P": (0.1, 0.05)})
+    >>> beat_up.point("coupler.P")
     (0.1+0.05j)
     """
     given = Arguments("a four-bar", MechanismError)
@@ -86,7 +89,7 @@ def slider_crank(
     """A slider-crank driven by its crank, from lengths [m]; crank A0-A, rod A-B, slider at B on the line y = offset.
 
     branch  +1: the slider on the side of +x (default), -1: on the other
-    points  further points [m] by body (ground, crank, rod, slider), as of `four_bar`
+    points  further points of ground, crank, rod, slider [m], as of `four_bar`
 
     Raises MechanismError as `four_bar`.
 
@@ -106,14 +109,13 @@ def slider_crank(
 
 def _further_points(given: Arguments, points: object, bodies: Sequence[str]) -> dict[str, dict[str, complex]]:
     """Points by body and name [m], of the bodies of a mechanism alone."""
-    if points is None:
-        return {}
-
-    def of_body(name: str, table: object) -> dict[str, complex]:
-        return given.mapping(name, table, given.near_point)
-
-    tables = given.mapping("points", points, of_body)
-    return {given.one_of("a body in points", body, bodies): table for body, table in tables.items()}
+    tables: dict[str, dict[str, complex]] = {}
+    for name, value in given.mapping("points", {} if points is None else points, lambda _, value: value).items():
+        by_body = isinstance(value, Mapping)
+        body, point = (name, "") if by_body else body_point(given, "a key of points", name)
+        table = given.mapping(name, value if by_body else {str(point): value}, given.near_point)
+        tables.setdefault(given.one_of("a body in points", body, bodies), {}).update(table)
+    return tables
 
 
 def read_mechanism(path: str | Path) -> MechanismFile:
@@ -145,7 +147,7 @@ def write_mechanism(
     given.record("mechanism", mechanism, (Mechanism, OwnMachine))
     if isinstance(mechanism, OwnMachine) and inertias:
         raise MechanismError("inertias are given beside a machine", do="put them into the machine")
-    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, _inertias(inertias or {}))
+    machine = mechanism if isinstance(mechanism, OwnMachine) else OwnMachine(mechanism, as_inertias(inertias or {}))
     mechanism_file.write_mechanism(file, machine)
 
 
@@ -219,22 +221,27 @@ def inverse_dynamics(
     """
     given = Arguments("inverse dynamics", MechanismError)
     moved = given.record("motion", motion, Motion)
-    acting = _loads(given, loads)
-    rubbing: tuple[JointFriction, ...] = given.sequence(
-        "joint_frictions", joint_frictions, (PinFriction, SlideFriction)
-    )
+    acting = as_loads(given, loads)
+    rubbing = as_frictions(given, joint_frictions)
     if not acting and not any(np.any(drive.speed) or np.any(drive.acceleration) for drive in moved.drives.values()):
         raise MechanismError(
             "the motion is at rest and no load acts: all forces are 0", do="give solve a speed, or give loads"
         )
-    return inverse.inverse(moved, _inertias(inertias), acting, rubbing)
+    return inverse.inverse(moved, as_inertias(inertias), acting, rubbing)
 
 
-def _loads(given: Arguments, loads: object) -> tuple[Load, ...]:
+def as_loads(given: Arguments, loads: object) -> tuple[Load, ...]:
+    """Loads of a call. Raises MechanismError for another object."""
     return given.sequence("loads", loads, Load)
 
 
-def _inertias(inertias: object) -> dict[str, Inertia]:
+def as_frictions(given: Arguments, frictions: object) -> tuple[JointFriction, ...]:
+    """Frictions of joints of a call. Raises MechanismError for another object."""
+    return given.sequence("joint_frictions", frictions, (PinFriction, SlideFriction))
+
+
+def as_inertias(inertias: object) -> dict[str, Inertia]:
+    """Inertias of a call by body. Raises MechanismError for another object."""
     given = Arguments("", MechanismError)
     return given.mapping("inertias", inertias, lambda name, value: given.record(name, value, Inertia))
 
@@ -279,7 +286,7 @@ def simulate(
         given.turning("position", position, ANY_ANGLE)
     if drive is not None:
         given.function("drive", drive, "time, position and speed")
-    masses, acting = _inertias(inertias), _loads(given, loads)
+    masses, acting = as_inertias(inertias), as_loads(given, loads)
     heavy = given.not_negative("flywheel", flywheel, "kg*m^2" if turning else "kg")
     reduced = reduce(planned, masses, acting, flywheel=heavy)
     return forward.forward(
@@ -301,6 +308,8 @@ def planned_of(mechanism: Solvable) -> Plan:
         return mechanism
     if isinstance(mechanism, MechanismFile):
         return mechanism.plan()
+    if isinstance(mechanism, FourBarSolution):
+        mechanism = mechanism.mechanism
     if not isinstance(mechanism, Mechanism):
         raise MechanismError(
             f"{type(mechanism).__name__} given for a mechanism",

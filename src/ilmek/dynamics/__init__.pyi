@@ -1,3 +1,4 @@
+from ilmek.dynamics.balance import Shaking as Shaking
 from ilmek.dynamics.flywheel import cyclic_torque as cyclic_torque
 from ilmek.dynamics.forward import at_angle as at_angle
 from ilmek.dynamics.forward import at_rest as at_rest
@@ -12,10 +13,12 @@ from ilmek.dynamics.inertia import point_mass as point_mass
 from ilmek.dynamics.inverse import Forces as Forces
 from ilmek.dynamics.joint_friction import PinFriction as PinFriction
 from ilmek.dynamics.joint_friction import SlideFriction as SlideFriction
+from ilmek.dynamics.judged import JudgedMachine as JudgedMachine
 from ilmek.dynamics.loads import Gravity as Gravity
 from ilmek.dynamics.loads import Load as Load
 from ilmek.dynamics.loads import PointForce as PointForce
 from ilmek.dynamics.loads import Torque as Torque
+from ilmek.dynamics.machine_balance import MachineBalance as MachineBalance
 from ilmek.dynamics.reduced import ReducedMechanism as ReducedMechanism
 from ilmek.dynamics.reduced import reduce as reduce
 from ilmek.dynamics.shapes import disc as disc

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.crank_figures import CRANK
 from ilmek.linkage.model import GROUND, Pin, Slide
 from ilmek.linkage.motion import Motion
@@ -88,7 +87,7 @@ def _hidden(motion: Motion) -> dict[str, str]:
 
 
 def _track(motion: Motion, body: str, point: str) -> ComplexArray:
-    return attached(motion, body, motion.plan.mechanism.point(body, point)).position
+    return motion.carried(body, motion.plan.mechanism.point(body, point)).position
 
 
 def _pivots(motion: Motion, named: Naming) -> tuple[Dot, ...]:
@@ -121,7 +120,7 @@ def _ranges(motion: Motion) -> Iterator[_Range]:
     for slide in mechanism.joints:
         if isinstance(slide, Slide):
             point = mechanism.point(slide.guide, slide.name)
-            away = _track(motion, slide.body, slide.name) - attached(motion, slide.guide, point).position
+            away = _track(motion, slide.body, slide.name) - motion.carried(slide.guide, point).position
             along = complex(unit(slide.along))
             shift = np.asarray(dot(motion.direction(slide.guide) * along, away))
             more = BEYOND * (shift.max() - shift.min())
@@ -157,7 +156,7 @@ def _bars(motion: Motion, named: Naming, traces: Sequence[tuple[str, str]]) -> I
         local += [end for one in ranges if one.slide.guide == body for end in (one.least, one.most)]
         corners = _corners(np.array(local))
         if len(corners) > 1:
-            points = np.column_stack([attached(motion, body, complex(corner)).position for corner in corners])
+            points = np.column_stack([motion.carried(body, complex(corner)).position for corner in corners])
             role = "outline" if body in sliding else "link"
             yield MovingStroke(points, role, named(body), closed=len(corners) > 2)
 
@@ -170,10 +169,7 @@ def _wheels(motion: Motion, named: Naming) -> Iterator[MovingStroke]:
     """
     mechanism, drawn = motion.plan.mechanism, set()
     for coupling in mechanism.couplings:
-        middles = [
-            attached(motion, body, mechanism.point(body, point)).position
-            for body, point in (coupling.first, coupling.second)
-        ]
+        middles = [motion.carried(body, mechanism.point(body, point)).position for body, point in coupling.ends]
         if coupling.kind == "rack":
             radii: list[float] = [abs(coupling.ratio)]
         elif coupling.kind == "gears" and coupling.ratio != 1:
@@ -181,7 +177,7 @@ def _wheels(motion: Motion, named: Naming) -> Iterator[MovingStroke]:
             radii = [abs(share / (coupling.ratio - 1)) * apart for share in (coupling.ratio, 1.0)]
         else:
             radii = []
-        for (body, point), middle, radius in zip((coupling.first, coupling.second), middles, radii, strict=False):
+        for (body, point), middle, radius in zip(coupling.ends, middles, radii, strict=False):
             key = (body, point, round(radius / SAME))
             if key not in drawn:
                 drawn.add(key)

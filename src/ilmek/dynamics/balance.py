@@ -15,7 +15,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, NumberArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia, combined, point_mass
 from ilmek.dynamics.inverse import Forces
 from ilmek.dynamics.pose_block import pose_block
@@ -43,7 +42,7 @@ def shaking(motion: Motion, inertias: Mapping[str, Inertia], about: complex = 0j
     force, moment = np.zeros(motion.status.shape, complex), np.zeros(motion.status.shape)
     with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
         for body, inertia in inertias.items():
-            centre = attached(motion, body, inertia.centre)
+            centre = motion.carried(body, inertia.centre)
             change = inertia.mass * centre.acceleration
             force = force - change
             moment = moment - cross(centre.position - about, change) - inertia.moment * motion.alpha(body)

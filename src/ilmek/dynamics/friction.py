@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import BoolArray, ComplexArray, FloatArray, RealField
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record
 from ilmek.units import turn
@@ -84,20 +84,21 @@ class WindowedLoad:
 class Friction:
     """A force of given magnitude on a point of a body, against its velocity, while an input is in a range.
 
-    body        name of the body
-    point       name of the point, or its position in the body's frame [m]
+    on          the point of the body, "body.point"
     magnitude   [N], a number or one value per sample
     input_name  name of the input; it must move
     window      range of the input's angle [rad]; default: the whole turn
     side        at a jump: +1 the force further on in the input, -1 further back; a number or one per sample
     """
 
-    body: str
-    point: str | complex
+    on: FreePoint
     magnitude: RealField
     input_name: str
     window: AngleRange | ValueRange | None = None
     side: RealField = 1.0
+
+    def __post_init__(self) -> None:
+        set_points(self, "on")
 
     def force(self, motion: Motion) -> ComplexArray:
         """The force [N], one value per sample: - magnitude v/|v|, with v the velocity on the given `side`; 0 at v = 0.
@@ -108,10 +109,10 @@ class Friction:
         speed = np.asarray(drive.speed, dtype=float)
         if not speed.all():
             raise MechanismError(
-                f"friction on {self.body!r} has no direction: {self.input_name} does not move",
+                f"friction on {self.on!r} has no direction: {self.input_name} does not move",
                 do="give the input a speed",
             )
-        moved = attached(motion, self.body, self._local(motion))
+        moved = motion.carried(*motion.plan.mechanism.located(self.on))
         velocity = moved.velocity + OFFSET * self.side / speed * moved.acceleration
         pace = np.abs(velocity)
         direction = np.divide(velocity, pace, out=np.zeros_like(velocity), where=pace > 0)
@@ -123,7 +124,5 @@ class Friction:
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        yield Wrench(self.body, self.force(motion), self._local(motion))
-
-    def _local(self, motion: Motion) -> complex:
-        return motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point
+        body, local = motion.plan.mechanism.located(self.on)
+        yield Wrench(body, self.force(motion), local)

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.friction import AngleRange, Friction, WindowedLoad
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Load, Wrench
 from ilmek.errors import MechanismError
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record
 from ilmek.units import turn
@@ -20,33 +20,35 @@ from ilmek.units import turn
 class FollowerForce:
     """A follower force [N] on a point of a body: constant in the body's frame, it turns with the body."""
 
-    body: str
-    point: str
+    on: FreePoint
     force: complex
+
+    def __post_init__(self) -> None:
+        set_points(self, "on")
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        local = motion.plan.mechanism.point(self.body, self.point)
-        yield Wrench(self.body, self.force * motion.direction(self.body), local)
+        body, local = motion.plan.mechanism.located(self.on)
+        yield Wrench(body, self.force * motion.direction(body), local)
 
 
 @dataclass(frozen=True, slots=True)
 class Drag:
     """Viscous resistance on a point of a body: F = -c v, with its velocity v; c [N s/m], not negative."""
 
-    body: str
-    point: str
+    on: FreePoint
     coefficient: float
 
     def __post_init__(self) -> None:
+        set_points(self, "on")
         if not 0 <= self.coefficient < np.inf:
-            given = f"drag of {self.body!r} is {self.coefficient:g}"
+            given = f"drag on {self.on!r} is {self.coefficient:g}"
             raise MechanismError(given, allowed="finite and not negative")
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        local = motion.plan.mechanism.point(self.body, self.point)
-        yield Wrench(self.body, -self.coefficient * attached(motion, self.body, local).velocity, local)
+        body, local = motion.plan.mechanism.located(self.on)
+        yield Wrench(body, -self.coefficient * motion.carried(body, local).velocity, local)
 
 
 @record

@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.balance import Shaking, on_frame, shaking
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import MASSLESS, Forces, inverse, joint_rate
@@ -210,7 +209,7 @@ def _misfit(
         for load in loads:
             for wrench in load.wrenches(motion, bodies):
                 if wrench.body != GROUND:
-                    at = attached(motion, wrench.body, wrench.at).position
+                    at = motion.carried(wrench.body, wrench.at).position
                     turning = cross(at - ABOUT, np.asarray(wrench.force)) + wrench.torque
                     force, moment = force + wrench.force, moment + turning
                     size, turn_size = size + np.abs(wrench.force), turn_size + np.abs(turning)

@@ -29,7 +29,8 @@ from ilmek.dynamics.friction import OFFSET
 from ilmek.dynamics.pose_block import ForceAndMoment, JointPoses, PoseBlock, has_teeth
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_motion import carried_acceleration
-from ilmek.linkage.model import BeltSpans, Mechanism, Pin, Slide
+from ilmek.linkage.couplings import BeltSpans
+from ilmek.linkage.model import Mechanism, Pin, Slide
 from ilmek.num.linear import solve_many
 from ilmek.plane.vectors import cross, dot
 

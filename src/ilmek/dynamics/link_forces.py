@@ -170,9 +170,7 @@ def _frame(mechanism: Mechanism, body: str, acting: Iterable[_Acting], points: I
     size = max((abs(point) for point in own.values()), default=0.0) or 1.0
     nodes: dict[str, complex] = {}
     fixed = [joint.name for joint in mechanism.joints if body in _fixed_on(joint)]
-    wheels = (
-        point for coupling in mechanism.couplings for who, point in (coupling.first, coupling.second) if who == body
-    )
+    wheels = (point for coupling in mechanism.couplings for who, point in coupling.ends if who == body)
     named = [(name, mechanism.point(body, name)) for name in (*fixed, *wheels, *points)]
     for name, position in (*named, *(end for one in acting if one.name not in fixed for end in _travel(one, size))):
         if all(abs(position - other) > SAME * size for other in nodes.values()):

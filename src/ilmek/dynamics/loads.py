@@ -18,6 +18,7 @@ from ilmek.arrays import ComplexField, RealField
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.pose_block import cut
 from ilmek.errors import MechanismError
+from ilmek.linkage.joints import FreePoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.records import record, shown_value
 
@@ -112,32 +113,28 @@ def _fits(shape: tuple[int, ...], samples: tuple[int, ...]) -> bool:
 
 @record
 class PointForce:
-    """A force [N] on a point of a body, given by its name or by its position in the body's frame [m].
+    """A force [N] on a point of a body, "body.point".
 
     The force is complex or (x, y): constant, an array of one per sample (NaN where there is none), or a function of the
     motion.
 
-    >>> PointForce("rocker", "E", (0, -60)).force
+    >>> PointForce("rocker.E", (0, -60)).force
     -60j
     """
 
-    body: str
-    point: str | complex
+    on: FreePoint
     force: ForceLaw
 
     def __post_init__(self) -> None:
         given = Arguments("a point force", MechanismError)
-        object.__setattr__(self, "body", given.text("body", self.body))
-        if not isinstance(self.point, str):
-            object.__setattr__(self, "point", given.point("point", self.point))
+        set_points(self, "on")
         if not callable(self.force):
             object.__setattr__(self, "force", given.vectors("force", self.force, "N"))
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """One wrench."""
-        force = sampled(self.force, motion, self.body)
-        local = motion.plan.mechanism.point(self.body, self.point) if isinstance(self.point, str) else self.point
-        yield Wrench(self.body, force, local)
+        body, local = motion.plan.mechanism.located(self.on)
+        yield Wrench(body, sampled(self.force, motion, body), local)
 
 
 @record

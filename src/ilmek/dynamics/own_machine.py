@@ -15,6 +15,7 @@ from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.joint_friction import JointFriction, PinFriction, SlideFriction
 from ilmek.dynamics.loads import Load, gravity_vector
 from ilmek.errors import MechanismError
+from ilmek.linkage.joints import body_point
 from ilmek.linkage.model import Mechanism
 from ilmek.records import record
 
@@ -163,7 +164,7 @@ class OwnMachine:
     forward    a forward run; None: none
     study      speeds to compare; None: none
     servo      input for which a motor of the catalogue is chosen; None: none
-    paths      (body, point) of each point whose path is drawn and listed; (): all points that are no joints
+    paths      each point, "body.point", whose path is drawn and listed; (): all points that are no joints
     transmission  pins at which the transmission angle is listed; (): every free pin of a dyad
     shapes     body -> the pieces whose inertia it has, where its file gives them with thickness and material
     open_masses  moving bodies whose mass the file does not give: that of their parts, once they are made
@@ -216,8 +217,8 @@ class OwnMachine:
         for name, optional in (("forward", ForwardTask), ("study", SpeedStudy), ("servo", str)):
             if getattr(self, name) is not None:
                 given.record(name, getattr(self, name), optional)
-        paths = given.sequence("paths", self.paths, (tuple, list))
-        object.__setattr__(self, "paths", tuple(given.pair("a path", path, "(body, point)") for path in paths))
+        paths = given.sequence("paths", self.paths, (str, tuple, list))
+        object.__setattr__(self, "paths", tuple(body_point(given, "a path", path) for path in paths))
 
     @property
     def has_forces(self) -> bool:

@@ -185,7 +185,7 @@ def _coupling_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[st
     """
     if coupling.law is not None:
         return _pair_poses(mechanism, coupling, bodies)
-    (first, first_middle), (second, second_middle) = coupling.first, coupling.second
+    (first, first_middle), (second, second_middle) = coupling.ends
     at = bodies[first].carry(mechanism.point(first, first_middle)).position
     joint = mechanism.joint(second_middle) if coupling.kind == "rack" else None
     if isinstance(joint, Slide):
@@ -213,7 +213,7 @@ def _pair_poses(mechanism: Mechanism, coupling: Coupling, bodies: Mapping[str, B
     geneva  C the pin in the slot, n across C O_2; between the slots the disc locks it: across O_1 O_2 in O_1
                                                           [Aronhold and Kennedy; contact without friction]
     """
-    (first, first_middle), (second, end) = coupling.first, coupling.second
+    (first, first_middle), (second, end) = coupling.ends
     start = bodies[first].carry(mechanism.point(first, first_middle)).position
     turned = np.angle(bodies[first].direction * np.conj(bodies[coupling.carrier].direction)) - coupling.first_at
     _, ratio, _, _ = coupling.transfer(turned)

@@ -15,7 +15,6 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import Float, FloatArray, Int8
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Gravity, Load, PointForce, Torque
 from ilmek.errors import MechanismError
@@ -71,7 +70,7 @@ class ReducedMechanism:
         unit = solve(self.plan, position, 1.0)
         inertia, slope = np.full(len(unit), self.flywheel), np.zeros(len(unit))
         for body, weighed in self.inertias.items():
-            centre, omega = attached(unit, body, weighed.centre), unit.omega(body)
+            centre, omega = unit.carried(body, weighed.centre), unit.omega(body)
             inertia = inertia + weighed.mass * np.abs(centre.velocity) ** 2 + weighed.moment * omega**2
             turning = weighed.moment * omega * unit.alpha(body)
             slope = slope + 2 * (weighed.mass * dot(centre.velocity, centre.acceleration) + turning)
@@ -98,7 +97,7 @@ class ReducedMechanism:
         energy = np.zeros(len(motion))
         for load in self.weights:
             for body, weighed in self.inertias.items():
-                centre = attached(motion, body, weighed.centre).position
+                centre = motion.carried(body, weighed.centre).position
                 energy = energy - weighed.mass * dot(complex(load.acceleration), centre)
         return energy
 
@@ -107,7 +106,7 @@ class ReducedMechanism:
         with np.errstate(invalid="ignore", over="ignore"):  # as in `terms`
             for load in loads:
                 for wrench in load.wrenches(motion, self.inertias):
-                    sliding = attached(unit, wrench.body, wrench.at).velocity
+                    sliding = unit.carried(wrench.body, wrench.at).velocity
                     force = force + dot(wrench.force, sliding) + wrench.torque * unit.omega(wrench.body)
         return force
 

@@ -8,7 +8,6 @@ The duty is that of `elements.duty`: peak and rms torque, speed, and J's mean ov
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inverse import joint_rate
 from ilmek.dynamics.inverse_run import InverseRun
 from ilmek.dynamics.own_machine import OwnMachine
@@ -108,7 +107,7 @@ def felt_inertia(machine: OwnMachine, run: InverseRun, name: str) -> FloatArray:
     unit = solve(motion.plan, {entry: drive.value for entry, drive in motion.drives.items()}, {str(run.driving): 1.0})
     total = np.zeros(len(unit))
     for body, inertia in machine.inertias.items():
-        centre = attached(unit, body, inertia.centre)
+        centre = unit.carried(body, inertia.centre)
         total = total + inertia.mass * np.abs(centre.velocity) ** 2 + inertia.moment * unit.omega(body) ** 2
     if not run.forces.actuators:
         return total

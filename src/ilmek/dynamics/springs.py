@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ilmek.arguments import Arguments
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.loads import Wrench
 from ilmek.errors import MechanismError
 from ilmek.linkage.followed import followed_angle
+from ilmek.linkage.joints import NamedPoint, set_points
 from ilmek.linkage.motion import Motion
 from ilmek.plane.vectors import dot
 
@@ -25,7 +25,7 @@ _SPRING = Arguments("a spring", MechanismError)
 class Spring:
     """A linear spring and damper between points of two bodies: F = k (L - L_0) + c L', tension positive.
 
-    first, first_point, second, second_point   names of the bodies and of their points
+    first, second   points of two bodies, "body.point"
     stiffness  k [N/m]; 0 for a damper alone
     length     L_0, unloaded [m]
     damping    c [N s/m]
@@ -33,36 +33,38 @@ class Spring:
     The force is NaN where the points coincide: it has no direction there. Raises MechanismError for values that are
     negative or not finite.
 
-    >>> Spring("ground", "S", "rocker", "E", stiffness="2N/mm", length=0.1).stiffness
+    >>> Spring("ground.S", "rocker.E", stiffness="2N/mm", length=0.1).stiffness
     2000.0
     """
 
-    first: str
-    first_point: str
-    second: str
-    second_point: str
+    first: NamedPoint
+    second: NamedPoint
     stiffness: float
     length: float
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("first", "first_point", "second", "second_point"):
-            object.__setattr__(self, name, _SPRING.text(name, getattr(self, name)))
+        set_points(self, "first", "second")
         for name, unit in (("stiffness", "N/m"), ("length", "m"), ("damping", "N*s/m")):
             object.__setattr__(self, name, _SPRING.not_negative(name, getattr(self, name), unit))
 
+    @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Body and point of `first` and of `second`."""
+        return self.first, self.second  # type: ignore[return-value]  # texts became pairs when it was made
+
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """The force on each of the two bodies, one value per sample."""
-        mechanism = motion.plan.mechanism
-        ends = (mechanism.point(self.first, self.first_point), mechanism.point(self.second, self.second_point))
-        start, end = attached(motion, self.first, ends[0]), attached(motion, self.second, ends[1])
+        ends = [motion.plan.mechanism.located(point) for point in self.ends]
+        start, end = (motion.carried(*located) for located in ends)
         line = end.position - start.position
         length = np.abs(line)
         with np.errstate(invalid="ignore", divide="ignore"):
             along = line / length
         rate = dot(along, end.velocity - start.velocity)
         pull = (self.stiffness * (length - self.length) + self.damping * rate) * along
-        return Wrench(self.first, pull, ends[0]), Wrench(self.second, -pull, ends[1])
+        (first, first_local), (second, second_local) = ends
+        return Wrench(first, pull, first_local), Wrench(second, -pull, second_local)
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,7 +77,7 @@ def rotation_equation(mechanism: Mechanism, entry: Rotation, drive: InputMotion,
 
 def coupling_equation(mechanism: Mechanism, coupling: Coupling, near: RealField, bodies: Known) -> Equation:
     """q_second - second_at - f(q_first - first_at) = 0; near: q_first [rad] to within half a turn."""
-    (first, _), (second, point) = coupling.first, coupling.second
+    (first, _), (second, point) = coupling.ends
     turned = angle_near(bodies[first].direction, bodies[coupling.carrier].direction, near) - coupling.first_at
     value, ratio, second_ratio, _ = coupling.transfer(turned)
     required = coupling.second_at + value
@@ -116,7 +116,7 @@ def third_biases(group: Group, bodies: Known) -> list[RealField]:
             biases += [_along_third(mechanism, joint, bodies, 1j), 0.0]
     driven: list[tuple[Joint | None, RealField]] = [(mechanism.joint(entry.joint), 0.0) for entry in group.inputs]
     driven += [
-        (mechanism.joint(coupling.second[1]) if coupling.slides else None, _bent_third(coupling, bodies))
+        (mechanism.joint(coupling.ends[1][1]) if coupling.slides else None, _bent_third(coupling, bodies))
         for coupling in group.couplings
     ]
     for one, bent in driven:

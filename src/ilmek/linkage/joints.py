@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from ilmek.arguments import TURN, Arguments
 from ilmek.errors import MechanismError
@@ -10,6 +11,12 @@ from ilmek.records import brief
 
 GROUND = "ground"
 """The fixed body; its frame is the world."""
+
+NamedPoint: TypeAlias = str | tuple[str, str]
+"""A point of a body: "body.point", or (body, point)."""
+
+FreePoint: TypeAlias = NamedPoint | tuple[str, complex]
+"""A point of a body, or (body, position in its frame [m])."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +158,26 @@ class Displacement:
         return self.slide
 
 
+def body_point(given: Arguments, name: str, value: object) -> tuple[str, str]:
+    """The names of a body and of its point. Raises an error for a text without a dot, and for other objects."""
+    if isinstance(value, str):
+        body, _, point = value.partition(".")
+        if not (body and point):
+            raise given.error(f"{name} is {value!r}", allowed='a point of a body, like "rocker.E"')
+        return body, point
+    body, point = given.pair(name, value, 'a point of a body: "body.point", or (body, point)')
+    return given.text(f"body of {name}", body), given.text(f"point of {name}", point)
+
+
+def free_point(given: Arguments, name: str, value: object) -> tuple[str, str | complex]:
+    """The names of a body and of its point, or a body and a position in its frame [m]."""
+    if not isinstance(value, str):
+        body, point = given.pair(name, value, 'a point of a body: "body.point", or (body, point)')
+        if not isinstance(point, str):
+            return given.text(f"body of {name}", body), given.point(name, point)
+    return body_point(given, name, value)
+
+
 def set_texts(value: object, *names: str) -> None:
     """Set fields of a record to the texts that they are given."""
     for name in names:
@@ -158,6 +185,14 @@ def set_texts(value: object, *names: str) -> None:
         if type(text) is not str:
             given = Arguments(f"a {type(value).__name__.lower()}", MechanismError)
             object.__setattr__(value, name, given.text(name, text))
+
+
+def set_points(value: object, *names: str) -> None:
+    """Set fields of a record to the bodies and points that they name; `on` may be a position."""
+    given = Arguments(f"a {type(value).__name__.lower()}", MechanismError)
+    for name in names:
+        read = free_point if name == "on" else body_point
+        object.__setattr__(value, name, read(given, name, getattr(value, name)))
 
 
 @contextmanager

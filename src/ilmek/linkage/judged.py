@@ -81,10 +81,12 @@ class JudgedMechanism(Shown):
         return degrees_of_freedom(self.mechanism)
 
     @cached_property
-    def grashof(self) -> Grashof | None:
-        """Grashof's class of a four-bar; None of any other mechanism."""
+    def grashof(self) -> Grashof:
+        """Grashof's class of a four-bar. Raises MechanismError for any other mechanism."""
         lengths = link_lengths(self.mechanism)
-        return None if lengths is None else grashof(**lengths)
+        if lengths is None:
+            raise MechanismError(f"{self.mechanism.name} has no Grashof class", allowed="a four-bar of four pins")
+        return grashof(**lengths)
 
     @cached_property
     def circuits(self) -> tuple[Circuit, ...]:
@@ -112,7 +114,7 @@ class JudgedMechanism(Shown):
     @cached_property
     def motion(self) -> Motion:
         """The motion over `range`, at unit speed: rates are derivatives by the input."""
-        return self.moved.motion(np.linspace(*self.inside, SAMPLES))
+        return self.moved.motion(self.values)
 
     @cached_property
     def transmission(self) -> WorstTransmission:
@@ -154,11 +156,11 @@ class JudgedMechanism(Shown):
 
     def ratio(self, output: str) -> Float[np.ndarray, " samples"]:
         """Velocity ratio of an output by the input at the samples of `motion`; NaN at dead centres."""
-        return velocity_ratio(self.moved, self.output(output), self._values)
+        return velocity_ratio(self.moved, self.output(output), self.values)
 
     def advantage(self, output: str) -> Float[np.ndarray, " samples"]:
         """Mechanical advantage at the samples of `motion`: the effort at an output by that at the input."""
-        return mechanical_advantage(self.moved, self.output(output), self._values)
+        return mechanical_advantage(self.moved, self.output(output), self.values)
 
     def coupler_curve(self, point: str) -> CouplerCurve:
         """The curve of a point, "body.point": length, cusps, crossings, inflections, straights, curvature."""
@@ -180,8 +182,9 @@ class JudgedMechanism(Shown):
         allowed = [length if dimension.length else angle for dimension in self.dimensions]
         return spread(self.sensitivity(output).value, allowed)
 
-    @property
-    def _values(self) -> Float[np.ndarray, " samples"]:
+    @cached_property
+    def values(self) -> Float[np.ndarray, " samples"]:
+        """Values of the input at the samples of `motion` [rad, m]."""
         return np.linspace(*self.inside, SAMPLES)
 
     @cached_property

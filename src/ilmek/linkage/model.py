@@ -16,16 +16,24 @@ from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ilmek.arguments import Arguments
-from ilmek.arrays import RealField
 from ilmek.errors import MechanismError, did_you_mean
-from ilmek.linkage.joints import GROUND, Body, Displacement, Pin, Rotation, Slide, about, set_texts
-from ilmek.plane.teeth import PRESSURE_ANGLE
+from ilmek.linkage.couplings import GREATEST_PRESSURE_ANGLE, KINDS, BeltSpans, Coupling
+from ilmek.linkage.joints import (
+    GROUND,
+    Body,
+    Displacement,
+    FreePoint,
+    Pin,
+    Rotation,
+    Slide,
+    about,
+    free_point,
+)
 from ilmek.records import brief, shown_value
 from ilmek.report.shown import Shown
-from ilmek.units import deg
 
 if TYPE_CHECKING:
     from ilmek.linkage.variants import Variants
@@ -44,133 +52,6 @@ __all__ = [
     "Slide",
     "degrees_of_freedom",
 ]
-
-
-GREATEST_PRESSURE_ANGLE = 45 * deg
-"""Greatest pressure angle of a coupling [rad]; teeth have 14.5° to 30°."""
-
-
-class TransferLaw(Protocol):
-    """A law q_2 = f(q_1) of a higher pair, periodic in q_1 but for a constant; `geneva.Geneva`, the lift of a cam.
-
-    slides  whether q_2 is a displacement [m], not an angle      turns  of q_1 after which the second is as before
-    one_sided  whether the first body can only press on the second
-    """
-
-    @property
-    def slides(self) -> bool: ...
-
-    @property
-    def turns(self) -> int: ...
-
-    @property
-    def one_sided(self) -> bool: ...
-
-    def motion(self, angle: RealField, /) -> tuple[RealField, RealField, RealField, RealField]:
-        """F and its first three derivatives at angles [rad]."""
-
-
-@dataclass(frozen=True, slots=True)
-class BeltSpans:
-    """The spans of a belt or chain between its pulleys, whose forces load their bearings.
-
-    radius      r_1 of the first pulley [m]; r_2 = r_1 / |ratio|
-    pretension  T_0 of each span at rest [N]; 0: a chain, whose slack span has no force
-    friction    mu of a flat belt on its pulleys; None: teeth, which do not slip
-
-    >>> BeltSpans("40mm", pretension="300N", friction=0.3).radius
-    0.04
-    """
-
-    radius: float
-    pretension: float = 0.0
-    friction: float | None = None
-
-    def __post_init__(self) -> None:
-        given = Arguments("a belt", MechanismError)
-        object.__setattr__(self, "radius", given.not_negative("radius", self.radius, "m"))
-        if not self.radius:
-            raise MechanismError("the radius of a pulley is 0", allowed="above 0")
-        object.__setattr__(self, "pretension", given.not_negative("pretension", self.pretension, "N"))
-        if self.friction is not None:
-            object.__setattr__(self, "friction", given.not_negative("friction", self.friction, ""))
-
-    def lean(self, ratio: float, distance: RealField) -> RealField:
-        """Sin alpha = (r_1 -+ r_2) / a: of the spans against the line of centres, at a distance a of these [m]."""
-        return self.radius * (1 - 1 / ratio) / distance
-
-
-@dataclass(frozen=True, slots=True)
-class Coupling:
-    """A fixed relation of the motions of two bodies on one carrier: gears, belt or chain, rack, cam, Geneva wheel.
-
-        q_second - second_at = ratio (q_first - first_at),   or  = f(q_first - first_at) by a law
-
-    kind     "gears", "belt", "rack", "cam" or "geneva"
-    first    body and its point in the middle of the wheel; q is its angle against the carrier [rad]
-    second   the same of the other wheel; for a rack the sliding body and its slide, q the slide's displacement s [m]
-    ratio    gears outside one another -z1/z2, one inside the other z1/z2; an open belt r1/r2, a crossed one -r1/r2;
-             rack: travel per radian of the pinion [m/rad], the signed pitch radius
-    first_at, second_at   both q in the assembled position: the mesh is given, never assumed
-    carrier  the body that carries both wheels; it may move (planetary gears); for a rack the slide's guide
-    pressure_angle   of gears and racks: of their teeth at the pitch point [rad]; a belt has none
-    law      f of a cam or Geneva wheel, in place of the ratio; the angle of a Geneva crank from the line of its centres
-    spans    of a belt or chain; None: the forces that depend on its tension are open
-    roller   point of a cam's follower in the middle of its roller; "": a flat face square to its slide
-
-    Angles determined by inputs and ratios alone count full turns. Any other angle of `first` (or `second`) is assumed
-    to be within half a turn of `first_at` (`second_at`).
-
-    >>> Coupling("mesh", "gears", ("pinion", "P0"), ("wheel", "W0"), ratio=-20 / 60, first_at=0, second_at=0).bodies
-    ('pinion', 'wheel', 'ground')
-    """
-
-    name: str
-    kind: str
-    first: tuple[str, str]
-    second: tuple[str, str]
-    ratio: float
-    first_at: float
-    second_at: float
-    carrier: str = GROUND
-    pressure_angle: float = PRESSURE_ANGLE
-    law: TransferLaw | None = None
-    roller: str = ""
-    spans: BeltSpans | None = None
-
-    def __post_init__(self) -> None:
-        set_texts(self, "name", "kind", "carrier", "roller")
-        given = Arguments(f"coupling {self.name!r}", MechanismError)
-        rack = self.slides
-        with about("couplings", self.name):
-            for name in ("first", "second"):
-                body, point = given.pair(name, getattr(self, name), "(body, point)")
-                wheel = given.text(f"body of {name}", body), given.text(f"point of {name}", point)
-                object.__setattr__(self, name, wheel)
-            units = {"ratio": "m" if rack else "", "first_at": "rad", "second_at": "m" if rack else "rad"}
-            units["pressure_angle"] = "rad"
-            for name, unit in units.items():
-                object.__setattr__(self, name, given.number(name, getattr(self, name), unit))
-
-    @property
-    def bodies(self) -> tuple[str, str, str]:
-        """First, second, carrier."""
-        return self.first[0], self.second[0], self.carrier
-
-    @property
-    def slides(self) -> bool:
-        """Whether the second body slides."""
-        return self.kind == "rack" if self.law is None else self.law.slides
-
-    def transfer(self, turned: RealField) -> tuple[RealField, RealField, RealField, RealField]:
-        """q_second - second_at and its derivatives by q_first, at q_first - first_at [rad]."""
-        if self.law is not None:
-            return self.law.motion(turned)
-        return self.ratio * turned, self.ratio, 0.0, 0.0
-
-
-KINDS = ("gears", "belt", "rack", "cam", "geneva")
-"""Kinds of couplings."""
 
 Joint: TypeAlias = Pin | Slide
 Input: TypeAlias = Rotation | Displacement
@@ -239,8 +120,15 @@ class Mechanism(Shown):
         """The joint of that name."""
         return _find(name, self.joints, "joint", self.name)
 
-    def point(self, body: str, point: str) -> complex:
-        """A body's point in the body's frame [m]."""
+    def located(self, point: FreePoint) -> tuple[str, complex]:
+        """The body of a point, "body.point", and its position in the body's frame [m]; a position as it is."""
+        body, name = free_point(Arguments("", MechanismError), "a point", point)
+        return body, self.point(body, name) if isinstance(name, str) else name
+
+    def point(self, body: str, point: str = "") -> complex:
+        """A point, "body.point", in its body's frame [m]; or of a body and a point's name."""
+        if isinstance(point, str) and not point and body not in (entry.name for entry in self.bodies):
+            return self.located(body)[1]
         points = self.body(body).points
         if not isinstance(point, str) or point not in points:
             given = f"body {body!r} of {self.name} has no point {shown_value(point)}"
@@ -334,7 +222,7 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
         raise MechanismError(f"{subject} is of kind {coupling.kind!r}", allowed=", ".join(KINDS))
     if len(set(coupling.bodies)) < 3:
         raise MechanismError(f"{subject} joins {', '.join(coupling.bodies)}", allowed="three different bodies")
-    for body, point in (coupling.first, coupling.second):
+    for body, point in coupling.ends:
         mechanism.point(body, point)
     mechanism.body(coupling.carrier)
     if coupling.ratio == 0 and coupling.law is None:
@@ -344,14 +232,13 @@ def _check_coupling(mechanism: Mechanism, coupling: Coupling) -> None:
         raise MechanismError(given, allowed="0 to 45deg", do="teeth have 20deg, as a rule")
     if coupling.spans is not None:
         _check_spans(mechanism, coupling, coupling.spans)
+    body, point = coupling.ends[1]
     if coupling.roller:
-        mechanism.point(coupling.second[0], coupling.roller)
+        mechanism.point(body, coupling.roller)
     if coupling.slides:
-        slide = mechanism.joint(coupling.second[1])
-        if not isinstance(slide, Slide) or slide.bodies != (coupling.second[0], coupling.carrier):
-            given = (
-                f"{subject} requires a slide {coupling.second[1]!r} of {coupling.second[0]!r} on {coupling.carrier!r}"
-            )
+        slide = mechanism.joint(point)
+        if not isinstance(slide, Slide) or slide.bodies != (body, coupling.carrier):
+            given = f"{subject} requires a slide {point!r} of {body!r} on {coupling.carrier!r}"
             raise MechanismError(given, allowed=f"it is a {type(slide).__name__.lower()} of {', '.join(slide.bodies)}")
 
 
@@ -359,8 +246,9 @@ def _check_spans(mechanism: Mechanism, coupling: Coupling, spans: BeltSpans) -> 
     points = mechanism.body(coupling.carrier).points
     if coupling.kind != "belt":
         raise MechanismError(f"{coupling.name!r} has spans", allowed="a belt or chain has them")
-    if coupling.first[1] in points and coupling.second[1] in points:
-        distance = abs(points[coupling.first[1]] - points[coupling.second[1]])
+    (_, first), (_, second) = coupling.ends
+    if first in points and second in points:
+        distance = abs(points[first] - points[second])
         if abs(spans.radius * (1 - 1 / coupling.ratio)) >= distance:
             other = spans.radius / abs(coupling.ratio)
             given = f"{coupling.name!r}: pulleys of radius {spans.radius:g} m and {other:g} m at {distance:g} m"

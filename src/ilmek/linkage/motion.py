@@ -1,18 +1,20 @@
 """The result of `solve`: the motion of every body at each sample, and the status of the sample."""
 
 from collections.abc import Mapping
-from typing import Any, TypeAlias
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from ilmek.arguments import Arguments
-from ilmek.arrays import Complex, ComplexField, Float, Int8, RealField
+from ilmek.arrays import Bool, Complex, ComplexField, Float, Int8, RealField
 from ilmek.errors import MechanismError
 from ilmek.linkage.body_jerk import STILL_JERK, BodyJerk
-from ilmek.linkage.body_motion import STILL, BodyMotion, PointMotion
+from ilmek.linkage.body_motion import STILL, BodyMotion
 from ilmek.linkage.faults import first_fault
 from ilmek.linkage.followed import followed_angle
 from ilmek.linkage.groups.group import Columns, InputMotion
+from ilmek.linkage.joints import FreePoint
 from ilmek.linkage.model import GROUND, Mechanism, Pin, Rotation
 from ilmek.linkage.status import Status
 from ilmek.linkage.structure import Plan
@@ -24,6 +26,53 @@ __all__ = ["Motion", "Status"]
 
 Reals: TypeAlias = Float[np.ndarray, " samples"]
 Points: TypeAlias = Complex[np.ndarray, " samples"]
+
+
+class AttachedPoint(NamedTuple):
+    """Position [m], velocity [m/s] and acceleration [m/s^2] of a body's point, complex, one value per sample."""
+
+    position: Points
+    velocity: Points
+    acceleration: Points
+
+
+@dataclass(frozen=True, slots=True)
+class MovedPoint:
+    """A point of a body over the samples of a motion, and the turning of its body: `motion["rocker.E"]`."""
+
+    motion: "Motion"
+    body: str
+    local: complex
+
+    @property
+    def position(self) -> Points:
+        """Position [m], complex."""
+        return self.motion.carried(self.body, self.local).position
+
+    @property
+    def velocity(self) -> Points:
+        """Velocity [m/s], complex."""
+        return self.motion.carried(self.body, self.local).velocity
+
+    @property
+    def acceleration(self) -> Points:
+        """Acceleration [m/s^2], complex."""
+        return self.motion.carried(self.body, self.local).acceleration
+
+    @property
+    def angle(self) -> Reals:
+        """Angle of the body [rad], counted through full turns."""
+        return self.motion.angle(self.body)
+
+    @property
+    def omega(self) -> Reals:
+        """Angular velocity of the body [rad/s]."""
+        return self.motion.omega(self.body)
+
+    @property
+    def alpha(self) -> Reals:
+        """Angular acceleration of the body [rad/s^2]."""
+        return self.motion.alpha(self.body)
 
 
 @record
@@ -40,8 +89,8 @@ class Motion(Framed):
     >>> motion = solve(four_bar(0.300, 0.060, 0.200, 0.230), [0.0, 0.5, 1.0], speed=15.5)
     >>> motion
     <Motion of four-bar: 3 of 3 samples solved>
-    >>> bool(abs(motion.point("crank", "A").velocity[0] - 0.93j) < 1e-12)
-    True
+    >>> bool(abs(motion["crank.A"].velocity[0] - 0.93j) < 1e-12), motion["rocker"].omega.shape, motion.solved.all()
+    (True, (3,), np.True_)
     """
 
     plan: Plan
@@ -62,6 +111,17 @@ class Motion(Framed):
         """Whether every sample could be solved."""
         return not self.status.any()
 
+    @property
+    def solved(self) -> Bool[np.ndarray, " samples"]:
+        """Which samples are solved."""
+        return np.asarray(self.status == Status.OK)
+
+    def __getitem__(self, name: FreePoint) -> MovedPoint:
+        """A point, "body.point"; of a body alone, the origin of its frame. Raises MechanismError for an unknown one."""
+        if isinstance(name, str) and "." not in name:
+            return MovedPoint(self, self.plan.mechanism.body(name).name, 0j)
+        return MovedPoint(self, *self.plan.mechanism.located(name))
+
     def body(self, name: str) -> BodyMotion:
         """A body's motion, constants as plain numbers. Raises MechanismError for an unknown body."""
         self.plan.mechanism.body(name)
@@ -72,21 +132,27 @@ class Motion(Framed):
         with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
             return step.locate(known, {body: self.columns[body] for body in step.bodies})[name]
 
-    def point(self, body: str, point: str) -> PointMotion:
-        """Motion of a body's named point: position [m], velocity [m/s], acceleration [m/s^2]."""
-        return self._carried(body, self.plan.mechanism.point(body, point))
+    def point(self, body: str, point: str = "") -> AttachedPoint:
+        """Motion of a point, "body.point", or of a body and a point's name."""
+        return self.carried(*self._located(body, point))
+
+    def carried(self, body: str, local: complex) -> AttachedPoint:
+        """Motion of the point of a body at `local` [m] in its frame."""
+        with np.errstate(invalid="ignore", over="ignore"):  # at a dead centre rates are infinite; `status` says so
+            point = self.body(body).carry(local)
+        return AttachedPoint(*(self._points(rate) for rate in (point.position, point.velocity, point.acceleration)))
 
     def origin(self, body: str) -> Points:
         """World position of the origin of a body's frame [m]."""
-        return self._points(self._carried(body, 0j).position)
+        return self._points(self.carried(body, 0j).position)
 
     def velocity_of_origin(self, body: str) -> Points:
         """Velocity of the origin of a body's frame [m/s]."""
-        return self._points(self._carried(body, 0j).velocity)
+        return self._points(self.carried(body, 0j).velocity)
 
     def acceleration_of_origin(self, body: str) -> Points:
         """Acceleration of the origin of a body's frame [m/s^2]."""
-        return self._points(self._carried(body, 0j).acceleration)
+        return self._points(self.carried(body, 0j).acceleration)
 
     def pose(self, sample: int = 0) -> dict[str, tuple[complex, float]]:
         """Body -> (origin [m], angle [rad]) at one sample, in the form of a mechanism's `pose`."""
@@ -122,10 +188,15 @@ class Motion(Framed):
         """Third rate of a body's angle [rad/s^3]."""
         return self._reals(self._jerk(body).beta)
 
-    def point_jerk(self, body: str, point: str) -> Points:
-        """Jerk of a body's named point [m/s^3]."""
-        local = self.plan.mechanism.point(body, point)
-        return self._points(self._jerk(body).carry(local))
+    def point_jerk(self, body: str, point: str = "") -> Points:
+        """Jerk of a point, "body.point", or of a body and a point's name [m/s^3]."""
+        carrier, local = self._located(body, point)
+        return self._points(self._jerk(carrier).carry(local))
+
+    def _located(self, body: str, point: str) -> tuple[str, complex]:
+        mechanism = self.plan.mechanism
+        named = isinstance(point, str) and not point
+        return mechanism.located(body) if named else (body, mechanism.point(body, point))
 
     def _jerk(self, name: str) -> BodyJerk:
         """A body's motion with its jerk, from those of the bodies to which it is attached."""
@@ -173,11 +244,6 @@ class Motion(Framed):
         if self.ok:
             return self
         raise first_fault(self.plan, self.drives, self.status)
-
-    def _carried(self, body: str, local: complex) -> PointMotion:
-        with np.errstate(invalid="ignore", over="ignore"):
-            point = self.body(body).carry(local)
-        return PointMotion(*(self._points(one) for one in (point.position, point.velocity, point.acceleration)))
 
     def _points(self, value: ComplexField) -> Points:
         points: Points = _over(value, self.status.shape, np.dtype(complex))

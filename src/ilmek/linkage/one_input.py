@@ -26,10 +26,10 @@ class OneInput:
         """Whether the input is an angle."""
         return any(isinstance(entry, Rotation) and entry.name == self.name for entry in self.plan.mechanism.inputs)
 
-    def motion(self, values: FloatArray) -> Motion:
-        """The motion at values of the input [rad, m], (samples,), at unit speed: rates are derivatives by the input."""
+    def motion(self, values: FloatArray, speed: float = 1.0) -> Motion:
+        """The motion at values of the input [rad, m], (samples,); at unit speed rates are derivatives by the input."""
         others = {name: np.full(np.shape(values), value) for name, value in self.locked.items()}
-        return solve(self.plan, others | {self.name: np.asarray(values, dtype=float)}, {self.name: 1.0})
+        return solve(self.plan, others | {self.name: np.asarray(values, dtype=float)}, {self.name: speed})
 
 
 def one_input(plan: Plan, name: str = "", locked: Mapping[str, float] | None = None) -> OneInput:

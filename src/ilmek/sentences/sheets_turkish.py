@@ -99,6 +99,11 @@ SHEETS = {
     "sheet.twist-left": "sol",
     "sheet.members-placed": "Şunlardan oluşur; X, Y, Z sol alt arka köşeden",
     "sheet.after-welding": "Kaynaktan sonra: 550…600 °C'de gerilim giderin, yuvaları işleyin, boyayın, parçaları takın",
+    "sheet.true-ends": "{form}{letter}: {common} eksenine göre toplam salgı {value}",
+    "sheet.finish-after-welding": "Kaynaklandığı parça: {parts}; yuvalar ondan sonra bitirilir",
+    "sheet.finish-between-centres": (
+        "Kaynaklandığı parça: {parts}; muylularda 0,5 mm pay bırakılır, sonra puntalar arasında bitirilir (DIN 332-1)"
+    ),
     "sheet.form": "Biçim, konum",
     "sheet.positions": "Kaynaklı parçaların sol alt arka köşeden konumları, X sağa, Y yukarı, Z öne",
     "sheet.members": "Parçaları",
@@ -133,6 +138,7 @@ SHEETS = {
     "sheet.alike-faces": "{number}× {duty}",
     "sheet.duty-sliding": "yüzeyde kayar",
     "sheet.keyway": "{times}kama yuvası {size}, {at}",
+    "sheet.groove": "{times}oluk {size}, {at}",
     "sheet.keyway-seat": "{keyway}, boyu {length}, sol uçtan {begin}",
     "sheet.floor": "tabanına {size}",
     "sheet.on-circle": "⌀{circle} üzerinde {holes}",

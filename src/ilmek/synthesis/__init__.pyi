@@ -14,4 +14,7 @@ from ilmek.synthesis.function import Function as Function
 from ilmek.synthesis.path.fit import PathFit as PathFit
 from ilmek.synthesis.path.search import path_four_bars as path_four_bars
 from ilmek.synthesis.path.task import PathTask as PathTask
+from ilmek.synthesis.result import FourBarSolution as FourBarSolution
+from ilmek.synthesis.result import LeftOut as LeftOut
+from ilmek.synthesis.result import Synthesis as Synthesis
 from ilmek.synthesis.task import PrecisionTask as PrecisionTask

@@ -10,7 +10,6 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import ComplexField
-from ilmek.dynamics.attached import attached
 from ilmek.linkage.motion import Motion
 from ilmek.machines.knotting_four_bar.design import KnottingFourBar, design
 from ilmek.machines.knotting_four_bar.params import KnottingFourBarParams
@@ -240,7 +239,7 @@ def _accelerations() -> tuple[Claim, ...]:
         return sum((xy(of, item) for item in items), 0j)
 
     def of_centre(body: str) -> Callable[[], complex]:
-        return lambda: _first(attached(motion(), body, quoted().inertias[body].centre).acceleration) / mm
+        return lambda: _first(motion().carried(body, quoted().inertias[body].centre).acceleration) / mm
 
     def pin() -> complex:
         return _first(motion().point("crank", "O2").acceleration) / mm

@@ -10,7 +10,6 @@ from functools import cache, partial
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import TuftingParams
 from ilmek.machines.tufting.model import TuftingState, evaluate, inertias, mechanism
@@ -52,7 +51,7 @@ def sample() -> Sample:
     state = evaluate(params, plan(mechanism(params)), ANGLES)
     motion, inertia = state.motion, inertias(params)
     numbered = dict(enumerate(BODIES, start=1))
-    centres = {k: attached(motion, body, inertia[body].centre) for k, body in numbered.items()}
+    centres = {k: motion.carried(body, inertia[body].centre) for k, body in numbered.items()}
     return Sample(
         params=params,
         state=state,

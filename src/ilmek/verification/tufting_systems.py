@@ -10,7 +10,6 @@ from functools import cache, partial
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.linkage.structure import plan
 from ilmek.machines.tufting import TuftingParams
 from ilmek.machines.tufting.model import inertias, mechanism, move
@@ -46,7 +45,7 @@ def _of_momentum(k: int) -> float:
     params = TuftingParams()
     angle = np.arange(SAMPLES) * turn / SAMPLES
     motion, inertia = move(params, plan(mechanism(params)), angle), inertias(params)[BODIES[k - 1]]
-    centre = attached(motion, BODIES[k - 1], inertia.centre)
+    centre = motion.carried(BODIES[k - 1], inertia.centre)
     turning = np.unwrap(np.asarray(motion.angle(BODIES[k - 1]))) - (angle if k == 1 else 0.0)
     force = -inertia.mass * _second_rate(centre.position, params.speed)
     moment = -inertia.moment * np.real(_second_rate(turning, params.speed))

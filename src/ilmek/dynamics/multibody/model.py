@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import scipy
 
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.clearance import ClearancePin
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.multibody.contact import FLIGHT
@@ -189,7 +188,7 @@ def from_motion(
         mechanism.body(body)
     poses = {}
     for body in mechanism.moving:
-        origin = attached(motion, body, 0j)
+        origin = motion.carried(body, 0j)
         angle, omega = float(motion.angle(body)[0]), float(motion.omega(body)[0])
         poses[body] = BodyState(complex(origin.position[0]), angle, complex(origin.velocity[0]), omega)
     return System(mechanism.bodies, mechanism.joints, inertias, poses, gravity, loads, mechanism.name)
@@ -216,7 +215,7 @@ def model_arrays(system: System) -> Model:
     apart = [abs(a - b) for a, b in joint_bodies if min(a, b) >= 0]
     inertias = [system.inertias[name] for name in system.order]
     ends = [[(body, joint.name) for body in joint.bodies] for joint in system.rigid]
-    ends += [[(one.first, one.first_point), (one.second, one.second_point)] for one in springs]
+    ends += [list(spring.ends) for spring in springs]
     ends += [[(force.body, force.point)] * 2 for force in forces]
     ends += [[(body, pin.name) for body in pin.bodies] for pin in loose]
     numbers = [(0.0, 0.0, 0.0) for _ in system.pins] + [
@@ -264,10 +263,7 @@ def _contact(system: System, pin: ClearancePin) -> tuple[float, ...]:
 def _check_load(system: System, load: Spring | BodyForce | BodyTorque) -> None:
     """Raise MechanismError for a load on an unknown body or point, and for values that are not finite."""
     if isinstance(load, Spring):
-        ends, numbers = (
-            [(load.first, load.first_point), (load.second, load.second_point)],
-            [load.stiffness, load.length],
-        )
+        ends, numbers = list(load.ends), [load.stiffness, load.length]
         numbers.append(load.damping)
     elif isinstance(load, BodyForce):
         ends, numbers = [(load.body, load.point)], [abs(load.force)]

@@ -100,7 +100,7 @@ class MultibodyHistory:
             energy = energy - mass * np.real(np.conj(self.model.gravity) * position)
         for load in self.system.loads:
             if isinstance(load, Spring):
-                apart = self.position(load.first, load.first_point) - self.position(load.second, load.second_point)
+                apart = self.position(*load.ends[0]) - self.position(*load.ends[1])
                 energy = energy + 0.5 * load.stiffness * (np.abs(apart) - load.length) ** 2
         for k, pin in enumerate(self.system.clearances):
             touching = self.states[..., 2 * count + 1 + k] >= 0

@@ -9,8 +9,9 @@ from ilmek.io.mechanism.motions import step_data, steps_entry, table_rows
 from ilmek.io.mechanism.names import ANGLE, LENGTH, position_of_input, two_spots, value_of
 from ilmek.io.mechanism.pairs import CamLift, LiftTable, law_of_pair
 from ilmek.io.schema import Measured, SourceText, Table
+from ilmek.linkage.couplings import KINDS, BeltSpans, Coupling
 from ilmek.linkage.geneva import Geneva
-from ilmek.linkage.model import GROUND, KINDS, BeltSpans, Coupling, Joint, Slide
+from ilmek.linkage.model import GROUND, Joint, Slide
 from ilmek.plane.teeth import PRESSURE_ANGLE
 from ilmek.records import JsonObject
 
@@ -150,7 +151,7 @@ def _spans(table: Table) -> BeltSpans | None:
 
 def coupling_data(coupling: Coupling) -> JsonObject:
     """The table of a coupling. Raises MechanismError for a law that no file can express."""
-    ends: JsonObject = {coupling.kind: [list(coupling.first), list(coupling.second)]}
+    ends: JsonObject = {coupling.kind: [list(end) for end in coupling.ends]}
     table, law = COUPLING.table(ends), coupling.law
     data = {**ends, **table.given(coupling), **table.given(coupling.spans)}
     if law is None or isinstance(law, Geneva):

@@ -119,17 +119,17 @@ def _varying(table: Table, mechanism: Mechanism) -> Load:
         mechanism.body(table["on"])
         torque = 1.0 if "table" in table else table["torque"]
         return _tabulated(table, "N*m", Torque(table["on"], torque), mechanism)
-    body, point = spot_of(table["on"], mechanism)
+    on = spot_of(table["on"], mechanism)
     if "drag" in table:
-        return Drag(body, point, table["drag"])
+        return Drag(on, table["drag"])
     if "while" in table:
         entry, window = _window(table["while"], mechanism)
-        return Friction(body, point, table["friction"], entry.name, window)
-    return Friction(body, point, table["friction"], input_of(table.get("over"), mechanism).name)
+        return Friction(on, table["friction"], entry.name, window)
+    return Friction(on, table["friction"], input_of(table.get("over"), mechanism).name)
 
 
 def _force(table: Table, mechanism: Mechanism) -> PointForce | FollowerForce:
-    body, point = spot_of(table["on"], mechanism)
+    on = spot_of(table["on"], mechanism)
     given, tabulated = table["force"], "table" in table
     if isinstance(given, list):
         if "direction" in table:
@@ -143,7 +143,7 @@ def _force(table: Table, mechanism: Mechanism) -> PointForce | FollowerForce:
         force = polar(1.0 if tabulated else given, table["direction"])
     else:
         raise MechanismError("force has no direction", do='give one, like direction = "90deg", or [x, y] components')
-    return (FollowerForce if table.get("frame") == "body" else PointForce)(body, point, force)
+    return (FollowerForce if table.get("frame") == "body" else PointForce)(on, force)
 
 
 def _tabulated(table: Table, unit: str, load: Load, mechanism: Mechanism) -> Load:
@@ -177,21 +177,21 @@ def load_data(name: str, load: Load, mechanism: Mechanism) -> JsonObject:
         data = load_data(name, load.load, mechanism)
         unit, at_unit = "N" if "force" in data else "N*m", _unit(load.input_name, mechanism)
         return {**data, "over": load.input_name or TIME, "table": table_rows(load.at, at_unit, load.factors, unit)}
-    if isinstance(load, PointForce | FollowerForce) and isinstance(load.point, str) and _is_complex(load.force):
+    if isinstance(load, PointForce | FollowerForce) and isinstance(load.on[1], str) and _is_complex(load.force):
         frame = "body" if isinstance(load, FollowerForce) else "ground"
-        return {"force": xy_of(complex(load.force)), "on": [load.body, load.point], "frame": frame}
+        return {"force": xy_of(complex(load.force)), "on": list(load.on), "frame": frame}
     if isinstance(load, Torque) and _is_real(load.torque):
         return {"torque": load.torque, "on": load.body}
     if isinstance(load, Drag):
-        return {"drag": load.coefficient, "on": [load.body, load.point]}
+        return {"drag": load.coefficient, "on": list(load.on)}
     if (
         isinstance(load, Friction)
-        and isinstance(load.point, str)
+        and isinstance(load.on[1], str)
         and _is_real(load.magnitude)
         and _is_default(load.side)
     ):
         window = {} if load.window is None else {"while": _window_data(load.window, load.input_name, mechanism)}
-        return {"friction": load.magnitude, "on": [load.body, load.point], "over": load.input_name, **window}
+        return {"friction": load.magnitude, "on": list(load.on), "over": load.input_name, **window}
     raise MechanismError(f"load {name!r} is a function that no file expresses", do="write the others to the file")
 
 

@@ -14,8 +14,8 @@ from ilmek.errors import MechanismError, ParameterError
 from ilmek.io.mechanism.motions import MotionStep, steps_of
 from ilmek.io.mechanism.names import value_of
 from ilmek.io.schema import Table
+from ilmek.linkage.couplings import TransferLaw
 from ilmek.linkage.geneva import Geneva
-from ilmek.linkage.model import TransferLaw
 from ilmek.units import turn
 
 _FULL = 1e-9

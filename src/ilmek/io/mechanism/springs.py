@@ -44,9 +44,9 @@ def spring_of(table: Table, mechanism: Mechanism) -> Spring | TorsionSpring:
             mechanism.body(body)
         _check_apart(first, second)
         return TorsionSpring(first, second, stiffness, table.get("angle", 0.0), damping)
-    (first, first_point), (second, second_point) = (spot_of(one, mechanism) for one in table["between"])
-    _check_apart(first, second)
-    return Spring(first, first_point, second, second_point, stiffness, table.get("length", 0.0), damping)
+    first, second = (spot_of(end, mechanism) for end in table["between"])
+    _check_apart(first[0], second[0])
+    return Spring(first, second, stiffness, table.get("length", 0.0), damping)
 
 
 def _check_apart(first: str, second: str) -> None:
@@ -58,7 +58,7 @@ def spring_data(spring: Spring | TorsionSpring) -> JsonObject:
     """The table of a spring or damper."""
     ends: dict[str, Any]
     if isinstance(spring, Spring):
-        ends = {"between": [[spring.first, spring.first_point], [spring.second, spring.second_point]]}
+        ends = {"between": [list(end) for end in spring.ends]}
     else:
         ends = {"torsion": [spring.first, spring.second]}
     return {**ends, **SPRING.table(ends).given(spring)}

@@ -130,7 +130,7 @@ class CoupledFollower(Step):
         if attached is None or len(attached) != 1:
             return None
         (one,), (coupling,) = attached, group.couplings
-        (first, _), (second, _) = coupling.first, coupling.second
+        (first, _), (second, _) = coupling.ends
         if one.body == second:
             if coupling.slides != (one.track is not None):
                 return None
@@ -149,7 +149,7 @@ class CoupledFollower(Step):
 
 def _line(group: Group, coupling: Coupling) -> tuple[complex, complex, complex] | None:
     """A rack's point in its own frame, and its slide's point and direction in the guide's; None for wheels."""
-    body, name = coupling.second
+    body, name = coupling.ends[1]
     joint = group.mechanism.joint(name) if coupling.slides else None
     if not isinstance(joint, Slide):
         return None

@@ -162,7 +162,7 @@ def _rows(mechanism: Mechanism) -> Iterator[Row]:
 def _coupled(coupling: Coupling) -> tuple[tuple[tuple[str, str], float], ...]:
     first, carrier = (("angle", coupling.first[0]), -coupling.ratio), ("angle", coupling.carrier)
     if coupling.slides:
-        return (("travel", coupling.second[1]), 1.0), first, (carrier, coupling.ratio)
+        return (("travel", coupling.ends[1][1]), 1.0), first, (carrier, coupling.ratio)
     return (("angle", coupling.second[0]), 1.0), first, (carrier, coupling.ratio - 1)
 
 

@@ -5,12 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation
-from ilmek.linkage.motion import Motion
+from ilmek.linkage.motion import AttachedPoint, Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.beat_up.params import BEATER_RATIO, BeatUpParams
@@ -76,7 +75,7 @@ def state_of(params: BeatUpParams, motion: Motion, inertias: Mapping[str, Inerti
     """A motion at the crank's speed and crank angles [rad], with its forces."""
     gravity = params.gravity_vector
     forces = inverse(motion, inertias, (Gravity(gravity),))
-    beater = attached(motion, "rocker", motion.plan.mechanism.point("rocker", "E"))
+    beater = motion.carried("rocker", motion.plan.mechanism.point("rocker", "E"))
     return BeatUpState(
         angle=angle,
         motion=motion,

@@ -17,7 +17,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from ilmek.dynamics.attached import attached
 from ilmek.elements.drive_parts import PULLEY
 from ilmek.elements.duty import LoadCycle, ServoDrive, size_motor
 from ilmek.elements.materials import GRAVITY
@@ -121,7 +120,7 @@ def with_slide_mass(found: BeaterTravel, mass: float) -> BeaterTravel:
 def force_at_beat(design: BeatUp) -> float:
     """Force between rocker and beater at the beat [N]: m (a - g), as much as the fell can take."""
     motion = solve(design.plan, np.array([design.beta]), design.params.speed)
-    beater = attached(motion, "rocker", design.plan.mechanism.point("rocker", "E"))
+    beater = motion.carried("rocker", design.plan.mechanism.point("rocker", "E"))
     return design.params.beater_mass * float(abs(beater.acceleration[0] - design.params.gravity_vector))
 
 

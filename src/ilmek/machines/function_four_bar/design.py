@@ -77,7 +77,7 @@ def design(params: FunctionFourBarParams) -> FunctionFourBar:
     error = "error_rms" if params.criterion == "least-squares" else "error_max"
     tolerated = params.error_max is not None
     ranked = ranked_by_error(options, lambda one: finite(one.details[error]), tolerated=tolerated)
-    choice = choose(ranked, answers.left_out, params, rank=ranked.index)
+    choice = choose(ranked, tuple(answers.left_out), params, rank=ranked.index)
     candidates = [option.candidate for option in options]
     kept = tuple(answers.found[candidates.index(one.candidate)] for one in choice.kept)
     return FunctionFourBar(choice=choice, params=params, function=function, approximations=kept)

@@ -158,7 +158,7 @@ def _arm_forces(params: KnottingDyadParams, made: Arm, arm: ArmMotion) -> ArmFor
         {"link 1": one[:, 0], "link 2": one[:, 1] - one[:, 0]} for one in (arm.angle, arm.speed, arm.acceleration)
     )
     motion = solve(plan(made.mechanism), angle, speed, acceleration).require()
-    loads = (Gravity(-1j * params.gravity), PointForce("link 2", "P", _pull(params, motion, arm)))
+    loads = (Gravity(-1j * params.gravity), PointForce("link 2.P", _pull(params, motion, arm)))
     forces = inverse(motion, made.inertias, loads)
     at_pivot, in_elbow = forces.effort("link 1"), forces.effort("link 2")
     base = at_pivot - in_elbow if params.elbow_drive == "belt" else at_pivot

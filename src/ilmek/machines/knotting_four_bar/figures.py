@@ -8,7 +8,6 @@ import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
 from ilmek.dynamics.animation import animated, frames
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.crank_figures import crank_plot
 from ilmek.dynamics.inertia import Inertia
 from ilmek.linkage.mirror import other
@@ -133,7 +132,7 @@ def _positions(motion: Motion, named: Callable[[str], str] = str) -> dict[str, C
     """All points of a side over the samples [m]; named: the names of its bodies and points."""
     local = motion.plan.mechanism.point
     side = {point: (named(body), named(point)) for point, body in POINTS.items()}
-    return {point: np.asarray(attached(motion, one[0], local(*one)).position) for point, one in side.items()}
+    return {point: np.asarray(motion.carried(one[0], local(*one)).position) for point, one in side.items()}
 
 
 def _poses(motion: Motion, named: Callable[[str], str] = str) -> list[dict[str, complex]]:

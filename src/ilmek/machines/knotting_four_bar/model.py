@@ -141,7 +141,7 @@ def mechanism(params: KnottingFourBarParams, ground_angle: float, origin: comple
 
 def loads_of(params: KnottingFourBarParams) -> tuple[Load, ...]:
     """Weight, and the yarn's force on the gripping point."""
-    pull = PointForce("coupler", "H", params.grip_force * unit(params.grip_angle))
+    pull = PointForce("coupler.H", params.grip_force * unit(params.grip_angle))
     return Gravity(-1j * params.gravity), pull
 
 

@@ -249,8 +249,8 @@ def _coupled_run(
     images = {other(body): inertia for body, inertia in bodies.items()}
     force, weight = params.grip_force * complex(unit(params.grip_angle)), Gravity(-1j * params.gravity)
     pull, mirrored_pull = (
-        PointForce("coupler", "H", force),
-        PointForce(other("coupler"), other("H"), -force.conjugate()),
+        PointForce("coupler.H", force),
+        PointForce((other("coupler"), other("H")), -force.conjugate()),
     )
     first = inverse(solve(one, angles, speed, acceleration).require(), bodies, (weight, pull))
     # The second crank turns in the other direction.

@@ -6,7 +6,6 @@ import numpy as np
 
 from ilmek.arrays import FloatArray
 from ilmek.dynamics import Forces, Inertia, Spring
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inverse import inverse
 from ilmek.dynamics.loads import Wrench
 from ilmek.linkage import Body, Mechanism, Motion, Pin, Plan, Rotation, plan
@@ -30,7 +29,7 @@ class WarpSheet:
 
     def wrenches(self, motion: Motion, inertias: Mapping[str, Inertia]) -> Iterable[Wrench]:  # noqa: ARG002
         """The force on the bar."""
-        pull = self.path.pull(attached(motion, LEVER, self.bar).position)
+        pull = self.path.pull(motion.carried(LEVER, self.bar).position)
         yield Wrench(LEVER, self.warps * self.tension * pull, self.bar)
 
 
@@ -54,7 +53,7 @@ def lever_forces(one: SprungLever, phi: FloatArray, speed: FloatArray, tension: 
     In equilibrium the effort of its input is 0: no drive but warps and springs holds it.
     """
     motion = solve(lever_plan(one.lever), -phi, -speed)
-    spring = Spring(GROUND, SPRINGS, LEVER, SPRINGS, one.springs * one.rate, one.free_length)
+    spring = Spring((GROUND, SPRINGS), (LEVER, SPRINGS), one.springs * one.rate, one.free_length)
     sheet = WarpSheet(one.task.warps, one.lever.path, one.lever.bar_point, tension)
     return inverse(motion, {}, (spring, sheet))
 

@@ -18,11 +18,10 @@ from typing import TypeAlias
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray
-from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.friction import AngleRange
 from ilmek.dynamics.inertia import Inertia
 from ilmek.errors import MechanismError
-from ilmek.linkage.motion import Motion
+from ilmek.linkage.motion import AttachedPoint, Motion
 from ilmek.linkage.quality import transmission_angle
 from ilmek.linkage.structure import Plan, plan
 from ilmek.machines.tufting.links import NeedleSizes, made_inertias
@@ -210,7 +209,7 @@ def turn_with(breaks: tuple[float, ...]) -> tuple[FloatArray, FloatArray]:
 
 
 def _needle(motion: Motion) -> AttachedPoint:
-    return attached(motion, "needle", 0j)
+    return motion.carried("needle", 0j)
 
 
 def _ranges(params: TuftingParams, moved: Moved) -> dict[str, tuple[float, float]]:

@@ -12,13 +12,12 @@ from collections.abc import Mapping
 import numpy as np
 
 from ilmek.arrays import ComplexArray, FloatArray, RealField
-from ilmek.dynamics.attached import AttachedPoint, attached
 from ilmek.dynamics.friction import OFFSET, AngleRange, Friction
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity
 from ilmek.linkage.model import GROUND, Body, Mechanism, Pin, Rotation, Slide
-from ilmek.linkage.motion import Motion
+from ilmek.linkage.motion import AttachedPoint, Motion
 from ilmek.linkage.solve import solve
 from ilmek.linkage.structure import Plan
 from ilmek.machines.tufting.params import TuftingParams
@@ -139,9 +138,9 @@ def friction(params: TuftingParams, motion: Motion, side: RealField) -> Friction
         point, speed = _point(motion), np.asarray(motion.drives["crank"].speed, dtype=float)
         falling = point.velocity.imag + OFFSET * np.asarray(side) / speed * point.acceleration.imag < 0
         force = params.penetration.force(level - point.position.imag, down=falling)
-    return Friction("needle", "F", force, "crank", window, side)
+    return Friction("needle.F", force, "crank", window, side)
 
 
 def _point(motion: Motion) -> AttachedPoint:
     """The needle's point F."""
-    return attached(motion, "needle", motion.plan.mechanism.point("needle", "F"))
+    return motion.carried("needle", motion.plan.mechanism.point("needle", "F"))

@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from ilmek.arrays import FloatArray
-from ilmek.dynamics.attached import attached
 from ilmek.dynamics.inertia import Inertia
 from ilmek.dynamics.inverse import Forces, inverse
 from ilmek.dynamics.loads import Gravity, Load, PointForce
@@ -134,7 +133,7 @@ def looper_forces(
     held = np.mod(angle - loop.catch, turn) < loop.release - loop.catch
     cutting = (drive.deviation(angle) > CUTTING * drive.swing / 2) & (params.pile == "cut")
     pull = hooks * (2j * looper.loop_tension * held - drive.sense * looper.cut * cutting)
-    loads: tuple[Load, ...] = (Gravity(-1j * params.needle.gravity), PointForce(ROCKER, tip, pull))
+    loads: tuple[Load, ...] = (Gravity(-1j * params.needle.gravity), PointForce((ROCKER, tip), pull))
     forces = inverse(motion, bodies, loads)
     section = looper.link_width, looper.link_thickness
     line = section[0] * section[1] * looper.strength.of_links.density
@@ -164,6 +163,6 @@ def reflected_inertia(motion: Motion, bodies: dict[str, Inertia], speed: float) 
     """Mean over a motion of the inertia that its crank feels: Σ m v² + J w², over the speed squared [kg m²]."""
     total = np.zeros(len(motion))
     for name, body in bodies.items():
-        pace = attached(motion, name, body.centre).velocity
+        pace = motion.carried(name, body.centre).velocity
         total = total + body.mass * np.abs(pace) ** 2 + body.moment * motion.omega(name) ** 2
     return float(np.mean(total)) / speed**2

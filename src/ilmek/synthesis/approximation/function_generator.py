@@ -14,6 +14,7 @@ design error; Liu and Angeles, Mech. Mach. Theory 27 (1992) 501, for the differe
 """
 
 import math
+from collections.abc import Mapping
 from functools import partial
 from typing import NamedTuple
 
@@ -79,10 +80,10 @@ class FunctionApproximation:
 
 
 class FunctionApproximations(NamedTuple):
-    """Four-bars, the best by the criterion first; and descriptions of what was left out."""
+    """Four-bars, the best by the criterion first; and what was left out, with the number of each."""
 
     found: tuple[FunctionApproximation, ...]
-    left_out: tuple[str, ...]
+    left_out: Mapping[str, int]
 
 
 def function_approximations(

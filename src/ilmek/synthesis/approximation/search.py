@@ -7,6 +7,7 @@ least-squares descents.
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 from typing import NamedTuple, TypeAlias
 
@@ -103,8 +104,8 @@ def gauss_nodes(function: Function, weight: Weight | None) -> tuple[FloatArray, 
 
 def generator_search(
     function: Function, criterion: str, starts: Starts, weight: Weight | None
-) -> tuple[list[DescentEnd], tuple[str, ...]]:
-    """Generators that are local optima by a criterion, without duplicates; and descriptions of what was left out.
+) -> tuple[list[DescentEnd], Counter[str]]:
+    """Generators that are local optima by a criterion, without duplicates; and what was left out, with its number.
 
     criterion  see `function_generator`      starts  start angles of crank and rocker [rad], None where free
     weight     of the error at each x [1]; default: 1
@@ -120,7 +121,7 @@ def generator_search(
     for descent in DESCENTS[criterion]:
         ended = _different(function, [descent(function, end, free, weight) for end in ends], left_out, criterion)
         ends = ended if ended or descent is DESCENTS[criterion][-1] else ends
-    return ends, tuple(dict.fromkeys(left_out))
+    return ends, Counter(left_out)
 
 
 def _starts(

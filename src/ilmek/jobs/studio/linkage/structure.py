@@ -43,8 +43,7 @@ def _joint(joint: Joint, file_joints: Table) -> JointAnswer:
 def couplings_of(mechanism: Mechanism) -> tuple[CouplingAnswer, ...]:
     """All gears, belts and racks."""
     return tuple(
-        CouplingAnswer(gear.name, gear.kind, gear.first, gear.second, gear.carrier, gear.ratio)
-        for gear in mechanism.couplings
+        CouplingAnswer(gear.name, gear.kind, *gear.ends, gear.carrier, gear.ratio) for gear in mechanism.couplings
     )
 
 

@@ -173,7 +173,7 @@ def loads(made: HandParts) -> CrankLoads:
     for side in (+1, -1):
         weight = Gravity(complex(side * task.gravity * np.sin(hand.section.inclination)))
         for sense in (+1, -1):
-            forces = inverse(motion, inertias, (weight, PointForce("coupler", tip, sense * pull)))
+            forces = inverse(motion, inertias, (weight, PointForce(("coupler", tip), sense * pull)))
             torques.append(forces.effort("crank"))
             errors.append(forces.power_error)
     return CrankLoads(np.concatenate(torques), np.tile(motion.omega("crank"), 4), max(errors))
