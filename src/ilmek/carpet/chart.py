@@ -113,9 +113,10 @@ class Chart(Shown):
     ) -> "Chart":
         """The chart of an array of indices in `yarns`, row 0 the top; size and quality as texts: "30x40cm", "10x10/dm".
 
-        Raises as the class.
+        Yarns without a count have the usual one of the quality. Raises as the class.
         """
-        return cls(knots, yarn_list(yarns), carpet_size(size), carpet_quality(quality), knot)
+        knotted, kind = carpet_quality(quality), parse_knot(knot)
+        return cls(knots, with_counts(yarn_list(yarns), knotted, kind), carpet_size(size), knotted, kind)
 
     @property
     def statistics(self) -> "ChartStatistics":
